@@ -1,0 +1,48 @@
+// A plane grid of occupancy, the projection every planner works on (nav_msgs/OccupancyGrid's
+// layout: row-major from the south-west corner).
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace otter_nav::map {
+
+enum class Cell : std::uint8_t { kFree = 0, kOccupied = 1, kUnknown = 2 };
+
+struct GridGeometry {
+  int width = 0;   // cells, east
+  int height = 0;  // cells, north
+  double resolution_m = 0.25;
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // south-west corner of cell (0, 0), map frame
+
+  [[nodiscard]] bool contains(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d q = (p - origin) / resolution_m;
+    return q.x() >= 0.0 && q.y() >= 0.0 && q.x() < width && q.y() < height;
+  }
+  [[nodiscard]] bool containsCell(int column, int row) const {
+    return column >= 0 && row >= 0 && column < width && row < height;
+  }
+  // The cell a point lies in; only meaningful when contains(p).
+  [[nodiscard]] Eigen::Vector2i cellAt(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d q = (p - origin) / resolution_m;
+    return {static_cast<int>(std::floor(q.x())), static_cast<int>(std::floor(q.y()))};
+  }
+  [[nodiscard]] Eigen::Vector2d centreOf(int column, int row) const {
+    return origin + resolution_m * Eigen::Vector2d(column + 0.5, row + 0.5);
+  }
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(column);
+  }
+};
+
+struct OccupancyGrid {
+  GridGeometry geometry;
+  std::vector<Cell> cells;  // width * height, row-major
+
+  [[nodiscard]] Cell at(int column, int row) const { return cells[geometry.index(column, row)]; }
+};
+
+}  // namespace otter_nav::map

@@ -1,0 +1,38 @@
+// One polynomial piece of a trajectory: sailing (position of degree 7 in time) or a spin on the
+// spot (position fixed, heading of degree 7), the one motion the flat output cannot express.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "otter_nav/vessel/flatness.hpp"
+
+namespace otter_nav::trajectory {
+
+constexpr int kDegree = 7;
+constexpr int kCoefficients = kDegree + 1;
+
+enum class PieceKind { kSail, kSpin };
+
+struct Piece {
+  PieceKind kind = PieceKind::kSail;
+  double duration_s = 0.0;
+  // Sail: z(t) = sum of column k times t^k, t in [0, duration] s. Spin: column 0 is the position.
+  Eigen::Matrix<double, 2, kCoefficients> position =
+      Eigen::Matrix<double, 2, kCoefficients>::Zero();
+  // Spin only: psi(t), continuous (not wrapped), same form.
+  Eigen::Matrix<double, 1, kCoefficients> heading = Eigen::Matrix<double, 1, kCoefficients>::Zero();
+
+  // z and its derivatives at `t_s` from the piece's start; outside [0, duration] it extrapolates.
+  [[nodiscard]] vessel::FlatPoint flat(double t_s) const;
+  // psi and its first two derivatives of a spin.
+  [[nodiscard]] Eigen::Vector3d spinHeading(double t_s) const;
+};
+
+// The degree-7 piece through two points with their velocities, accelerations and jerks.
+[[nodiscard]] Piece hermitePiece(const vessel::FlatPoint& start, const vessel::FlatPoint& end,
+                                 double duration_s);
+// A rest-to-rest spin in place; yaw rate and yaw acceleration are zero at both ends.
+[[nodiscard]] Piece spinPiece(const Eigen::Vector2d& position, double psi_start_rad,
+                              double psi_end_rad, double duration_s);
+
+}  // namespace otter_nav::trajectory

@@ -1,0 +1,34 @@
+// The planar models as state equations: x' = f(x, F) (paper, equations 1 to 6; docs/model.md).
+#pragma once
+
+#include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/types.hpp"
+
+namespace otter_nav::vessel {
+
+// What acts beside the thrusters: water moving with `current` (earth frame, m/s, irrotational and
+// steady), a force fixed in the earth frame, a yaw moment.
+struct Disturbance {
+  Eigen::Vector2d current_mps = Eigen::Vector2d::Zero();
+  Eigen::Vector2d force_n = Eigen::Vector2d::Zero();
+  double moment_nm = 0.0;
+};
+
+// x' for thrusts F. The body velocities in `state` are over ground; drag and centripetal terms act
+// on the velocity through the water (Fossen 2021, section 10.3). Note on the paper: its equation 3
+// prints m2 where the sway inertia m1 belongs; the consistent matrix is built here.
+[[nodiscard]] State stateDerivative(const State& state, const Thrusts& thrusts,
+                                    const ManoeuvringModel& model, const Thrusters& thrusters,
+                                    const Disturbance& disturbance);
+
+// The derivative's Jacobians with respect to state and thrusts, analytic.
+struct Linearization {
+  State derivative;
+  StateJacobian state_jacobian;
+  InputJacobian input_jacobian;
+};
+[[nodiscard]] Linearization linearize(const State& state, const Thrusts& thrusts,
+                                      const ManoeuvringModel& model, const Thrusters& thrusters,
+                                      const Disturbance& disturbance);
+
+}  // namespace otter_nav::vessel

@@ -1,0 +1,74 @@
+// What a vessel is: its planar models, thrusters and hull. One YAML file a vessel
+// (config/vessels), read by every node and program.
+#pragma once
+
+#include <string>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/config/section.hpp"
+
+namespace otter_nav::vessel {
+
+// h = [m1, m2, d1, d2, d3] of the paper's model (equation 1 with the consistent Coriolis matrix).
+struct PaperModel {
+  double m1_kg = 35.0;      // inertia in surge and sway, added mass included
+  double m2_kgm2 = 11.0;    // inertia in yaw
+  double d1_kgps = 20.0;    // linear drag in surge, N per m/s
+  double d2_kgps = 20.0;    // linear drag in sway, N per m/s
+  double d3_kgm2ps = 20.0;  // linear drag in yaw, N m per rad/s
+};
+
+// The tracker's model: the same three equations with every coefficient free (Fossen 2021, chapter
+// 6.5), for hulls whose sway inertia, drag or yaw damping the paper's five numbers cannot hold.
+//   surge_inertia u' = surge_centripetal v r + tau_u - surge_drag u - surge_drag_quadratic |u| u
+//   sway_inertia  v' = -sway_centripetal u r - sway_drag v - sway_drag_quadratic |v| v
+//                      - sway_from_yaw r
+//   yaw_inertia   r' = tau_r - yaw_drag r - yaw_drag_quadratic |r| r - munk u v - yaw_from_sway v
+// with u, v through the water. fromPaper() gives the paper's model exactly.
+struct ManoeuvringModel {
+  double surge_inertia_kg = 35.0;
+  double sway_inertia_kg = 35.0;
+  double yaw_inertia_kgm2 = 11.0;
+  double surge_centripetal_kg = 35.0;
+  double sway_centripetal_kg = 35.0;
+  double munk_kg = 0.0;
+  double surge_drag_kgps = 20.0;
+  double sway_drag_kgps = 20.0;
+  double yaw_drag_kgm2ps = 20.0;
+  double surge_drag_quadratic_kgpm = 0.0;
+  double sway_drag_quadratic_kgpm = 0.0;
+  double yaw_drag_quadratic_kgm2 = 0.0;
+  double sway_from_yaw_kgmps = 0.0;
+  double yaw_from_sway_kgmps = 0.0;
+
+  static ManoeuvringModel fromPaper(const PaperModel& paper);
+};
+
+// Two fixed thrusters, `lever_arm_m` to port and starboard of the centre line.
+struct Thrusters {
+  double lever_arm_m = 0.39;
+  double ahead_max_n = 50.0;   // per side
+  double astern_max_n = 50.0;  // per side, a positive number
+};
+
+struct Hull {
+  double length_m = 2.0;
+  double beam_m = 1.08;
+};
+
+struct Parameters {
+  std::string name = "otter_gazebo";
+  PaperModel paper;
+  ManoeuvringModel manoeuvring;
+  Thrusters thrusters;
+  Hull hull;
+  double top_speed_mps = 5.0;  // steady surge at full thrust
+};
+
+// Reads config/vessels/NAME.yaml. A file without `manoeuvring_model` gets fromPaper().
+[[nodiscard]] Result<Parameters> loadParameters(const std::string& path);
+[[nodiscard]] Result<Parameters> readParameters(config::Section section);
+// The YAML text loadParameters() reads back to the same numbers.
+[[nodiscard]] std::string toYaml(const Parameters& parameters);
+
+}  // namespace otter_nav::vessel

@@ -1,0 +1,33 @@
+// Thrusts to surge force and yaw moment and back (paper, equation 5).
+#pragma once
+
+#include <algorithm>
+
+#include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/types.hpp"
+
+namespace otter_nav::vessel {
+
+// tau_u = F_r + F_l, tau_r = b (F_r - F_l).
+inline Tau tauFromThrusts(const Thrusts& thrusts, const Thrusters& limits) {
+  return {thrusts[kRight] + thrusts[kLeft],
+          limits.lever_arm_m * (thrusts[kRight] - thrusts[kLeft])};
+}
+
+inline Thrusts thrustsFromTau(const Tau& tau, const Thrusters& limits) {
+  const double difference = tau.yaw_nm / limits.lever_arm_m;
+  return {0.5 * (tau.surge_n - difference), 0.5 * (tau.surge_n + difference)};
+}
+
+// How far the worse thruster is inside its limits, N; negative when outside. The set of tau with
+// a margin of zero or more is the diamond.
+inline double thrustMargin(const Thrusts& thrusts, const Thrusters& limits) {
+  return std::min(limits.ahead_max_n - thrusts.maxCoeff(),
+                  limits.astern_max_n + thrusts.minCoeff());
+}
+
+inline Thrusts clampThrusts(const Thrusts& thrusts, const Thrusters& limits) {
+  return thrusts.cwiseMin(limits.ahead_max_n).cwiseMax(-limits.astern_max_n);
+}
+
+}  // namespace otter_nav::vessel

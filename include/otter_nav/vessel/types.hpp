@@ -1,0 +1,31 @@
+// States and inputs of a surface vessel in the horizontal plane.
+//
+// Earth frame: ENU, x east, y north, psi counter-clockwise from east. Body frame: FLU, surge u
+// ahead, sway v to port, yaw rate r counter-clockwise (REP-103). SI units throughout.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace otter_nav::vessel {
+
+// Named rows of State.
+enum StateIndex : int { kX = 0, kY = 1, kPsi = 2, kSurge = 3, kSway = 4, kYawRate = 5 };
+constexpr int kStateSize = 6;
+constexpr int kInputSize = 2;
+
+// [x m, y m, psi rad, u m/s, v m/s, r rad/s]: eta, then nu.
+using State = Eigen::Matrix<double, kStateSize, 1>;
+using StateJacobian = Eigen::Matrix<double, kStateSize, kStateSize>;
+// Thrusts [F_left N, F_right N], positive ahead.
+using Thrusts = Eigen::Vector2d;
+using InputJacobian = Eigen::Matrix<double, kStateSize, kInputSize>;
+
+enum ThrustIndex : int { kLeft = 0, kRight = 1 };
+
+// Generalised force in the plane: surge force N and yaw moment N m.
+struct Tau {
+  double surge_n = 0.0;
+  double yaw_nm = 0.0;
+};
+
+}  // namespace otter_nav::vessel

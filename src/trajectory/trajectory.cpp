@@ -1,0 +1,114 @@
+#include "otter_nav/trajectory/trajectory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+
+namespace otter_nav::trajectory {
+namespace {
+
+constexpr double kAtRestMps = 1e-4;
+
+// Where the bow points, roughly: the course through the water, or at rest its limit from within.
+Eigen::Vector2d aheadVector(const Piece& piece, double t, const vessel::FlatPoint& z,
+                            const Eigen::Vector2d& current) {
+  const Eigen::Vector2d through_water = z.velocity - current;
+  if (through_water.squaredNorm() > kAtRestMps * kAtRestMps) {
+    return through_water;
+  }
+  const double inward = std::min(1e-2, 0.25 * piece.duration_s);
+  const double inside = t < 0.5 * piece.duration_s ? t + inward : t - inward;
+  return piece.flat(inside).velocity - current;
+}
+
+Sample sampleSpin(const Piece& piece, double t, const vessel::Parameters& vessel) {
+  Sample s;
+  s.flat = piece.flat(t);
+  const Eigen::Vector3d psi = piece.spinHeading(t);
+  s.state << s.flat.position, wrapAngle(psi[0]), 0.0, 0.0, psi[1];
+  s.tau.yaw_nm = vessel.paper.m2_kgm2 * psi[2] + vessel.paper.d3_kgm2ps * psi[1];
+  s.heading_force_n = std::numeric_limits<double>::infinity();
+  return s;
+}
+
+Sample sampleSail(const Piece& piece, double t, const vessel::Parameters& vessel,
+                  const Eigen::Vector2d& current) {
+  Sample s;
+  s.flat = piece.flat(t);
+  const vessel::FlatState flat =
+      vessel::stateFromFlat(s.flat, vessel.paper, aheadVector(piece, t, s.flat, current), current);
+  s.state = flat.state;
+  s.tau = flat.tau;
+  s.heading_force_n = flat.heading_force_n;
+  return s;
+}
+
+}  // namespace
+
+Trajectory::Trajectory(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
+  starts_.reserve(pieces_.size() + 1);
+  double start = 0.0;
+  starts_.push_back(start);
+  for (const Piece& piece : pieces_) {
+    start += piece.duration_s;
+    starts_.push_back(start);
+  }
+}
+
+std::size_t Trajectory::pieceAt(double t_s) const {
+  const auto after = std::upper_bound(starts_.begin(), starts_.end(), t_s);
+  const auto index = static_cast<std::ptrdiff_t>(after - starts_.begin()) - 1;
+  const auto last = static_cast<std::ptrdiff_t>(pieces_.size()) - 1;
+  return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(index, 0, last));
+}
+
+vessel::FlatPoint Trajectory::flat(double t_s) const {
+  const double t = std::clamp(t_s, 0.0, duration());
+  const std::size_t i = pieceAt(t);
+  return pieces_[i].flat(t - starts_[i]);
+}
+
+Sample Trajectory::sample(double t_s, const vessel::Parameters& vessel,
+                          const Eigen::Vector2d& current_mps) const {
+  const double t = std::clamp(t_s, 0.0, duration());
+  const std::size_t i = pieceAt(t);
+  return sampleIn(i, t - starts_[i], vessel, current_mps);
+}
+
+Sample Trajectory::sampleIn(std::size_t piece, double t_in_piece_s,
+                            const vessel::Parameters& vessel,
+                            const Eigen::Vector2d& current_mps) const {
+  const Piece& p = pieces_[piece];
+  Sample s = p.kind == PieceKind::kSpin ? sampleSpin(p, t_in_piece_s, vessel)
+                                        : sampleSail(p, t_in_piece_s, vessel, current_mps);
+  s.t_s = starts_[piece] + t_in_piece_s;
+  s.thrusts = vessel::thrustsFromTau(s.tau, vessel.thrusters);
+  return s;
+}
+
+double length(const Trajectory& trajectory) {
+  // Five-point Gauss-Legendre on four parts of each piece.
+  constexpr std::array<double, 5> kNodes = {-0.9061798459386640, -0.5384693101056831, 0.0,
+                                            0.5384693101056831, 0.9061798459386640};
+  constexpr std::array<double, 5> kWeights = {0.2369268850561891, 0.4786286704993665,
+                                              0.5688888888888889, 0.4786286704993665,
+                                              0.2369268850561891};
+  constexpr int kParts = 4;
+  double total = 0.0;
+  for (const Piece& piece : trajectory.pieces()) {
+    const double half = piece.duration_s / (2.0 * kParts);
+    for (int part = 0; part < kParts; ++part) {
+      for (std::size_t k = 0; k < kNodes.size(); ++k) {
+        total += kWeights[k] * half * piece.flat(half * (2 * part + 1 + kNodes[k])).velocity.norm();
+      }
+    }
+  }
+  return total;
+}
+
+}  // namespace otter_nav::trajectory

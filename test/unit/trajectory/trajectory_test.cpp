@@ -1,0 +1,100 @@
+#include "otter_nav/trajectory/trajectory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/rk4.hpp"
+#include "otter_nav/vessel/model.hpp"
+
+namespace otter_nav::trajectory {
+namespace {
+
+using vessel::FlatPoint;
+
+FlatPoint eight(double t) {
+  const double w = 0.06;
+  const double a = 50.0;
+  const double b = 25.0;
+  const double s1 = std::sin(w * t), c1 = std::cos(w * t);
+  const double s2 = std::sin(2 * w * t), c2 = std::cos(2 * w * t);
+  FlatPoint z;
+  z.position = {a * s1, b * s2};
+  z.velocity = {a * w * c1, 2 * w * b * c2};
+  z.acceleration = {-a * w * w * s1, -4 * w * w * b * s2};
+  z.jerk = {-a * w * w * w * c1, -8 * w * w * w * b * c2};
+  return z;
+}
+
+Trajectory eightTrajectory() {
+  std::vector<Piece> pieces;
+  for (int k = 0; k < 50; ++k) pieces.push_back(hermitePiece(eight(k), eight(k + 1), 1.0));
+  return Trajectory(std::move(pieces));
+}
+
+TEST(HermitePiece, MeetsBothEnds) {
+  const Piece piece = hermitePiece(eight(0.3), eight(2.8), 2.5);
+  for (const double t : {0.0, 2.5}) {
+    const FlatPoint z = piece.flat(t);
+    const FlatPoint expected = eight(0.3 + t);
+    EXPECT_TRUE(z.position.isApprox(expected.position, 1e-10));
+    EXPECT_TRUE(z.velocity.isApprox(expected.velocity, 1e-10));
+    EXPECT_TRUE(z.acceleration.isApprox(expected.acceleration, 1e-9));
+    EXPECT_TRUE(z.jerk.isApprox(expected.jerk, 1e-7));
+  }
+}
+
+// The flat map's inputs drive the model along the flat output: the round trip that makes flatness
+// useful. Also in a current.
+TEST(Sample, FlatInputsReproduceTheTrajectory) {
+  const vessel::Parameters otter;
+  const auto model = vessel::ManoeuvringModel::fromPaper(otter.paper);
+  for (const Eigen::Vector2d& current : {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(0.3, -0.4)}) {
+    const Trajectory trajectory = eightTrajectory();
+    vessel::Disturbance water;
+    water.current_mps = current;
+    vessel::State x = trajectory.sample(0.0, otter, current).state;
+    const double dt = 0.005;
+    const auto derivative = [&](double t, const vessel::State& s) {
+      return vessel::stateDerivative(s, trajectory.sample(t, otter, current).thrusts, model,
+                                     otter.thrusters, water);
+    };
+    for (int k = 0; k < 10000; ++k) x = rk4Step(derivative, k * dt, x, dt);
+    const Sample end = trajectory.sample(50.0, otter, current);
+    EXPECT_LT((x.head<2>() - end.state.head<2>()).norm(), 1e-3);
+    EXPECT_LT(std::abs(wrapAngle(x[vessel::kPsi] - end.state[vessel::kPsi])), 1e-4);
+  }
+}
+
+TEST(Sample, BrakingPastDragKeepsTheHeading) {
+  FlatPoint start;
+  FlatPoint end;
+  start.velocity = {2.0, 0.0};
+  end.position = {2.0, 0.0};
+  const Trajectory brake({hermitePiece(start, end, 2.0)});
+  for (double t = 0.0; t <= 2.0; t += 0.01) {
+    const Sample s = brake.sample(t, vessel::Parameters{});
+    EXPECT_NEAR(s.state[vessel::kPsi], 0.0, 1e-9) << t;
+    EXPECT_NEAR(s.state[vessel::kYawRate], 0.0, 1e-9) << t;
+  }
+}
+
+TEST(Sample, SpinTurnsOnTheSpot) {
+  const Trajectory spin({spinPiece({1.0, 2.0}, 3.0, 4.0, 2.0)});
+  const Sample middle = spin.sample(1.0, vessel::Parameters{});
+  EXPECT_NEAR(middle.state[vessel::kPsi], wrapAngle(3.5), 1e-12);
+  EXPECT_TRUE(middle.flat.position.isApprox(Eigen::Vector2d(1.0, 2.0)));
+  EXPECT_NEAR(middle.tau.surge_n, 0.0, 1e-12);
+  EXPECT_NEAR(spin.sample(2.0, vessel::Parameters{}).state[vessel::kYawRate], 0.0, 1e-12);
+}
+
+TEST(Length, OfAQuarterCircleLikeEight) {
+  double chord = 0.0;
+  for (int k = 0; k < 50000; ++k)
+    chord += (eight((k + 1) * 1e-3).position - eight(k * 1e-3).position).norm();
+  EXPECT_NEAR(length(eightTrajectory()), chord, 1e-4);
+}
+
+}  // namespace
+}  // namespace otter_nav::trajectory

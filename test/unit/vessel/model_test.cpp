@@ -1,0 +1,104 @@
+#include "otter_nav/vessel/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "otter_nav/base/random.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+
+namespace otter_nav::vessel {
+namespace {
+
+ManoeuvringModel everyTermModel() {
+  ManoeuvringModel m;
+  m.surge_inertia_kg = 85.0;
+  m.sway_inertia_kg = 190.0;
+  m.yaw_inertia_kgm2 = 40.0;
+  m.surge_centripetal_kg = 170.0;
+  m.sway_centripetal_kg = 90.0;
+  m.munk_kg = 60.0;
+  m.surge_drag_kgps = 70.0;
+  m.sway_drag_kgps = 30.0;
+  m.yaw_drag_kgm2ps = 45.0;
+  m.surge_drag_quadratic_kgpm = 3.0;
+  m.sway_drag_quadratic_kgpm = 120.0;
+  m.yaw_drag_quadratic_kgm2 = 200.0;
+  m.sway_from_yaw_kgmps = 5.0;
+  m.yaw_from_sway_kgmps = -4.0;
+  return m;
+}
+
+TEST(StateDerivative, PaperModelMatchesItsThreeEquations) {
+  PaperModel h;
+  const Thrusters thrusters;
+  State x;
+  x << 3.0, -2.0, 0.7, 2.0, 0.3, -0.4;
+  const Thrusts f(20.0, 35.0);
+  const State dx = stateDerivative(x, f, ManoeuvringModel::fromPaper(h), thrusters, {});
+  EXPECT_NEAR(h.m1_kg * (dx[kSurge] - x[kSway] * x[kYawRate]), 55.0 - h.d1_kgps * x[kSurge], 1e-9);
+  EXPECT_NEAR(h.m1_kg * (dx[kSway] + x[kSurge] * x[kYawRate]), -h.d2_kgps * x[kSway], 1e-9);
+  EXPECT_NEAR(h.m2_kgm2 * dx[kYawRate], 0.39 * 15.0 - h.d3_kgm2ps * x[kYawRate], 1e-9);
+}
+
+TEST(StateDerivative, DriftingWithTheCurrentIsAtRestInTheWater) {
+  Disturbance d;
+  d.current_mps = {0.4, -0.3};
+  State x = State::Zero();
+  x[kPsi] = 1.1;
+  x[kYawRate] = 0.2;
+  x[kSurge] = std::cos(x[kPsi]) * 0.4 + std::sin(x[kPsi]) * -0.3;
+  x[kSway] = -std::sin(x[kPsi]) * 0.4 + std::cos(x[kPsi]) * -0.3;
+  ManoeuvringModel m = ManoeuvringModel::fromPaper({});
+  const State dx = stateDerivative(x, Thrusts::Zero(), m, {}, d);
+  // The velocity over ground stays the current: its body components only rotate.
+  EXPECT_NEAR(dx[kSurge], x[kYawRate] * x[kSway], 1e-12);
+  EXPECT_NEAR(dx[kSway], -x[kYawRate] * x[kSurge], 1e-12);
+}
+
+TEST(Linearize, AgreesWithCentralDifferences) {
+  const ManoeuvringModel m = everyTermModel();
+  const Thrusters thrusters;
+  Random random(4);
+  for (int trial = 0; trial < 200; ++trial) {
+    State x;
+    Thrusts f;
+    Disturbance d;
+    for (int i = 0; i < kStateSize; ++i) x[i] = random.uniform(-2.0, 2.0);
+    for (int i = 0; i < kInputSize; ++i) f[i] = random.uniform(-50.0, 50.0);
+    d.current_mps = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+    d.force_n = {random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0)};
+    d.moment_nm = random.uniform(-5.0, 5.0);
+    const Linearization l = linearize(x, f, m, thrusters, d);
+    EXPECT_TRUE(l.derivative.isApprox(stateDerivative(x, f, m, thrusters, d)));
+    constexpr double kStep = 1e-6;
+    for (int j = 0; j < kStateSize; ++j) {
+      State up = x;
+      State down = x;
+      up[j] += kStep;
+      down[j] -= kStep;
+      const State column =
+          (stateDerivative(up, f, m, thrusters, d) - stateDerivative(down, f, m, thrusters, d)) /
+          (2.0 * kStep);
+      EXPECT_LT((column - l.state_jacobian.col(j)).cwiseAbs().maxCoeff(), 2e-5) << "column " << j;
+    }
+    for (int j = 0; j < kInputSize; ++j) {
+      Thrusts plus = f;
+      plus[j] += 1.0;
+      const State column =
+          stateDerivative(x, plus, m, thrusters, d) - stateDerivative(x, f, m, thrusters, d);
+      EXPECT_LT((column - l.input_jacobian.col(j)).cwiseAbs().maxCoeff(), 1e-9);
+    }
+  }
+}
+
+TEST(Thrusters, TauRoundTripAndMargin) {
+  Thrusters t;
+  t.astern_max_n = 30.0;
+  const Thrusts f(-20.0, 45.0);
+  EXPECT_TRUE(thrustsFromTau(tauFromThrusts(f, t), t).isApprox(f, 1e-12));
+  EXPECT_DOUBLE_EQ(thrustMargin(f, t), 5.0);
+  EXPECT_LT(thrustMargin({-31.0, 0.0}, t), 0.0);
+  EXPECT_DOUBLE_EQ(clampThrusts({-100.0, 100.0}, t)[kLeft], -30.0);
+}
+
+}  // namespace
+}  // namespace otter_nav::vessel
