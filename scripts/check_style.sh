@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Format and clang-tidy on the core's and the nodes' sources: check_style.sh [BUILD_WITH_COMPILE_COMMANDS]
+# --fix formats in place instead of complaining.
+set -euo pipefail
+top=$(cd "$(dirname "$0")/.." && pwd)
+cd "$top"
+mapfile -t files < <(git ls-files '*.hpp' '*.cpp')
+if [ "${1:-}" = "--fix" ]; then
+  clang-format -i "${files[@]}"
+  exit 0
+fi
+clang-format --dry-run --Werror "${files[@]}"
+echo "format: ${#files[@]} files are clean"
+
+build=${1:-}
+[ -n "$build" ] || exit 0
+mapfile -t sources < <(git ls-files 'src/*.cpp' 'tools/*.cpp' 'benchmark/*.cpp')
+mapfile -t known < <(/usr/bin/python3 - "$build/compile_commands.json" "${sources[@]}" <<'PY'
+import json, os, sys
+compiled = {os.path.realpath(entry["file"]) for entry in json.load(open(sys.argv[1]))}
+print("\n".join(s for s in sys.argv[2:] if os.path.realpath(s) in compiled))
+PY
+)
+printf '%s\n' "${known[@]}" |
+  xargs -P "$(nproc)" -n 4 clang-tidy --quiet -p "$build" 2>/dev/null
+echo "clang-tidy: ${#known[@]} files are clean"

@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# Installs, builds and sails a mission: see --help.
+set -euo pipefail
+top=$(cd "$(dirname "$0")/.." && pwd)
+
+usage() {
+  cat <<'TEXT'
+Usage: scripts/mission.sh [options]
+Installs what is missing (root or sudo), builds, and sails a mission from its start to its goal.
+Exits with 0 only if the vessel arrived without touching anything.
+  --scenario FILE.yaml     scenario to sail (default: the demo archipelago)
+  --mission K              mission of the scenario, counted from 0 (default 0)
+  --vessel NAME            otter_gazebo or otter (default otter_gazebo)
+  --disturbance NAME       none, force10, paper or hard (default paper)
+  --speed X                times real time (default 1; 0: as fast as it goes)
+  --seed N                 seed of sea, sensors and planner (default 1)
+  --rviz / --no-rviz       show it in rviz (default: if there is a display)
+  --result FILE.json       write the result here (default: results/mission.json)
+  --record FILE.bag        record odometry, commands, scans and plans
+  --no-build               use what was built last
+TEXT
+}
+
+die() { echo "mission.sh: $1" >&2; exit 2; }
+absolute() { case "$1" in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
+
+scenario="$top/maps/demo/demo.yaml" mission=0 vessel=otter_gazebo disturbance=paper speed=1 seed=1
+rviz=$([ -n "${DISPLAY:-}" ] && echo true || echo false)
+result="$top/results/mission.json" record="" build=true
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --rviz) rviz=true; shift; continue ;;
+    --no-rviz) rviz=false; shift; continue ;;
+    --no-build) build=false; shift; continue ;;
+    -h|--help) usage; exit 0 ;;
+    --scenario|--mission|--vessel|--disturbance|--speed|--seed|--result|--record)
+      [ $# -ge 2 ] || die "$1 needs a value" ;;
+    *) usage >&2; die "unknown option '$1'" ;;
+  esac
+  case "$1" in
+    --scenario) scenario=$(absolute "$2") ;;
+    --mission) mission=$2 ;;
+    --vessel) vessel=$2 ;;
+    --disturbance) disturbance=$2 ;;
+    --speed) speed=$2 ;;
+    --seed) seed=$2 ;;
+    --result) result=$(absolute "$2") ;;
+    --record) record=$(absolute "$2") ;;
+  esac
+  shift 2
+done
+
+number='^[0-9]+([.][0-9]+)?$'
+[[ $mission =~ ^[0-9]+$ ]] || die "--mission must be a whole number from 0, got '$mission'"
+[[ $seed =~ ^[0-9]+$ ]] || die "--seed must be a whole number from 0, got '$seed'"
+[[ $speed =~ $number ]] || die "--speed must be a number from 0, got '$speed'"
+[ -f "$scenario" ] || die "--scenario: no file '$scenario'"
+[ -f "$top/config/vessels/$vessel.yaml" ] || die "--vessel must be otter_gazebo or otter, got '$vessel'"
+[ -f "$top/config/disturbances/$disturbance.yaml" ] ||
+  die "--disturbance must be none, force10, paper or hard, got '$disturbance'"
+[ -z "$record" ] || [ -d "$(dirname "$record")" ] || die "--record: no folder '$(dirname "$record")'"
+mkdir -p "$(dirname "$result")" || die "--result: can't make '$(dirname "$result")'"
+
+if $build; then
+  groups=(build)
+  if $rviz; then groups+=(rviz); fi
+  "$top/scripts/install_dependencies.sh" "${groups[@]}"
+  echo "Building (log/latest_build has the details)"
+  "$top/scripts/build.sh"
+fi
+[ -f "$top/install/setup.bash" ] || die "nothing is built yet: run without --no-build"
+set +u
+# shellcheck disable=SC1091
+. "$top/install/setup.bash"
+set -u
+
+# The usual port if it is free, so that rosnode and rviz find the mission; else any free one.
+port=$(/usr/bin/python3 - <<'PY'
+import socket
+for port in (11311, 0):
+    with socket.socket() as s:
+        s.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            s.bind(("", port))
+        except OSError:
+            continue
+        print(s.getsockname()[1])
+        break
+PY
+)
+export ROS_MASTER_URI="http://localhost:$port"
+[ "$port" = 11311 ] || echo "ROS master at $ROS_MASTER_URI"
+
+rm -f "$result"
+launch_pid=""
+stop() { [ -n "$launch_pid" ] && kill -INT "$launch_pid" 2>/dev/null; wait "$launch_pid" 2>/dev/null || true; }
+trap stop INT TERM
+roslaunch -p "$port" otter_nav mission.launch scenario:="$scenario" mission:="$mission" \
+  vessel:="$vessel" disturbance:="$disturbance" speed:="$speed" seed:="$seed" rviz:="$rviz" \
+  result:="$result" record:="$record" &
+launch_pid=$!
+wait "$launch_pid" || true
+trap - INT TERM
+
+[ -f "$result" ] || { echo "mission.sh: the mission ended without a result" >&2; exit 1; }
+/usr/bin/python3 - "$result" <<'PY'
+import json, sys
+missions = json.load(open(sys.argv[1]))["missions"]
+sys.exit(0 if missions and all(m["outcome"] == "arrived" for m in missions) else 1)
+PY
