@@ -1,0 +1,70 @@
+// From a sailed trajectory to rest, and how far it stays clear.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/config/section.hpp"
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::mission {
+
+struct BrakingOptions {
+  // Share of the thrust a planned stop may ask for; the rest is the tracker's.
+  double thrust_share = 0.8;
+  // Clearance of the hull's centre the stop keeps, m.
+  double clearance_m = 1.0;
+};
+
+[[nodiscard]] Result<BrakingOptions> readBrakingOptions(config::Section section);
+
+struct Braking {
+  trajectory::Trajectory trajectory;  // starts at the sailed trajectory's `at_s`, ends at rest
+  bool clear = false;                 // keeps the clearance, within the thrust share
+  double clearance_m = 0.0;           // the least along it
+};
+
+// The gentlest stop from `at_s` (s from the trajectory's start) that keeps the clearance: along
+// the sailed way, slowed down in time, or straightened out and then ahead in a line. A hull without
+// a side thruster can't brake harder than its drag in a curve (its heading would have to swing
+// across, docs/model.md), so a hard stop straightens first. If nothing keeps the clearance, the
+// stop that comes nearest to it, with `clear` false.
+[[nodiscard]] Braking brakingTrajectory(const trajectory::Trajectory& sailed, double at_s,
+                                        const map::DistanceField& field,
+                                        const vessel::Parameters& vessel,
+                                        const BrakingOptions& options);
+
+// The first time in [from_s, to_s] at which the trajectory's clearance is below `clearance_m`, or
+// `to_s` + infinity if none is. Continuous: it moves on by what the clearance allows at the speed,
+// in steps of 5 cm at the least.
+struct Conflict {
+  bool found = false;
+  double time_s = 0.0;  // from the trajectory's start
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double clearance_m = 0.0;  // there
+};
+[[nodiscard]] Conflict firstConflict(const trajectory::Trajectory& trajectory, double from_s,
+                                     double to_s, const map::DistanceField& field,
+                                     double clearance_m);
+
+// The sailed trajectory up to `at_s`, then `next`, from the piece on that `from_s` lies in.
+// `start_s` of the result: when it begins on the sailed trajectory's time.
+struct Spliced {
+  trajectory::Trajectory trajectory;
+  double start_s = 0.0;
+};
+[[nodiscard]] Spliced splice(const trajectory::Trajectory& sailed, double from_s, double at_s,
+                             const trajectory::Trajectory& next);
+
+// What is left of a trajectory from `at_s` on, exactly.
+[[nodiscard]] trajectory::Trajectory remainder(const trajectory::Trajectory& trajectory,
+                                               double at_s);
+
+// The flat point of a vessel as it moves: velocity from the state, acceleration and jerk those of
+// a steady surge force and yaw rate (inverse of vessel/flatness.hpp).
+[[nodiscard]] vessel::FlatPoint flatFromState(const vessel::State& state,
+                                              const vessel::PaperModel& model);
+
+}  // namespace otter_nav::mission
