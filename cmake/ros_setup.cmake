@@ -1,0 +1,17 @@
+# The ROS side of the build: messages, and the catkin package around the core.
+# Packages that look for Python themselves must find the interpreter catkin uses.
+set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE} CACHE FILEPATH "Python for ament" FORCE)
+find_package(catkin REQUIRED COMPONENTS
+  actionlib diagnostic_msgs diagnostic_updater geometry_msgs map_msgs message_generation
+  move_base_msgs nav_msgs rosbag roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs tf2 tf2_ros
+  visualization_msgs xmlrpcpp)
+
+add_message_files(FILES
+  ContactEvent.msg GuidePath.msg PlannerStatus.msg PlantState.msg ThrusterCommand.msg
+  TrackerStatus.msg Trajectory.msg TrajectoryPiece.msg)
+add_service_files(FILES FindGuidePath.srv SaveMap.srv)
+generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+
+catkin_package(
+  INCLUDE_DIRS include
+  CATKIN_DEPENDS geometry_msgs message_runtime std_msgs)
