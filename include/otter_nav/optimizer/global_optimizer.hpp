@@ -1,0 +1,100 @@
+// The paper's global optimisation (section V-A) carried further: from a way (polyline, tree of
+// quintics, or the trajectory being sailed) to a trajectory of degree 7, continuous to the third
+// derivative, within both thrusters' limits and clear of obstacles, in little time.
+//
+//   F = ls fs + lc fc + ld fd + lo fo  (+ time and length)
+//
+// over the knots' position, velocity, acceleration and jerk and the pieces' durations. Each round
+// takes F's quadratic model (Gauss-Newton with Levenberg's damping) and minimises it in closed
+// form: the Hessian is block-tridiagonal, so a step costs time linear in the number of pieces.
+// Weights of constraints that still fail are raised from round to round; the result is verified.
+//
+// Ends at rest: the first and the last piece are straight along start and goal heading (that is
+// where |w| vanishes, see vessel/flatness.hpp); before and after them the vessel may spin on the
+// spot. What costs least is chosen.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/config/section.hpp"
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::optimizer {
+
+struct GlobalOptions {
+  double clearance_m = 0.8;         // what verification asks for
+  double clearance_margin_m = 0.1;  // beyond it, aimed at
+  bool keep_hull_clear = true;
+  double thrust_share = 0.96;   // of each thruster's limits, verified; the rest is for control
+  double thrust_margin = 0.03;  // of the limits, below that share: aimed at
+  double speed_max_mps = 4.8;
+  double yaw_rate_max_radps = 1.2;   // under way; a spin is limited by its thrust alone
+  double heading_force_min_n = 8.0;  // |w| while turning
+  double spin_thrust_share = 0.9;
+  double piece_length_m = 6.0;
+  // Weights: of a second, of a metre of way, and the paper's.
+  double weight_time = 1.0;
+  double weight_length = 0.1;
+  double weight_smooth = 0.01;     // ls, on the integral of squared jerk
+  double weight_clearance = 20.0;  // lc
+  double weight_dynamics = 20.0;   // ld
+  double weight_original = 0.02;   // lo, while the first shape is found
+  double weight_growth = 3.0;      // of lc and ld from round to round where they fail
+  int rounds = 6;
+  int iterations_per_round = 12;
+};
+
+// config/optimizer.yaml: mapping `global`.
+[[nodiscard]] Result<GlobalOptions> readGlobalOptions(config::Section section);
+
+// When to stop improving. A first feasible trajectory is sought within `max_iterations` steps and
+// the time; without a clock (empty `elapsed_s`) the result is the same on every machine.
+struct Budget {
+  std::function<double()> elapsed_s;
+  double budget_s = 0.1;
+  int max_iterations = 200;
+};
+
+struct Optimized {
+  trajectory::Trajectory trajectory;
+  Verification verification;  // ok
+  int iterations = 0;         // closed-form solutions made
+  bool last_resort = false;   // stop-and-spin along the polyline: true, but slow
+};
+
+// Not thread-safe: its workspace is reused from call to call.
+class GlobalOptimizer {
+ public:
+  GlobalOptimizer(const GlobalOptions& options, const vessel::Parameters& vessel);
+  ~GlobalOptimizer();
+  GlobalOptimizer(GlobalOptimizer&&) noexcept;
+  GlobalOptimizer& operator=(GlobalOptimizer&&) noexcept;
+
+  // Along a polyline from start to goal (a guide path): at least two points; its ends are taken
+  // from the boundaries. `clearance_m` > 0 replaces the options' for this call.
+  [[nodiscard]] Result<Optimized> optimize(const map::DistanceField& field,
+                                           const std::vector<Eigen::Vector2d>& way,
+                                           const Boundary& start, const Boundary& goal,
+                                           const Budget& budget, double clearance_m = 0.0);
+  // From a trajectory: the tree's quintics (any continuity), or one being sailed.
+  [[nodiscard]] Result<Optimized> optimize(const map::DistanceField& field,
+                                           const trajectory::Trajectory& initial,
+                                           const Boundary& start, const Boundary& goal,
+                                           const Budget& budget, double clearance_m = 0.0);
+
+  // What results are verified against (for a planner that verifies what it got elsewhere).
+  [[nodiscard]] CheckOptions checkOptions(double clearance_m = 0.0) const;
+
+ private:
+  class Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace otter_nav::optimizer

@@ -1,0 +1,89 @@
+// The paper's local optimisation (section V-A, TrajectoryOptimize in TreeGrow): an edge of the
+// tree that fails between two fixed states is bent until it is feasible, instead of discarded.
+//
+// The edge's quintic is cut into segments of equal time with free states (p, v, a) between them.
+// Guidance points stand where the colliding part, pushed along the distance field's gradient, is
+// safe. F = ls fs + lc fc + ld fd + lo fo is quadratic in the free states, its minimum a
+// block-tridiagonal system solved in closed form; weights of what still fails are raised.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/config/section.hpp"
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/trajectory/piece.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::optimizer {
+
+struct LocalOptions {
+  double clearance_m = 0.8;         // an edge nearer than this fails
+  double clearance_margin_m = 0.2;  // guidance points stand this much further off
+  double push_max_m = 6.0;          // farther from the edge than this no guidance point is sought
+  double speed_max_mps = 4.8;
+  double force_share = 0.97;         // |w| over the thrusters' joint force
+  double heading_force_min_n = 2.0;  // |w|
+  double yaw_rate_max_radps = 1.5;
+  double sigma = 1.0;  // of the cost, per second
+  // The paper's weights.
+  double weight_smooth = 0.02;
+  double weight_clearance = 10.0;
+  double weight_dynamics = 2.0;
+  double weight_original = 0.05;
+  double weight_growth = 4.0;
+  int segments = 6;  // at most kMaxSegments
+  int attempts = 4;  // solutions with raised weights
+};
+constexpr int kMaxSegments = 12;
+
+// config/optimizer.yaml: mapping `local`.
+[[nodiscard]] Result<LocalOptions> readLocalOptions(config::Section section);
+
+// Why an edge fails, and when (s from its start).
+enum class EdgeFault { kNone, kClearance, kSpeed, kForce, kYawRate, kHeading };
+struct EdgeCheck {
+  EdgeFault fault = EdgeFault::kNone;
+  double time_s = 0.0;
+  [[nodiscard]] bool ok() const { return fault == EdgeFault::kNone; }
+};
+
+// An edge after repair: pieces (quintics in time), twice continuously differentiable inside and
+// at the two fixed states.
+struct RepairedEdge {
+  std::array<trajectory::Piece, kMaxSegments> pieces;
+  int count = 0;
+  double cost = 0.0;  // sigma T + integral of |jerk|^2
+  double duration_s = 0.0;
+};
+
+// Allocation-free; const and thread-safe.
+class LocalOptimizer {
+ public:
+  LocalOptimizer(const LocalOptions& options, const vessel::Parameters& vessel);
+
+  [[nodiscard]] const LocalOptions& options() const { return options_; }
+
+  // What the tree asks of an edge. Clearance is continuous (jumps along time bounded by speed);
+  // speed, |w|, yaw rate and course against heading at steps of `time`: a search's check, the
+  // whole trajectory is verified at its end.
+  [[nodiscard]] EdgeCheck check(const map::DistanceField& field,
+                                const trajectory::Piece& piece) const;
+
+  // Bends the failing edge `edge` (degree 5 or less) between its own end states. True, with the
+  // result in `repaired`, if it passes check().
+  [[nodiscard]] bool repair(const map::DistanceField& field, const trajectory::Piece& edge,
+                            RepairedEdge& repaired) const;
+
+  void setClearance(double clearance_m) { options_.clearance_m = clearance_m; }
+
+ private:
+  LocalOptions options_;
+  vessel::Parameters vessel_;
+};
+
+// The integral of |z'''|^2 over a piece, exact.
+[[nodiscard]] double squaredJerk(const trajectory::Piece& piece);
+
+}  // namespace otter_nav::optimizer
