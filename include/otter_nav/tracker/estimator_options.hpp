@@ -1,0 +1,26 @@
+// Settings of the disturbance estimator.
+#pragma once
+
+namespace otter_nav::tracker {
+
+// Standard deviations; the random walks are per square root of a second.
+struct EstimatorOptions {
+  bool enabled = true;
+  // Odometry.
+  double position_sigma_m = 0.02;
+  double heading_sigma_rad = 0.005;
+  double velocity_sigma_mps = 0.02;
+  double yaw_rate_sigma_radps = 0.01;
+  // What the model leaves open.
+  double surge_walk_mps = 0.02;
+  double yaw_rate_walk_radps = 0.02;
+  // Force fixed in the earth frame, moment about the yaw axis, current.
+  double force_walk_n = 5.0;
+  double moment_walk_nm = 2.0;
+  double current_walk_mps = 0.0;  // 0: the current is not estimated, the force carries it
+  double force_max_n = 80.0;
+  double moment_max_nm = 20.0;
+  double current_max_mps = 1.5;
+};
+
+}  // namespace otter_nav::tracker

@@ -1,0 +1,85 @@
+// The tracker: keeps a vessel on a trajectory with nonlinear model predictive control (paper,
+// section V-B), holds station at its end, and stops in good order when something fails.
+//
+// Times are seconds of one clock, given by the caller. All poses are in the map frame (ENU), body
+// velocities over ground. step() neither blocks nor allocates.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/tracker/limits.hpp"
+#include "otter_nav/tracker/options.hpp"
+#include "otter_nav/tracker/solver_status.hpp"
+#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/model.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::tracker {
+
+enum class Mode {
+  kIdle,      // no trajectory yet: no thrust
+  kTracking,  // on a trajectory
+  kHolding,   // holding station at the trajectory's end
+  kStopping,  // slowing down: on request, odometry lost, or no usable plan
+  kStopped,   // at rest after that; holds the spot while the odometry is good
+  kFault,     // odometry unusable and the model too old to steer by: no thrust
+};
+[[nodiscard]] std::string_view name(Mode mode);
+
+// What step() decides, with what one needs to understand it.
+struct Command {
+  double stamp_s = 0.0;
+  vessel::Thrusts thrusts = vessel::Thrusts::Zero();
+  Mode mode = Mode::kIdle;
+  std::string_view reason;                          // static text; empty when all is well
+  vessel::State estimate = vessel::State::Zero();   // at the stamp
+  vessel::State reference = vessel::State::Zero();  // at the stamp
+  double tracking_error_m = 0.0;                    // of the estimate
+  double time_left_s = 0.0;                         // of the trajectory
+  bool at_goal = false;                             // within the arrival tolerances
+  vessel::Disturbance disturbance;                  // the estimate
+  SolverStatus solver = SolverStatus::kSolved;
+  int solver_iterations = 0;
+};
+
+// The plan behind the last command: states at equal steps from `start_s`.
+struct Prediction {
+  double start_s = 0.0;
+  double step_s = 0.0;
+  int size = 0;  // of `states` in use
+  std::array<vessel::State, kMaxStages + 1> states;
+};
+
+class Tracker {
+ public:
+  Tracker(const Options& options, const vessel::Parameters& vessel);
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+
+  // Any thread, at any time. The trajectory takes over at `start_s`, or at the next step when that
+  // has passed. Errors: empty or malformed (piece and fault named), not finite, over already.
+  [[nodiscard]] Status setTrajectory(trajectory::Trajectory trajectory, double start_s);
+  // Any one thread. Not finite or out of order: dropped, and the next status says so.
+  void addOdometry(double stamp_s, const vessel::State& state);
+  // Any thread: brake and hold the spot, until the next trajectory. `reason` is static text.
+  void requestStop(std::string_view reason);
+
+  // The control loop's thread, once a period.
+  Command step(double now_s);
+  // After the command is out: linearises and factors for the step at `next_s`, so that it only has
+  // to feed back the state. Optional.
+  void prepare(double next_s);
+
+  [[nodiscard]] const Prediction& prediction() const;
+  [[nodiscard]] const Options& options() const;
+
+ private:
+  class Core;
+  std::unique_ptr<Core> core_;
+};
+
+}  // namespace otter_nav::tracker
