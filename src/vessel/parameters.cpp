@@ -41,6 +41,9 @@ Status readThrusters(config::Section section, Thrusters& thrusters) {
   section.read("lever_arm_m", thrusters.lever_arm_m, kPositive);
   section.read("ahead_max_n", thrusters.ahead_max_n, kPositive);
   section.read("astern_max_n", thrusters.astern_max_n, kNotNegative);
+  if (section.has("lag_s")) {
+    section.read("lag_s", thrusters.lag_s, kNotNegative);
+  }
   return section.finish();
 }
 
@@ -121,7 +124,7 @@ std::string toYaml(const Parameters& p) {
       << "\n  yaw_from_sway_kgmps: " << m.yaw_from_sway_kgmps;
   out << "\nthrusters:\n  lever_arm_m: " << p.thrusters.lever_arm_m
       << "\n  ahead_max_n: " << p.thrusters.ahead_max_n
-      << "\n  astern_max_n: " << p.thrusters.astern_max_n;
+      << "\n  astern_max_n: " << p.thrusters.astern_max_n << "\n  lag_s: " << p.thrusters.lag_s;
   out << "\nhull:\n  length_m: " << p.hull.length_m << "\n  beam_m: " << p.hull.beam_m << "\n";
   return out.str();
 }

@@ -49,6 +49,7 @@ struct Thrusters {
   double lever_arm_m = 0.39;
   double ahead_max_n = 50.0;   // per side
   double astern_max_n = 50.0;  // per side, a positive number
+  double lag_s = 0.0;          // time constant of the thrust behind its command; optional in files
 };
 
 struct Hull {
