@@ -1,0 +1,48 @@
+// Writes a seeded archipelago with chart, world and missions: --help says how.
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <iostream>
+
+#include "otter_nav/mission/archipelago.hpp"
+
+int main(int argc, char** argv) {
+  using otter_nav::mission::ArchipelagoOptions;
+  ArchipelagoOptions options;
+  std::uint64_t seed = 1;
+  std::string folder = ".";
+  std::string name = "archipelago";
+  CLI::App app{
+      "Writes NAME.yaml, NAME_chart and NAME_world: a seeded archipelago to sail in. "
+      "Counts are for 300 m by 300 m and grow with the area."};
+  app.add_option("--seed", seed, "same seed, same archipelago")->capture_default_str();
+  app.add_option("--out", folder, "folder to write into")->capture_default_str();
+  app.add_option("--name", name, "of the scenario")->capture_default_str();
+  app.add_option("--size", options.size_m, "side of the square, m")->capture_default_str();
+  app.add_option("--cell", options.resolution_m, "side of a cell, m")->capture_default_str();
+  app.add_option("--islands", options.islands)->capture_default_str();
+  app.add_option("--breakwaters", options.breakwaters)->capture_default_str();
+  app.add_option("--charted", options.charted, "buoys and pontoons in the chart")
+      ->capture_default_str();
+  app.add_option("--uncharted", options.uncharted, "those only in the world")
+      ->capture_default_str();
+  app.add_option("--local", options.local_missions, "missions over the local distance")
+      ->capture_default_str();
+  app.add_option("--local-distance", options.local_distance_m, "m")->capture_default_str();
+  app.add_option("--cross", options.cross_missions, "missions across the map")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  const auto archipelago = otter_nav::mission::generateArchipelago(options, seed);
+  if (!archipelago) {
+    std::cerr << "scenario_generator: " << archipelago.error().message << '\n';
+    return 1;
+  }
+  const auto saved = otter_nav::mission::saveScenario(folder, name, archipelago->chart,
+                                                      archipelago->world, archipelago->missions);
+  if (!saved) {
+    std::cerr << "scenario_generator: " << saved.error().message << '\n';
+    return 1;
+  }
+  std::cout << folder << '/' << name << ".yaml: " << archipelago->missions.size() << " missions\n";
+  return 0;
+}
