@@ -1,12 +1,22 @@
 // Distance to what a vessel must not touch: the query every room shares. Const and thread-safe.
+//
+// Held at the corners of the cells: there the distance to the nearest occupied square is a
+// distance between corners, so its square is a whole number and the transform is exact. Between
+// corners the squared distance less |p|^2 is concave (it is the minimum of affine functions, one
+// for each occupied point), so interpolating it gives a guaranteed lower bound; where that bound
+// is loose (ridges between obstacles, within a cell or so of one) the exact distance is found by
+// a scan along the row.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "otter_nav/map/occupancy_grid.hpp"
 
 namespace otter_nav::map {
+
+struct CornerRow;
 
 struct DistanceFieldOptions {
   double max_distance_m = 12.0;  // distances saturate here
@@ -20,8 +30,9 @@ class DistanceField {
   // collision.
   DistanceField(const OccupancyGrid& grid, const DistanceFieldOptions& options);
 
-  // Recomputes after cells in columns [column, column + width) and rows alike changed; exact, in
-  // time that grows with the region grown by max_distance_m.
+  // Recomputes after cells in columns [column, column + width) and rows alike changed; equal to a
+  // rebuild, in time that grows with the region grown by max_distance_m. `grid` has this field's
+  // geometry; what lies outside it is ignored.
   void update(const OccupancyGrid& grid, int column, int row, int width, int height);
 
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
@@ -32,8 +43,11 @@ class DistanceField {
   // use is safe: nothing occupied is nearer to p than this.
   [[nodiscard]] double clearance(const Eigen::Vector2d& p) const;
 
-  // A smooth (bilinear between cell centres, C0) distance in m for optimisation, negative inside
-  // obstacles, with its gradient (d distance / d p). Not a bound.
+  // Whether clearance(p) >= clearance_m, for less: ridges need no exact distance then.
+  [[nodiscard]] bool isClear(const Eigen::Vector2d& p, double clearance_m) const;
+
+  // A smooth (bilinear between cell corners, C0) signed distance in m for optimisation, negative
+  // inside obstacles and outside the map, with its gradient (d distance / d p). Not a bound.
   struct Smooth {
     double distance_m = 0.0;
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
@@ -41,15 +55,42 @@ class DistanceField {
   [[nodiscard]] Smooth smooth(const Eigen::Vector2d& p) const;
 
  private:
+  struct Window {
+    int x0, y0, x1, y1;  // half open
+  };
+  // The interpolated bound at a point, all in cells.
+  struct Bound {
+    double squared;   // of the lower bound; may be negative next to obstacles
+    bool tight;       // to 0.15 cells
+    int column, row;  // the cell
+    double x, y;      // the point
+  };
+  [[nodiscard]] bool bound(const Eigen::Vector2d& p, Bound& out) const;
+  [[nodiscard]] double exactSquared(const Bound& at) const;
+
+  void markOccupied(const OccupancyGrid& grid, const Window& cells);
+  void markCorners(const Window& corners);
+  void transform(const Window& changed_cells);
+  void judgeRow(int row, const Window& corners, const CornerRow& south, const CornerRow& north);
+
   GridGeometry geometry_;
   DistanceFieldOptions options_;
-  // Signed distance of each cell's centre to the nearest cell of the other kind (centre to
-  // centre), m.
-  std::vector<float> distance_m_;
+  double inverse_resolution_ = 0.0;
+  int cap_ = 0;           // cells; distances saturate here, a little beyond max_distance_m
+  int corner_width_ = 0;  // width + 1
+  // Signed distance of each cell corner to the nearest corner on an outline, in cells.
+  std::vector<float> corner_distance_;
+  std::vector<std::uint8_t> tight_;  // cells where the interpolated bound is within 0.15 cells
+  // What the transform is made from, kept for update(): see src/map/distance_transform.hpp.
+  std::vector<std::uint8_t> occupied_;
+  std::vector<std::uint16_t> up_, down_;  // steps in the column to an occupied cell, 0 if it is one
+  std::vector<std::uint8_t> corner_kind_;
+  std::vector<std::uint16_t> corner_up_, corner_down_;
 };
 
-// Whether the straight segment keeps `clearance_m` from everything occupied: jumps along it by
-// the clearance left, so nothing is sampled past a corner.
+// Whether the straight segment keeps `clearance_m` from everything occupied. Proven, not sampled:
+// between two points the concavity above bounds the distance from below. A segment that clears by
+// less than about a millimetre may be refused.
 [[nodiscard]] bool segmentIsClear(const DistanceField& field, const Eigen::Vector2d& from,
                                   const Eigen::Vector2d& to, double clearance_m);
 

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/map/distance_field.hpp"
+
+namespace otter_nav::map {
+namespace {
+
+constexpr double kShortestStep_m = 1e-4;
+
+// Along a line the squared distance less the squared arc length is concave: between two points
+// `length` apart with squared distances a and b it is at least
+// (1 - k) a + k b - k (1 - k) length^2, whose least value over k in [0, 1] this is.
+double leastSquaredBetween(double a, double b, double length) {
+  const double l2 = length * length;
+  const double k = 0.5 * (1.0 + (a - b) / l2);
+  if (k <= 0.0 || k >= 1.0) {
+    return std::min(a, b);
+  }
+  return (1.0 - k) * a + k * b - k * (1.0 - k) * l2;
+}
+
+}  // namespace
+
+bool segmentIsClear(const DistanceField& field, const Eigen::Vector2d& from,
+                    const Eigen::Vector2d& to, double clearance_m) {
+  const double needed = std::max(clearance_m, 1e-6);
+  const double needed2 = needed * needed;
+  const double length = (to - from).norm();
+  double here = field.clearance(from);
+  if (!(here >= needed) || !field.isClear(to, needed)) {
+    return false;
+  }
+  if (!(length > 0.0)) {
+    return true;
+  }
+  const Eigen::Vector2d direction = (to - from) / length;
+  double at = 0.0;
+  double step = length;
+  while (at < length) {
+    // Twice the half chord would do if the distance stayed the same.
+    const double chord = 2.0 * std::sqrt(std::max(0.0, here * here - needed2));
+    step = std::min({length - at, std::max(chord, kShortestStep_m), 2.0 * step});
+    double there = field.clearance(from + (at + step) * direction);
+    if (there < needed) {
+      return false;
+    }
+    while (leastSquaredBetween(here * here, there * there, step) < needed2) {
+      step *= 0.5;
+      if (step < kShortestStep_m) {
+        return false;
+      }
+      there = field.clearance(from + (at + step) * direction);
+      if (there < needed) {
+        return false;
+      }
+    }
+    here = there;
+    at += step;
+  }
+  return true;
+}
+
+}  // namespace otter_nav::map
