@@ -1,0 +1,38 @@
+// Shortest curves of bounded curvature (Dubins 1957) between two poses: of the six words LSL, RSR,
+// LSR, RSL, RLR and LRL the shortest. Computed here, as OMPL's aborts on some pairs in a build
+// with assertions; it serves as the tests' cross-check.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace otter_nav::topology {
+
+// Map frame, ENU; psi_rad counter-clockwise from east.
+struct Pose {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double psi_rad = 0.0;
+};
+
+class DubinsCurve {
+ public:
+  enum class Turn { kLeft, kStraight, kRight };
+
+  // The shortest curve with turns of `radius_m` > 0.
+  DubinsCurve(const Pose& start, const Pose& goal, double radius_m);
+
+  [[nodiscard]] double length() const;
+  // The pose `s_m` along the curve, clamped to its ends.
+  [[nodiscard]] Pose at(double s_m) const;
+  [[nodiscard]] const std::array<Turn, 3>& turns() const { return turns_; }
+  // Lengths of the three arcs in turning radii.
+  [[nodiscard]] const std::array<double, 3>& arcs() const { return arcs_; }
+
+ private:
+  Pose start_;
+  double radius_m_;
+  std::array<Turn, 3> turns_{Turn::kLeft, Turn::kStraight, Turn::kLeft};
+  std::array<double, 3> arcs_{};
+};
+
+}  // namespace otter_nav::topology
