@@ -30,6 +30,8 @@ struct Query {
   // What is being sailed, cut to begin at `start`: tried first, kept where nothing better is
   // found. Not owned; may be null.
   const trajectory::Trajectory* warm_start = nullptr;
+  // Distance kept by the hull's centre, m; 0 takes the options'.
+  double clearance_m = 0.0;
   // Key points from start to goal found elsewhere (a topology node); empty: found here.
   std::vector<Eigen::Vector2d> guide_path;
 };

@@ -1,0 +1,50 @@
+// The guide path as the sampler sees it: a line measured by its length, with a direction, a speed
+// the vessel could have there and the half width of the corridor around it (paper, section IV-A).
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::planner {
+
+struct GuideLineOptions {
+  double spacing_m = 1.0;         // of the points the line is held at
+  double speed_mps = 4.0;         // at most
+  double speed_start_mps = 0.0;   // at the line's first point
+  double force_ahead_n = 95.0;    // surge force at most
+  double corridor_m = 6.0;        // half width at most
+  double half_width_min_m = 0.5;  // and at least
+  double ramp_share = 0.6;        // of the thrust free at a speed is used to speed up or slow down
+};
+
+class GuideLine {
+ public:
+  struct Point {
+    Eigen::Vector2d position = Eigen::Vector2d::Zero();
+    Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
+    double speed_mps = 0.0;
+    double half_width_m = 0.0;
+  };
+
+  // `points` from start to goal, at least two. Keeps its memory from call to call.
+  void build(const std::vector<Eigen::Vector2d>& points, const map::DistanceField& field,
+             const vessel::Parameters& vessel, const GuideLineOptions& options);
+
+  [[nodiscard]] double length() const { return length_m_; }
+  // Linear between the held points; `s_m` is clamped to the line.
+  [[nodiscard]] Point at(double s_m) const;
+
+ private:
+  void resample(const std::vector<Eigen::Vector2d>& points, double spacing_m);
+  void setDirections();
+  void setSpeeds(const vessel::Parameters& vessel, const GuideLineOptions& options);
+
+  double length_m_ = 0.0;
+  double spacing_m_ = 1.0;
+  std::vector<Point> held_;
+};
+
+}  // namespace otter_nav::planner

@@ -1,0 +1,94 @@
+// The bidirectional kinodynamic RRT* of the paper's algorithms 1 and 2: two trees grown towards
+// the same samples, each with its best parent, rewired; a sample in both trees is a way.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/optimizer/local_optimizer.hpp"
+#include "otter_nav/planner/edge_check.hpp"
+#include "otter_nav/planner/tree.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::planner {
+
+struct SearchOptions {
+  double sigma = 1.0;
+  int neighbours = 12;         // tried as parents, and for rewiring
+  int max_nodes = 2048;        // a tree
+  double edge_max_m = 30.0;    // between two states
+  bool repair_edges = true;    // the paper's local optimisation
+  int repairs_per_sample = 2;  // and tree
+  EdgeLimits limits;
+};
+constexpr int kMaxNeighbours = 32;
+
+struct SearchCounts {
+  int samples = 0;
+  int joined = 0;   // samples that became nodes of one tree or both
+  int nodes = 0;    // of both trees, roots included
+  int repairs = 0;  // edges bent into feasibility
+};
+
+class Search {
+ public:
+  Search(const SearchOptions& options, const optimizer::LocalOptions& local,
+         const vessel::Parameters& vessel);
+
+  // Begins a query: `field` must outlive it.
+  void reset(const map::DistanceField& field, const KinoState& start, const KinoState& goal);
+  // Replaces the limits, before reset(): the clearance is each query's own.
+  void setLimits(const EdgeLimits& limits);
+  // Tries to join the trees by one edge from root to root, without a sample.
+  bool joinRoots();
+  // Grows both trees towards one sample. True if a way, or a cheaper way, is known thereafter.
+  bool extend(const KinoState& sample);
+
+  [[nodiscard]] bool solved() const { return !meetings_.empty(); }
+  // Cost of the cheapest way; infinite without one.
+  [[nodiscard]] double bestCost() const;
+  // Recall: the cheapest way's edges, start to goal. Empty without one.
+  [[nodiscard]] std::vector<trajectory::Piece> recall() const;
+
+  [[nodiscard]] SearchCounts counts() const;
+  [[nodiscard]] const Tree& fromStart() const { return from_start_; }
+  [[nodiscard]] const Tree& toGoal() const { return to_goal_; }
+  // The pieces of a node's edge, in sailing order.
+  void appendEdge(const Tree& tree, int node, std::vector<trajectory::Piece>& pieces) const;
+
+ private:
+  struct Candidate {
+    int node = kNone;
+    double bound = 0.0;  // of the way's cost through it; after steering, the cost
+    Steer steer;
+  };
+  struct Meeting {
+    int in_start = kNone;
+    int in_goal = kNone;
+  };
+
+  int findNeighbours(const Tree& tree, const KinoState& sample);
+  int steerNeighbours(const Tree& tree, const KinoState& sample, int found);
+  int grow(Tree& tree, const KinoState& sample);
+  std::optional<Edge> feasibleEdge(const KinoState& from, const KinoState& to, const Steer& steer);
+  std::optional<Edge> repairedEdge(const KinoState& from, const KinoState& to, const Steer& steer);
+  std::optional<Edge> slowerEdge(const KinoState& from, const KinoState& to, const Steer& steer);
+  void rewire(Tree& tree, int added);
+
+  SearchOptions options_;
+  EdgeCheck check_;
+  optimizer::LocalOptimizer local_;
+  const map::DistanceField* field_ = nullptr;
+  Tree from_start_;
+  Tree to_goal_;
+  std::vector<trajectory::Piece> pieces_;  // of repaired edges
+  std::vector<Meeting> meetings_;
+  std::optional<Edge> direct_;  // root to root
+  std::array<Candidate, kMaxNeighbours> candidates_;
+  optimizer::RepairedEdge repaired_;
+  SearchCounts counts_;
+};
+
+}  // namespace otter_nav::planner
