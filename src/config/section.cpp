@@ -134,6 +134,13 @@ void Section::read(const std::string& key, std::vector<double>& values, std::siz
   values = std::move(read_values);
 }
 
+void Section::read(const std::string& key, std::vector<std::string>& values) {
+  const YAML::Node found = find(key);
+  if (found && (!found.IsSequence() || !convert(found, values))) {
+    fail(key, "is not a list of texts");
+  }
+}
+
 Section Section::child(const std::string& key) {
   return {find(key), where_ + "/" + key};
 }

@@ -36,6 +36,8 @@ class Section {
   // One of `allowed`.
   void read(const std::string& key, std::string& value, const std::vector<std::string>& allowed);
   void read(const std::string& key, std::vector<double>& values, std::size_t size, Range range);
+  // A list of texts of any length.
+  void read(const std::string& key, std::vector<std::string>& values);
 
   [[nodiscard]] bool has(const std::string& key) const;
   // A nested mapping; its finish() is the caller's to call. An absent one is an error.

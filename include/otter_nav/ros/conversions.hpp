@@ -1,0 +1,52 @@
+// Times, poses and odometry between messages and the core's plane.
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/time.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/vessel/types.hpp"
+
+namespace otter_nav::ros_bridge {
+
+struct PlanarPose {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // m
+  double psi_rad = 0.0;
+};
+
+// Whole nanoseconds, so that a time survives the way there and back.
+[[nodiscard]] ros::Time toRosTime(double time_s);
+
+[[nodiscard]] geometry_msgs::Point toPoint(const Eigen::Vector2d& p, double z_m = 0.0);
+[[nodiscard]] geometry_msgs::Quaternion toQuaternion(double roll_rad, double pitch_rad,
+                                                     double yaw_rad);
+[[nodiscard]] geometry_msgs::Pose toPose(const Eigen::Vector2d& position, double psi_rad);
+
+// Roll, pitch, yaw (yaw first, then pitch, then roll, in moving axes); `q` of norm 1.
+[[nodiscard]] Eigen::Vector3d rollPitchYaw(const Eigen::Quaterniond& q);
+
+// A pose in the plane. An error names the field that is not finite or no rotation.
+[[nodiscard]] Result<PlanarPose> planarPose(const geometry_msgs::Pose& pose);
+// The same, and the frame has to be `frame`.
+[[nodiscard]] Result<PlanarPose> planarPose(const geometry_msgs::PoseStamped& pose,
+                                            const std::string& frame);
+
+// A vessel's odometry: pose in `frame`, twist in the body frame `child_frame`. Velocities are
+// turned from the rolling and pitching hull into the horizontal plane.
+struct OdometrySample {
+  double stamp_s = 0.0;
+  vessel::State state = vessel::State::Zero();
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+};
+[[nodiscard]] Result<OdometrySample> odometrySample(const nav_msgs::Odometry& message,
+                                                    const std::string& frame,
+                                                    const std::string& child_frame);
+
+}  // namespace otter_nav::ros_bridge

@@ -1,0 +1,186 @@
+#include "plant_publisher.hpp"
+
+#include <geometry_msgs/Vector3Stamped.h>
+#include <otter_nav/ContactEvent.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/ros/frames.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+using namespace ros_bridge;  // NOLINT: the node is made of these
+
+constexpr int kQueue = 100;
+constexpr double kWeatherPeriodS = 0.1;
+
+geometry_msgs::TransformStamped transform(const char* parent, const char* child,
+                                          const Eigen::Vector3d& position, const ros::Time& stamp) {
+  geometry_msgs::TransformStamped message;
+  message.header.frame_id = parent;
+  message.header.stamp = stamp;
+  message.child_frame_id = child;
+  message.transform.translation.x = position.x();
+  message.transform.translation.y = position.y();
+  message.transform.translation.z = position.z();
+  message.transform.rotation.w = 1.0;
+  return message;
+}
+
+geometry_msgs::Vector3Stamped vectorMessage(const Eigen::Vector2d& v, const ros::Time& stamp) {
+  geometry_msgs::Vector3Stamped message;
+  message.header.frame_id = kMapFrame;
+  message.header.stamp = stamp;
+  message.vector.x = v.x();
+  message.vector.y = v.y();
+  return message;
+}
+
+void set(const Eigen::Vector3d& v, geometry_msgs::Vector3& message) {
+  message.x = v.x();
+  message.y = v.y();
+  message.z = v.z();
+}
+
+}  // namespace
+
+PlantPublisher::PlantPublisher(ros::NodeHandle& node, const plant::LidarOptions& lidar)
+    : clock_(node.advertise<rosgraph_msgs::Clock>("/clock", kQueue)),
+      odometry_(node.advertise<nav_msgs::Odometry>("odom", kQueue)),
+      ground_truth_(node.advertise<nav_msgs::Odometry>("ground_truth", kQueue)),
+      state_(node.advertise<PlantState>("plant_state", kQueue)),
+      scan_(node.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
+      contact_(node.advertise<ContactEvent>("contact", kQueue, true)),
+      wind_(node.advertise<geometry_msgs::Vector3Stamped>("wind", kQueue)),
+      current_(node.advertise<geometry_msgs::Vector3Stamped>("current", kQueue)) {
+  // A GNSS-aided navigation system is simulated, so odom and map coincide.
+  static_transforms_.sendTransform(
+      {transform(kMapFrame, kOdomFrame, Eigen::Vector3d::Zero(), ros::Time()),
+       transform(kBaseFrame, kLidarFrame, lidar.position_m, ros::Time())});
+}
+
+void PlantPublisher::publish(const plant::Simulator& simulator, const ros::Time& stamp) {
+  rosgraph_msgs::Clock clock;
+  clock.clock = stamp;
+  clock_.publish(clock);
+  publishTruth(simulator, stamp);
+  publishContact(simulator, stamp);
+  if (stamp >= next_weather_) {
+    publishWeather(simulator.truth(), stamp);
+    next_weather_ = stamp + ros::Duration(kWeatherPeriodS);
+  }
+  // Last, because the tracker's answer lets time go on.
+  publishOdometry(simulator, stamp);
+}
+
+void PlantPublisher::publishOdometry(const plant::Simulator& simulator, const ros::Time& stamp) {
+  const plant::Odometry& odometry = simulator.odometry();
+  const vessel::State& state = odometry.state;
+  const ros::Duration age(simulator.time() - odometry.stamp_s);
+  nav_msgs::Odometry& message = last_odometry_;
+  message.header.frame_id = kOdomFrame;
+  message.header.stamp = stamp - age;
+  message.child_frame_id = kBaseFrame;
+  message.pose.pose.position = toPoint(state.head<2>(), odometry.z_m);
+  message.pose.pose.orientation =
+      toQuaternion(odometry.roll_rad, odometry.pitch_rad, state[vessel::kPsi]);
+  // The twist is in the body's axes, which roll and pitch; the state's velocities are level.
+  const Eigen::Matrix3d level_from_body =
+      (Eigen::AngleAxisd(odometry.pitch_rad, Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(odometry.roll_rad, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  set(level_from_body.transpose() *
+          Eigen::Vector3d(state[vessel::kSurge], state[vessel::kSway], 0.0),
+      message.twist.twist.linear);
+  set(level_from_body.transpose() * Eigen::Vector3d(0.0, 0.0, state[vessel::kYawRate]),
+      message.twist.twist.angular);
+
+  geometry_msgs::TransformStamped& base = last_transform_;
+  base.header = message.header;
+  base.child_frame_id = kBaseFrame;
+  base.transform.translation.x = message.pose.pose.position.x;
+  base.transform.translation.y = message.pose.pose.position.y;
+  base.transform.translation.z = message.pose.pose.position.z;
+  base.transform.rotation = message.pose.pose.orientation;
+  transforms_.sendTransform(base);
+  odometry_.publish(message);
+}
+
+void PlantPublisher::publishTruth(const plant::Simulator& simulator, const ros::Time& stamp) {
+  const plant::Truth& truth = simulator.truth();
+  nav_msgs::Odometry pose;
+  pose.header.frame_id = kMapFrame;
+  pose.header.stamp = stamp;
+  pose.child_frame_id = kBaseFrame;
+  pose.pose.pose.position = toPoint(truth.position.head<2>(), truth.position.z());
+  pose.pose.pose.orientation = toQuaternion(truth.roll_rad, truth.pitch_rad, truth.yaw_rad);
+  set(truth.velocity_in_body, pose.twist.twist.linear);
+  set(truth.angular_velocity_in_body, pose.twist.twist.angular);
+  ground_truth_.publish(pose);
+
+  PlantState state;
+  state.header = pose.header;
+  state.x = truth.position.x();
+  state.y = truth.position.y();
+  state.z = truth.position.z();
+  state.roll = truth.roll_rad;
+  state.pitch = truth.pitch_rad;
+  state.yaw = truth.yaw_rad;
+  state.u = truth.planar[vessel::kSurge];
+  state.v = truth.planar[vessel::kSway];
+  state.r = truth.planar[vessel::kYawRate];
+  state.thrust_left = truth.thrusts_n[vessel::kLeft];
+  state.thrust_right = truth.thrusts_n[vessel::kRight];
+  state.clearance = simulator.clearance();
+  state.in_contact = static_cast<std::uint8_t>(simulator.inContact());
+  state_.publish(state);
+}
+
+void PlantPublisher::publishWeather(const plant::Truth& truth, const ros::Time& stamp) {
+  wind_.publish(vectorMessage(truth.wind_mps, stamp));
+  current_.publish(vectorMessage(truth.current_mps, stamp));
+}
+
+void PlantPublisher::publishContact(const plant::Simulator& simulator, const ros::Time& stamp) {
+  if (simulator.inContact() == in_contact_) {
+    return;
+  }
+  in_contact_ = simulator.inContact();
+  const plant::Truth& truth = simulator.truth();
+  ContactEvent event;
+  event.header.frame_id = kMapFrame;
+  event.header.stamp = stamp;
+  event.in_contact = static_cast<std::uint8_t>(in_contact_);
+  event.position = toPoint(truth.position.head<2>());
+  event.speed = truth.planar.segment<2>(vessel::kSurge).norm();
+  contact_.publish(event);
+}
+
+void PlantPublisher::publishScan(const plant::Scan& scan, const ros::Time& stamp) {
+  sensor_msgs::LaserScan& message = last_scan_;
+  message.header.frame_id = kLidarFrame;
+  message.header.stamp = stamp;
+  message.angle_min = static_cast<float>(scan.angle_min_rad);
+  message.angle_increment = static_cast<float>(scan.angle_increment_rad);
+  message.angle_max =
+      static_cast<float>(scan.angle_min_rad +
+                         scan.angle_increment_rad * (static_cast<double>(scan.ranges.size()) - 1));
+  message.range_min = static_cast<float>(scan.range_min_m);
+  message.range_max = static_cast<float>(scan.range_max_m);
+  message.ranges = scan.ranges;
+  scan_.publish(message);
+}
+
+void PlantPublisher::repeat() {
+  rosgraph_msgs::Clock clock;
+  clock.clock = last_odometry_.header.stamp;
+  clock_.publish(clock);
+  transforms_.sendTransform(last_transform_);
+  odometry_.publish(last_odometry_);
+  if (!last_scan_.header.frame_id.empty()) {
+    scan_.publish(last_scan_);
+  }
+}
+
+}  // namespace otter_nav::nodes

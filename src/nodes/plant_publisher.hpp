@@ -1,0 +1,50 @@
+// Everything the plant tells the world, as messages.
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <otter_nav/PlantState.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "otter_nav/plant/simulator.hpp"
+
+namespace otter_nav::nodes {
+
+class PlantPublisher {
+ public:
+  PlantPublisher(ros::NodeHandle& node, const plant::LidarOptions& lidar);
+
+  // Clock, transform, odometry and truth at `stamp`; contact when it begins and ends.
+  void publish(const plant::Simulator& simulator, const ros::Time& stamp);
+  void publishScan(const plant::Scan& scan, const ros::Time& stamp);
+  // The last clock, transform, odometry and scan once more, for whoever was not there yet.
+  void repeat();
+
+ private:
+  void publishOdometry(const plant::Simulator& simulator, const ros::Time& stamp);
+  void publishTruth(const plant::Simulator& simulator, const ros::Time& stamp);
+  void publishWeather(const plant::Truth& truth, const ros::Time& stamp);
+  void publishContact(const plant::Simulator& simulator, const ros::Time& stamp);
+
+  ros::Publisher clock_;
+  ros::Publisher odometry_;
+  ros::Publisher ground_truth_;
+  ros::Publisher state_;
+  ros::Publisher scan_;
+  ros::Publisher contact_;
+  ros::Publisher wind_;
+  ros::Publisher current_;
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+
+  nav_msgs::Odometry last_odometry_;
+  geometry_msgs::TransformStamped last_transform_;
+  sensor_msgs::LaserScan last_scan_;
+  bool in_contact_ = false;
+  ros::Time next_weather_;
+};
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,130 @@
+#include "otter_nav/ros/conversions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace otter_nav::ros_bridge {
+namespace {
+
+constexpr double kNormTolerance = 0.05;
+
+Result<Eigen::Quaterniond> rotation(const geometry_msgs::Quaternion& message) {
+  const Eigen::Quaterniond q(message.w, message.x, message.y, message.z);
+  if (!q.coeffs().allFinite() || std::abs(q.norm() - 1.0) > kNormTolerance) {
+    return failure("orientation is not a unit quaternion");
+  }
+  return q.normalized();
+}
+
+bool allFinite(const geometry_msgs::Vector3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Eigen::Vector3d toEigen(const geometry_msgs::Vector3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Status checkHeader(const nav_msgs::Odometry& message, const std::string& frame,
+                   const std::string& child_frame) {
+  if (message.header.frame_id != frame) {
+    return failure("header.frame_id is '" + message.header.frame_id + "', expected '" + frame +
+                   "'");
+  }
+  if (message.child_frame_id != child_frame) {
+    return failure("child_frame_id is '" + message.child_frame_id + "', expected '" + child_frame +
+                   "'");
+  }
+  if (message.header.stamp.isZero()) {
+    return failure("header.stamp is zero");
+  }
+  return {};
+}
+
+}  // namespace
+
+ros::Time toRosTime(double time_s) {
+  ros::Time time;
+  return time.fromNSec(static_cast<std::uint64_t>(std::llround(time_s * 1e9)));
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector2d& p, double z_m) {
+  geometry_msgs::Point point;
+  point.x = p.x();
+  point.y = p.y();
+  point.z = z_m;
+  return point;
+}
+
+geometry_msgs::Quaternion toQuaternion(double roll_rad, double pitch_rad, double yaw_rad) {
+  const Eigen::Quaterniond q = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
+                               Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
+                               Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
+  geometry_msgs::Quaternion message;
+  message.w = q.w();
+  message.x = q.x();
+  message.y = q.y();
+  message.z = q.z();
+  return message;
+}
+
+geometry_msgs::Pose toPose(const Eigen::Vector2d& position, double psi_rad) {
+  geometry_msgs::Pose pose;
+  pose.position = toPoint(position);
+  pose.orientation = toQuaternion(0.0, 0.0, psi_rad);
+  return pose;
+}
+
+Eigen::Vector3d rollPitchYaw(const Eigen::Quaterniond& q) {
+  const double roll = std::atan2(2.0 * (q.w() * q.x() + q.y() * q.z()),
+                                 1.0 - 2.0 * (q.x() * q.x() + q.y() * q.y()));
+  const double sine = std::clamp(2.0 * (q.w() * q.y() - q.z() * q.x()), -1.0, 1.0);
+  const double yaw = std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()),
+                                1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()));
+  return {roll, std::asin(sine), yaw};
+}
+
+Result<PlanarPose> planarPose(const geometry_msgs::Pose& pose) {
+  if (!std::isfinite(pose.position.x) || !std::isfinite(pose.position.y)) {
+    return failure("position is not finite");
+  }
+  const Result<Eigen::Quaterniond> q = rotation(pose.orientation);
+  if (!q) {
+    return failure(q.error().message);
+  }
+  return PlanarPose{{pose.position.x, pose.position.y}, rollPitchYaw(*q).z()};
+}
+
+Result<PlanarPose> planarPose(const geometry_msgs::PoseStamped& pose, const std::string& frame) {
+  if (pose.header.frame_id != frame) {
+    return failure("frame_id is '" + pose.header.frame_id + "', expected '" + frame + "'");
+  }
+  return planarPose(pose.pose);
+}
+
+Result<OdometrySample> odometrySample(const nav_msgs::Odometry& message, const std::string& frame,
+                                      const std::string& child_frame) {
+  if (const Status header = checkHeader(message, frame, child_frame); !header) {
+    return failure(header.error().message);
+  }
+  const Result<PlanarPose> pose = planarPose(message.pose.pose);
+  if (!pose) {
+    return failure("pose: " + pose.error().message);
+  }
+  if (!allFinite(message.twist.twist.linear) || !allFinite(message.twist.twist.angular)) {
+    return failure("twist is not finite");
+  }
+  const Eigen::Quaterniond q = *rotation(message.pose.pose.orientation);
+  const Eigen::Vector3d angles = rollPitchYaw(q);
+  const Eigen::Quaterniond level_from_body =
+      Eigen::AngleAxisd(-angles.z(), Eigen::Vector3d::UnitZ()) * q;
+  const Eigen::Vector3d velocity = level_from_body * toEigen(message.twist.twist.linear);
+  const Eigen::Vector3d rates = level_from_body * toEigen(message.twist.twist.angular);
+  OdometrySample sample;
+  sample.stamp_s = message.header.stamp.toSec();
+  sample.roll_rad = angles.x();
+  sample.pitch_rad = angles.y();
+  sample.state << pose->position, angles.z(), velocity.x(), velocity.y(), rates.z();
+  return sample;
+}
+
+}  // namespace otter_nav::ros_bridge

@@ -1,0 +1,134 @@
+#include "otter_nav/ros/trajectories.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace otter_nav::ros_bridge {
+namespace {
+
+constexpr std::size_t kMaxPieces = 10000;
+constexpr double kMaxPieceDurationS = 3600.0;
+constexpr double kJointTolerance = 1e-3;  // m and m/s
+
+using trajectory::kCoefficients;
+using trajectory::Piece;
+using trajectory::PieceKind;
+
+bool allFinite(const TrajectoryPiece& message) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return std::all_of(message.x.begin(), message.x.end(), finite) &&
+         std::all_of(message.y.begin(), message.y.end(), finite) &&
+         std::all_of(message.heading.begin(), message.heading.end(), finite);
+}
+
+Result<Piece> toPiece(const TrajectoryPiece& message) {
+  if (message.kind != TrajectoryPiece::SAIL && message.kind != TrajectoryPiece::SPIN) {
+    return failure("kind " + std::to_string(message.kind) + " is neither SAIL nor SPIN");
+  }
+  if (!(message.duration > 0.0) || message.duration > kMaxPieceDurationS) {
+    return failure("duration has to lie in (0, " + std::to_string(kMaxPieceDurationS) + "] s");
+  }
+  if (!allFinite(message)) {
+    return failure("a coefficient is not finite");
+  }
+  Piece piece;
+  piece.kind = message.kind == TrajectoryPiece::SAIL ? PieceKind::kSail : PieceKind::kSpin;
+  piece.duration_s = message.duration;
+  for (int k = 0; k < kCoefficients; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    piece.position.col(k) << message.x[i], message.y[i];
+    piece.heading[k] = message.heading[i];
+  }
+  return piece;
+}
+
+TrajectoryPiece toMessage(const Piece& piece) {
+  TrajectoryPiece message;
+  message.kind = piece.kind == PieceKind::kSail ? TrajectoryPiece::SAIL : TrajectoryPiece::SPIN;
+  message.duration = piece.duration_s;
+  for (int k = 0; k < kCoefficients; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    message.x[i] = piece.position(0, k);
+    message.y[i] = piece.position(1, k);
+    message.heading[i] = piece.heading[k];
+  }
+  return message;
+}
+
+bool join(const Piece& before, const Piece& after) {
+  const vessel::FlatPoint end = before.flat(before.duration_s);
+  const vessel::FlatPoint start = after.flat(0.0);
+  return (end.position - start.position).norm() < kJointTolerance &&
+         (end.velocity - start.velocity).norm() < kJointTolerance;
+}
+
+}  // namespace
+
+Trajectory toMessage(const trajectory::Trajectory& trajectory, double start_s, std::uint32_t id,
+                     const PlanarPose& goal, const std::string& frame,
+                     const vessel::Parameters& vessel) {
+  Trajectory message;
+  message.header.frame_id = frame;
+  message.header.stamp = toRosTime(start_s);
+  message.id = id;
+  message.goal = toPose(goal.position, goal.psi_rad);
+  if (!trajectory.empty()) {
+    const vessel::State start = trajectory.sample(0.0, vessel).state;
+    std::copy(start.begin(), start.end(), message.start_state.begin());
+  }
+  message.pieces.reserve(trajectory.pieces().size());
+  for (const Piece& piece : trajectory.pieces()) {
+    message.pieces.push_back(toMessage(piece));
+  }
+  return message;
+}
+
+Result<trajectory::Trajectory> toTrajectory(const Trajectory& message, const std::string& frame) {
+  if (message.header.frame_id != frame) {
+    return failure("frame_id is '" + message.header.frame_id + "', expected '" + frame + "'");
+  }
+  if (message.header.stamp.isZero()) {
+    return failure("header.stamp, the start time, is zero");
+  }
+  if (message.pieces.size() > kMaxPieces) {
+    return failure("holds " + std::to_string(message.pieces.size()) + " pieces, at most " +
+                   std::to_string(kMaxPieces) + " are allowed");
+  }
+  std::vector<Piece> pieces;
+  pieces.reserve(message.pieces.size());
+  for (std::size_t i = 0; i < message.pieces.size(); ++i) {
+    Result<Piece> piece = toPiece(message.pieces[i]);
+    if (!piece) {
+      return failure("pieces[" + std::to_string(i) + "]: " + piece.error().message);
+    }
+    if (!pieces.empty() && !join(pieces.back(), *piece)) {
+      return failure("pieces[" + std::to_string(i) +
+                     "] does not begin where the piece before it ends");
+    }
+    pieces.push_back(*piece);
+  }
+  return trajectory::Trajectory(std::move(pieces));
+}
+
+nav_msgs::Path toPath(const trajectory::Trajectory& trajectory, double start_s, double step_s,
+                      const std::string& frame, const vessel::Parameters& vessel) {
+  nav_msgs::Path path;
+  path.header.frame_id = frame;
+  path.header.stamp = toRosTime(start_s);
+  if (trajectory.empty()) {
+    return path;
+  }
+  const int steps = std::max(1, static_cast<int>(std::ceil(trajectory.duration() / step_s)));
+  for (int i = 0; i <= steps; ++i) {
+    const double t_s = trajectory.duration() * i / steps;
+    const vessel::State state = trajectory.sample(t_s, vessel).state;
+    geometry_msgs::PoseStamped pose;
+    pose.header.frame_id = frame;
+    pose.header.stamp = toRosTime(start_s + t_s);
+    pose.pose = toPose(state.head<2>(), state[vessel::kPsi]);
+    path.poses.push_back(pose);
+  }
+  return path;
+}
+
+}  // namespace otter_nav::ros_bridge
