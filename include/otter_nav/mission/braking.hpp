@@ -3,8 +3,6 @@
 
 #include <Eigen/Core>
 
-#include "otter_nav/base/result.hpp"
-#include "otter_nav/config/section.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
@@ -15,15 +13,13 @@ struct BrakingOptions {
   // Share of the thrust a planned stop may ask for; the rest is the tracker's.
   double thrust_share = 0.8;
   // Clearance of the hull's centre the stop keeps, m.
-  double clearance_m = 1.0;
+  double clearance_m = 0.8;
 };
-
-[[nodiscard]] Result<BrakingOptions> readBrakingOptions(config::Section section);
 
 struct Braking {
   trajectory::Trajectory trajectory;  // starts at the sailed trajectory's `at_s`, ends at rest
   bool clear = false;                 // keeps the clearance, within the thrust share
-  double clearance_m = 0.0;           // the least along it
+  double clearance_m = 0.0;           // the least along it, sampled; only if not clear
 };
 
 // The gentlest stop from `at_s` (s from the trajectory's start) that keeps the clearance: along
@@ -36,9 +32,9 @@ struct Braking {
                                         const vessel::Parameters& vessel,
                                         const BrakingOptions& options);
 
-// The first time in [from_s, to_s] at which the trajectory's clearance is below `clearance_m`, or
-// `to_s` + infinity if none is. Continuous: it moves on by what the clearance allows at the speed,
-// in steps of 5 cm at the least.
+// The first time from `from_s` on at which the trajectory's clearance is below `clearance_m`.
+// Continuous: it moves on by what the clearance allows at the piece's speed (the control polygon
+// of its velocity bounds it), by 5 cm at the least.
 struct Conflict {
   bool found = false;
   double time_s = 0.0;  // from the trajectory's start
@@ -46,8 +42,7 @@ struct Conflict {
   double clearance_m = 0.0;  // there
 };
 [[nodiscard]] Conflict firstConflict(const trajectory::Trajectory& trajectory, double from_s,
-                                     double to_s, const map::DistanceField& field,
-                                     double clearance_m);
+                                     const map::DistanceField& field, double clearance_m);
 
 // The sailed trajectory up to `at_s`, then `next`, from the piece on that `from_s` lies in.
 // `start_s` of the result: when it begins on the sailed trajectory's time.

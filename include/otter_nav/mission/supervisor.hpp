@@ -44,7 +44,7 @@ struct Goal {
 struct SupervisorOptions {
   // Clearances of the hull's centre to anything occupied, m, tried from the widest to the
   // narrowest when a plan fails; the last is the least the mission ever sails with.
-  std::vector<double> plan_clearances_m = {1.7, 1.3, 1.0};
+  std::vector<double> plan_clearances_m = {1.6, 1.2, 0.9, 0.8};
   // A sailed plan is replaced when its clearance shrinks by more than this, m: sensed outlines
   // wander by about a cell.
   double clearance_slack_m = 0.3;
@@ -52,29 +52,34 @@ struct SupervisorOptions {
   double planning_latency_s = 0.3;
   // Time without an answer after which a plan counts as failed, s.
   double planning_timeout_s = 5.0;
-  // Pause between attempts from rest, s: the map may still change.
+  // Pause between rounds of attempts from rest, s: the map may still change.
   double retry_pause_s = 0.5;
-  // Attempts from rest, and stops on one way, before the mission gives up.
-  int attempts_from_rest = 6;
-  int stops = 8;
-  // The vessel brakes when waiting this much longer would leave no room to do so, s.
+  // Rounds of attempts from rest (each tries all clearances), and stops on the way, before the
+  // mission gives up.
+  int rounds_from_rest = 3;
+  int stops_max = 8;
+  // The vessel brakes when waiting this much longer would leave no room to do so, s; and never
+  // for anything further ahead than `brake_horizon_s`.
   double stop_reserve_s = 0.3;
+  double brake_horizon_s = 8.0;
+  double brake_thrust_share = 0.8;  // of the limits
   // Tracking error from which the plan starts at the vessel itself again, m.
-  double tracking_error_m = 2.5;
+  double tracking_error_max_m = 2.5;
   // Odometry older than this is no ground for sailing on, s.
   double odometry_timeout_s = 1.0;
-  double arrival_distance_m = 0.8;
-  double arrival_heading_rad = 0.14;
+  // Arrived within these of the goal.
+  double arrival_distance_m = 0.9;
+  double arrival_heading_rad = 0.15;
   double arrival_speed_mps = 0.25;
-  // The time given to settle at the goal after the trajectory's end before it is planned anew, s.
-  double settle_s = 8.0;
+  // The time given to settle at the end of a trajectory, s.
+  double settle_s = 10.0;
   // Period of plans asked for only to be faster, s; 0 for none. One is taken if it saves
   // `improve_share` of the time left.
   double improve_period_s = 0.0;
   double improve_share = 0.05;
-  BrakingOptions braking;
 };
 
+// config/mission.yaml: mapping `supervisor`.
 [[nodiscard]] Result<SupervisorOptions> readSupervisorOptions(config::Section section);
 
 // What is known of the vessel at a decision.
@@ -148,24 +153,45 @@ class Supervisor {
   [[nodiscard]] int stops() const { return stops_; }
 
  private:
-  [[nodiscard]] Orders request(double now_s, const Situation& situation);
-  [[nodiscard]] Orders requestFromSailed(double now_s);
-  [[nodiscard]] Orders requestFromVessel(double now_s, const Situation& situation);
-  [[nodiscard]] Orders requestFromRest(double now_s, const Situation& situation);
-  [[nodiscard]] PlanRequest newRequest(double now_s);
+  // Where a plan starts from.
+  enum class From { kRest, kSailed, kVessel };
+  struct Pending {
+    PlanRequest request;
+    From from = From::kRest;
+    double since_s = 0.0;
+    bool improves = false;
+  };
+
+  [[nodiscard]] Orders requestFromRest(double now_s, const Situation& situation,
+                                       const map::DistanceField& field);
+  [[nodiscard]] Orders requestFromSailed(double now_s, const map::DistanceField& field);
+  [[nodiscard]] Orders requestFromVessel(double now_s, const Situation& situation,
+                                         const map::DistanceField& field);
+  [[nodiscard]] Orders post(double now_s, PlanRequest request, From from,
+                            const map::DistanceField& field);
+  void chooseRung(const Eigen::Vector2d& start, const map::DistanceField& field);
+
   [[nodiscard]] Orders watchTheWay(double now_s, const Situation& situation,
                                    const map::DistanceField& field);
   [[nodiscard]] Orders watchTheStop(double now_s, const Situation& situation);
-  [[nodiscard]] Orders waitForPlan(double now_s, const Situation& situation);
-  [[nodiscard]] Orders brake(double now_s, const map::DistanceField& field,
-                             const std::string& reason);
-  [[nodiscard]] Orders takePlan(double now_s, const PlanReply& reply, const Situation& situation);
-  [[nodiscard]] Orders failedPlan(double now_s, const std::string& reason,
-                                  const Situation& situation);
-  [[nodiscard]] Orders settle(double now_s, const Situation& situation);
+  [[nodiscard]] Orders waitForPlan(double now_s, const Situation& situation,
+                                   const map::DistanceField& field);
+  [[nodiscard]] Orders replanIfNeeded(double now_s, const Situation& situation,
+                                      const map::DistanceField& field);
+  [[nodiscard]] std::string faultOf(double now_s, const Situation& situation) const;
   [[nodiscard]] bool mustBrake(double now_s, const map::DistanceField& field) const;
+  [[nodiscard]] Orders brake(double now_s, const map::DistanceField& field, std::string reason);
+  [[nodiscard]] Orders stopByItself(double now_s, std::string reason);
+  [[nodiscard]] Orders settle(double now_s, const Situation& situation);
   [[nodiscard]] bool arrived(const Situation& situation) const;
-  void giveUp(const std::string& reason);
+
+  [[nodiscard]] Orders takeFromRest(double now_s, const PlanReply& reply, const Pending& asked,
+                                    const Situation& situation, const map::DistanceField& field);
+  [[nodiscard]] Orders takeMoving(double now_s, const PlanReply& reply, const Pending& asked,
+                                  const map::DistanceField& field);
+  [[nodiscard]] Orders planFailed(double now_s, const std::string& why, const Pending& asked);
+  [[nodiscard]] double timeLeft(double now_s) const;
+  void sail(SailOrder order, double clearance_m, double now_s);
   void enter(Phase phase, std::string reason = {});
 
   SupervisorOptions options_;
@@ -178,18 +204,15 @@ class Supervisor {
   SailOrder sailed_;
   double sailed_clearance_m_ = 0.0;  // what the sailed trajectory was planned for
 
-  std::optional<PlanRequest> pending_;
-  double pending_since_s_ = 0.0;
-  bool pending_improves_ = false;
+  std::optional<Pending> pending_;
   double latency_s_ = 0.0;  // grows when answers come late
   int next_id_ = 1;
   std::size_t rung_ = 0;  // of the clearances
-  int attempts_ = 0;      // from rest
+  int rounds_ = 0;        // of attempts from rest
   double not_before_s_ = 0.0;
-  double last_plan_s_ = 0.0;
-  double settled_since_s_ = -1.0;
-  bool cancelled_ = false;
-  bool failing_ = false;
+  double plan_time_s_ = 0.0;         // when the sailed trajectory was taken
+  double phase_time_s_ = 0.0;        // when the vessel began to stop
+  std::optional<Phase> after_stop_;  // kIdle or kFailed: the mission ends with the stop
   int replans_ = 0;
   int stops_ = 0;
 };

@@ -1,0 +1,165 @@
+#include "otter_nav/mission/braking.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "otter_nav/optimizer/verification.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+using trajectory::Piece;
+using trajectory::PieceKind;
+using trajectory::Trajectory;
+using vessel::FlatPoint;
+
+constexpr double kAtRestMps = 0.02;
+constexpr double kKnotS = 0.25;
+
+// Along the way with its time slowed down smoothly to nothing within `duration_s`: z(s(t)) with
+// s' = 1 - (10 x^3 - 15 x^4 + 6 x^5), x = t / duration. Half the duration of way is used up.
+FlatPoint slowedPoint(const Trajectory& sailed, double at_s, double t, double duration_s) {
+  const double x = t / duration_s;
+  const double x2 = x * x;
+  const double x3 = x2 * x;
+  const double s = at_s + duration_s * (x - x2 * x2 * (2.5 - 3.0 * x + x2));
+  const double rate = 1.0 - x3 * (10.0 - 15.0 * x + 6.0 * x2);
+  const double rate1 = -30.0 * x2 * (1.0 - 2.0 * x + x2) / duration_s;
+  const double rate2 = -60.0 * x * (1.0 - 3.0 * x + 2.0 * x2) / (duration_s * duration_s);
+  const FlatPoint z = sailed.flat(s);
+  FlatPoint slowed;
+  slowed.position = z.position;
+  slowed.velocity = z.velocity * rate;
+  slowed.acceleration = z.acceleration * (rate * rate) + z.velocity * rate1;
+  slowed.jerk =
+      z.jerk * (rate * rate * rate) + z.acceleration * (3.0 * rate * rate1) + z.velocity * rate2;
+  return slowed;
+}
+
+Trajectory slowed(const Trajectory& sailed, double at_s, double duration_s) {
+  const int knots = std::max(4, static_cast<int>(std::ceil(duration_s / kKnotS)));
+  const double step = duration_s / knots;
+  std::vector<Piece> pieces;
+  FlatPoint previous = slowedPoint(sailed, at_s, 0.0, duration_s);
+  for (int k = 1; k <= knots; ++k) {
+    const FlatPoint next = slowedPoint(sailed, at_s, k * step, duration_s);
+    pieces.push_back(trajectory::hermitePiece(previous, next, step));
+    previous = next;
+  }
+  return Trajectory(std::move(pieces));
+}
+
+// Out of the turn within `straighten_s`, then to rest in a line within `brake_s`.
+Trajectory straightened(const FlatPoint& from, double straighten_s, double brake_s) {
+  const double speed = from.velocity.norm();
+  const Eigen::Vector2d along = from.velocity / speed;
+  const Eigen::Vector2d port(-along.y(), along.x());
+  // The turn dies out about linearly, so half of it is still made.
+  const double turn = 0.5 * straighten_s * from.acceleration.dot(port) / speed;
+  const auto turned = [&](double angle) -> Eigen::Vector2d {
+    return along * std::cos(angle) + port * std::sin(angle);
+  };
+  FlatPoint straight;
+  const double straight_speed = speed * (1.0 - 0.1 * straighten_s);
+  straight.velocity = straight_speed * turned(turn);
+  straight.position =
+      from.position + 0.5 * (speed + straight_speed) * straighten_s * turned(0.7 * turn);
+  FlatPoint rest;
+  rest.position = straight.position + 0.5 * brake_s * straight.velocity;
+  return Trajectory({trajectory::hermitePiece(from, straight, straighten_s),
+                     trajectory::hermitePiece(straight, rest, brake_s)});
+}
+
+double leastClearance(const Trajectory& trajectory, const map::DistanceField& field) {
+  constexpr double kStepS = 0.05;
+  double least = std::numeric_limits<double>::infinity();
+  for (double t = 0.0; t < trajectory.duration() + kStepS; t += kStepS) {
+    least = std::min(least, field.clearance(trajectory.flat(t).position));
+  }
+  return least;
+}
+
+// Where a sailed trajectory comes to rest by itself soon: its end, or the next spin's.
+std::optional<Trajectory> ownRest(const Trajectory& sailed, double at_s, double within_s) {
+  const std::size_t now = sailed.pieceAt(at_s);
+  std::vector<Piece> pieces = remainder(sailed, at_s).pieces();
+  const bool spinning = sailed.pieces()[now].kind == PieceKind::kSpin;
+  double duration = 0.0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (pieces[k].kind == PieceKind::kSpin) {
+      pieces.resize(spinning ? k + 1 : k);
+      break;
+    }
+    duration += pieces[k].duration_s;
+  }
+  if (!spinning && duration > within_s) {
+    return std::nullopt;
+  }
+  return Trajectory(std::move(pieces));
+}
+
+// From gentle to hard, by the way they need.
+std::vector<Trajectory> candidates(const Trajectory& sailed, double at_s) {
+  constexpr std::array<double, 5> kSlowS = {12.0, 9.0, 7.0, 5.5, 4.0};
+  constexpr std::array<std::array<double, 2>, 9> kStraightS = {{{2.0, 4.0},
+                                                                {1.5, 3.2},
+                                                                {1.0, 3.2},
+                                                                {1.0, 2.6},
+                                                                {0.7, 2.6},
+                                                                {0.7, 2.1},
+                                                                {0.4, 2.1},
+                                                                {0.4, 1.7},
+                                                                {0.25, 1.4}}};
+  std::vector<Trajectory> all;
+  if (std::optional<Trajectory> rest = ownRest(sailed, at_s, kSlowS.front())) {
+    all.push_back(std::move(*rest));
+    if (all.front().pieces().front().kind == PieceKind::kSpin) {
+      return all;
+    }
+  }
+  for (const double duration : kSlowS) {
+    if (!ownRest(sailed, at_s, 0.5 * duration)) {
+      all.push_back(slowed(sailed, at_s, duration));
+    }
+  }
+  const FlatPoint from = sailed.flat(at_s);
+  if (from.velocity.norm() > kAtRestMps) {
+    for (const auto& [straighten_s, brake_s] : kStraightS) {
+      all.push_back(straightened(from, straighten_s, brake_s));
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+Braking brakingTrajectory(const Trajectory& sailed, double at_s, const map::DistanceField& field,
+                          const vessel::Parameters& vessel, const BrakingOptions& options) {
+  optimizer::CheckOptions check;
+  check.clearance_m = options.clearance_m;
+  check.thrust_share = options.thrust_share;
+  check.speed_max_mps = 2.0 * vessel.top_speed_mps;
+  check.step_s = 0.02;
+  Braking best;
+  best.clearance_m = -1.0;
+  for (Trajectory& candidate : candidates(sailed, at_s)) {
+    if (candidate.empty()) {
+      continue;
+    }
+    if (optimizer::verify(candidate, field, vessel, check).ok) {
+      return {std::move(candidate), true, options.clearance_m};
+    }
+    const double clearance = leastClearance(candidate, field);
+    if (clearance > best.clearance_m) {
+      best = {std::move(candidate), false, clearance};
+    }
+  }
+  return best;
+}
+
+}  // namespace otter_nav::mission

@@ -1,0 +1,132 @@
+// What is left of a sailed trajectory: cut, checked, continued.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "otter_nav/mission/braking.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+using trajectory::kCoefficients;
+using trajectory::kDegree;
+using trajectory::Piece;
+using trajectory::PieceKind;
+using trajectory::Trajectory;
+
+double binomial(int n, int k) {
+  double value = 1.0;
+  for (int i = 1; i <= k; ++i) {
+    value *= static_cast<double>(n - k + i) / i;
+  }
+  return value;
+}
+
+// The same polynomial with its time counted from `t`.
+template <int Rows>
+void shift(Eigen::Matrix<double, Rows, kCoefficients>& c, double t) {
+  // Repeated synthetic division by (x - t).
+  for (int k = 0; k < kDegree; ++k) {
+    for (int j = kDegree - 1; j >= k; --j) {
+      c.col(j) += t * c.col(j + 1);
+    }
+  }
+}
+
+// No velocity's magnitude on the piece is above that of its Bernstein control points.
+double speedBound(const Piece& piece) {
+  constexpr int kVelocityDegree = kDegree - 1;
+  double bound = 0.0;
+  for (int j = 0; j <= kVelocityDegree; ++j) {
+    Eigen::Vector2d control = Eigen::Vector2d::Zero();
+    double power = 1.0;
+    for (int k = 0; k <= j; ++k) {
+      control += binomial(j, k) / binomial(kVelocityDegree, k) * power * (k + 1) *
+                 piece.position.col(k + 1);
+      power *= piece.duration_s;
+    }
+    bound = std::max(bound, control.norm());
+  }
+  return bound;
+}
+
+}  // namespace
+
+Conflict firstConflict(const Trajectory& trajectory, double from_s, const map::DistanceField& field,
+                       double clearance_m) {
+  constexpr double kLeastStepM = 0.05;
+  if (trajectory.empty()) {
+    return {};
+  }
+  for (std::size_t i = trajectory.pieceAt(from_s); i < trajectory.pieces().size(); ++i) {
+    const Piece& piece = trajectory.pieces()[i];
+    const double bound = piece.kind == PieceKind::kSpin ? 0.0 : speedBound(piece);
+    double t = std::clamp(from_s - trajectory.startOf(i), 0.0, piece.duration_s);
+    while (true) {
+      const Eigen::Vector2d position = piece.flat(t).position;
+      const double clearance = field.clearance(position);
+      if (clearance < clearance_m) {
+        return {true, trajectory.startOf(i) + t, position, clearance};
+      }
+      if (t >= piece.duration_s || bound <= 0.0) {
+        break;
+      }
+      t = std::min(piece.duration_s, t + std::max(kLeastStepM, clearance - clearance_m) / bound);
+    }
+  }
+  return {};
+}
+
+Trajectory remainder(const Trajectory& trajectory, double at_s) {
+  if (trajectory.empty()) {
+    return {};
+  }
+  const std::size_t first = trajectory.pieceAt(at_s);
+  const auto begin = trajectory.pieces().begin() + static_cast<std::ptrdiff_t>(first);
+  std::vector<Piece> pieces(begin, trajectory.pieces().end());
+  const double into = std::clamp(at_s - trajectory.startOf(first), 0.0, pieces.front().duration_s);
+  shift<2>(pieces.front().position, into);
+  shift<1>(pieces.front().heading, into);
+  pieces.front().duration_s -= into;
+  if (pieces.front().duration_s <= 0.0) {
+    pieces.erase(pieces.begin());
+  }
+  return Trajectory(std::move(pieces));
+}
+
+Spliced splice(const Trajectory& sailed, double from_s, double at_s, const Trajectory& next) {
+  constexpr double kShortestS = 1e-6;
+  std::vector<Piece> pieces;
+  const std::size_t first = sailed.pieceAt(from_s);
+  for (std::size_t i = first; i < sailed.pieces().size() && sailed.startOf(i) < at_s; ++i) {
+    Piece piece = sailed.pieces()[i];
+    piece.duration_s = std::min(piece.duration_s, at_s - sailed.startOf(i));
+    if (piece.duration_s > kShortestS) {
+      pieces.push_back(piece);
+    }
+  }
+  const double start = pieces.empty() ? at_s : sailed.startOf(first);
+  pieces.insert(pieces.end(), next.pieces().begin(), next.pieces().end());
+  return {Trajectory(std::move(pieces)), start};
+}
+
+vessel::FlatPoint flatFromState(const vessel::State& state, const vessel::PaperModel& model) {
+  const double psi = state[vessel::kPsi];
+  const Eigen::Vector2d ahead(std::cos(psi), std::sin(psi));
+  const Eigen::Vector2d port(-ahead.y(), ahead.x());
+  const double surge = state[vessel::kSurge];
+  const double sway = state[vessel::kSway];
+  vessel::FlatPoint z;
+  z.position = state.head<2>();
+  z.velocity = surge * ahead + sway * port;
+  // Drag balances the surge force; nothing but drag acts abeam. So w = d2 surge ahead, and its
+  // rate of turn is the yaw rate.
+  z.acceleration = -model.d2_kgps / model.m1_kg * sway * port;
+  const Eigen::Vector2d force_rate = model.d2_kgps * surge * state[vessel::kYawRate] * port;
+  z.jerk = (force_rate - model.d2_kgps * z.acceleration) / model.m1_kg;
+  return z;
+}
+
+}  // namespace otter_nav::mission
