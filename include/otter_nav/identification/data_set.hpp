@@ -1,0 +1,64 @@
+// What identification works on: recorded motion with the thrusts that drove it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/vessel/types.hpp"
+
+namespace otter_nav::identification {
+
+// One odometry message or CSV row: pose in the earth frame, velocities in the body frame.
+struct OdometryRecord {
+  double stamp_s = 0.0;
+  vessel::State state = vessel::State::Zero();
+};
+
+// Thrusts commanded from `stamp_s` until the next record.
+struct CommandRecord {
+  double stamp_s = 0.0;
+  vessel::Thrusts thrusts = vessel::Thrusts::Zero();
+};
+
+// As read from a bag or a CSV file, unchecked. `odometry_name` and `command_name` are what messages
+// call the two streams: topics, or the file.
+struct Recording {
+  std::string odometry_name;
+  std::string command_name;
+  int first_row = 0;  // of a text file, for messages; 0 for a bag's messages
+  std::vector<OdometryRecord> odometry;
+  std::vector<CommandRecord> commands;
+};
+
+// `thrusts` is the mean over the interval to the next sample of what the thrusters gave.
+struct Sample {
+  double time_s = 0.0;
+  vessel::State state = vessel::State::Zero();  // heading unwrapped
+  vessel::Thrusts thrusts = vessel::Thrusts::Zero();
+};
+
+// Samples [begin, end) without a gap between them.
+struct Stretch {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+struct DataSet {
+  std::vector<Sample> samples;
+  std::vector<Stretch> stretches;
+};
+
+struct DataOptions {
+  double min_duration_s = 60.0;    // shorter recordings are refused
+  double max_gap_s = 0.5;          // a longer pause of the odometry splits the recording
+  double command_timeout_s = 0.5;  // thrust is zero this long after the last command
+  double thrust_lag_s = 0.0;       // time constant from commanded to acting thrust
+};
+
+// Checks a recording (finite values, time going forward, both streams there and overlapping, long
+// enough) and puts both streams on the odometry's stamps. Errors name the stream and the row or
+// stamp.
+[[nodiscard]] Result<DataSet> assemble(const Recording& recording, const DataOptions& options);
+
+}  // namespace otter_nav::identification

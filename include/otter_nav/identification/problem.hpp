@@ -1,0 +1,79 @@
+// The least-squares problem over rollouts (paper, equation 8): how far the model, driven by the
+// recorded thrusts, strays from the recorded motion within each window.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "otter_nav/identification/data_set.hpp"
+#include "otter_nav/identification/parameter_set.hpp"
+
+namespace otter_nav::identification {
+
+// The weights Omega are inverse squares of these.
+struct Deviations {
+  double position_m = 0.02;
+  double heading_rad = 0.005;
+  double velocity_mps = 0.02;
+  double yaw_rate_radps = 0.01;
+};
+
+struct ProblemOptions {
+  Deviations deviations;
+  double residual_interval_s = 0.05;  // a residual each so many seconds
+  bool free_initial_states = true;    // estimated beside the parameters; else as measured
+  bool estimate_current = false;      // one steady current over the whole recording
+  double max_current_mps = 2.0;
+};
+
+// Gradient of a window's cost and its Gauss-Newton Hessian over [parameters, current, initial
+// state].
+struct WindowTerms {
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;
+};
+
+// Variables: [parameters, current (if estimated), initial state of each window (if free)], in
+// physical units; initial states as differences from the measured ones.
+class Problem {
+ public:
+  Problem(const DataSet& data, std::vector<Stretch> windows, ParameterSet set,
+          vessel::Thrusters thrusters, const ProblemOptions& options);
+
+  [[nodiscard]] int sharedCount() const;  // parameters and current
+  [[nodiscard]] int windowVariables() const;
+  [[nodiscard]] int variableCount() const;
+  [[nodiscard]] std::size_t windowCount() const { return windows_.size(); }
+  [[nodiscard]] std::size_t residualCount() const { return residual_count_; }
+  // The parameters and, if estimated, current_x and current_y.
+  [[nodiscard]] const std::vector<Parameter>& shared() const { return shared_; }
+  [[nodiscard]] vessel::State initialDeviation() const;
+
+  // Half the sum of a window's squared residuals; its derivatives too unless `terms` is null.
+  double evaluateWindow(std::size_t window, const Eigen::VectorXd& variables,
+                        WindowTerms* terms) const;
+  // Cost of the guess's priors, with gradient and the Hessian's diagonal over the shared ones.
+  [[nodiscard]] double priorCost(const Eigen::VectorXd& variables) const;
+  [[nodiscard]] Eigen::VectorXd priorGradient(const Eigen::VectorXd& variables) const;
+  [[nodiscard]] Eigen::VectorXd priorHessian() const;
+
+  [[nodiscard]] Eigen::VectorXd startPoint() const;
+  [[nodiscard]] Model modelAt(const Eigen::VectorXd& variables) const;
+
+ private:
+  [[nodiscard]] vessel::State residual(const vessel::State& state, const Sample& sample) const;
+  void advance(const Model& model, const Sample& sample, double dt, vessel::State& state,
+               Sensitivity* sensitivity) const;
+
+  const DataSet& data_;
+  std::vector<Stretch> windows_;
+  ParameterSet set_;
+  std::vector<Parameter> shared_;
+  vessel::Thrusters thrusters_;
+  ProblemOptions options_;
+  vessel::State inverse_deviation_;
+  std::size_t stride_ = 1;
+  std::size_t residual_count_ = 0;
+};
+
+}  // namespace otter_nav::identification

@@ -1,0 +1,134 @@
+#include "otter_nav/identification/data_set.hpp"
+
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/identification/thrust_history.hpp"
+
+namespace otter_nav::identification {
+namespace {
+
+constexpr std::array<const char*, vessel::kStateSize> kStateNames = {"x", "y", "psi",
+                                                                     "u", "v", "r"};
+constexpr std::array<const char*, vessel::kInputSize> kThrustNames = {"f_left", "f_right"};
+
+// "/odom, message 12 (stamp 1.1 s)" or "run.csv, row 12 (stamp 1.1 s)".
+std::string place(const std::string& stream, const char* unit, std::size_t number, double stamp_s) {
+  std::ostringstream out;
+  out.precision(15);
+  out << stream << ", " << unit << ' ' << number << " (stamp " << stamp_s << " s)";
+  return out.str();
+}
+
+template <typename Record, typename Values>
+Status checkStream(const std::vector<Record>& records, const Recording& recording,
+                   const std::string& stream, Values values, const char* const* names,
+                   bool equal_stamps) {
+  const char* unit = recording.first_row > 0 ? "row" : "message";
+  const std::size_t first = recording.first_row > 0 ? recording.first_row : 1;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const double stamp_s = records[i].stamp_s;
+    const std::string at = place(stream, unit, i + first, stamp_s);
+    if (!std::isfinite(stamp_s)) {
+      return failure(at + ": the stamp is not a finite number");
+    }
+    const auto& row = values(records[i]);
+    for (int k = 0; k < row.size(); ++k) {
+      if (!std::isfinite(row[k])) {
+        return failure(at + ": " + names[k] + " is not a finite number");
+      }
+    }
+    if (i > 0 && (stamp_s < records[i - 1].stamp_s ||
+                  (!equal_stamps && stamp_s == records[i - 1].stamp_s))) {
+      return failure(at + ": time goes backwards or stands still, the stamp before was " +
+                     std::to_string(records[i - 1].stamp_s) + " s");
+    }
+  }
+  return {};
+}
+
+Status check(const Recording& recording) {
+  if (recording.odometry.empty()) {
+    return failure(recording.odometry_name + ": no odometry in the recording");
+  }
+  if (recording.commands.empty()) {
+    return failure(recording.command_name + ": no thruster commands in the recording");
+  }
+  Status status = checkStream(
+      recording.odometry, recording, recording.odometry_name,
+      [](const OdometryRecord& r) -> const vessel::State& { return r.state; }, kStateNames.data(),
+      false);
+  if (!status) {
+    return status;
+  }
+  return checkStream(
+      recording.commands, recording, recording.command_name,
+      [](const CommandRecord& r) -> const vessel::Thrusts& { return r.thrusts; },
+      kThrustNames.data(), true);
+}
+
+std::vector<Stretch> stretchesOf(const std::vector<Sample>& samples, double max_gap_s) {
+  std::vector<Stretch> stretches;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= samples.size(); ++i) {
+    if (i == samples.size() || samples[i].time_s - samples[i - 1].time_s > max_gap_s) {
+      if (i - begin > 1) {
+        stretches.push_back({begin, i});
+      }
+      begin = i;
+    }
+  }
+  return stretches;
+}
+
+double usableDuration(const DataSet& data) {
+  double duration_s = 0.0;
+  for (const Stretch& s : data.stretches) {
+    duration_s += data.samples[s.end - 1].time_s - data.samples[s.begin].time_s;
+  }
+  return duration_s;
+}
+
+}  // namespace
+
+Result<DataSet> assemble(const Recording& recording, const DataOptions& options) {
+  const Status status = check(recording);
+  if (!status) {
+    return failure(status.error().message);
+  }
+  // Only where both streams speak is the thrust known.
+  const double from_s = recording.commands.front().stamp_s;
+  const double to_s = recording.commands.back().stamp_s + options.command_timeout_s;
+  DataSet data;
+  for (const OdometryRecord& record : recording.odometry) {
+    if (record.stamp_s < from_s || record.stamp_s > to_s) {
+      continue;
+    }
+    Sample sample;
+    sample.time_s = record.stamp_s;
+    sample.state = record.state;
+    if (!data.samples.empty()) {
+      sample.state[vessel::kPsi] =
+          unwrapNear(sample.state[vessel::kPsi], data.samples.back().state[vessel::kPsi]);
+    }
+    data.samples.push_back(sample);
+  }
+  ThrustHistory history(recording.commands, options.thrust_lag_s, options.command_timeout_s);
+  for (std::size_t i = 0; i + 1 < data.samples.size(); ++i) {
+    data.samples[i].thrusts = history.mean(data.samples[i].time_s, data.samples[i + 1].time_s);
+  }
+  data.stretches = stretchesOf(data.samples, options.max_gap_s);
+  const double duration_s = usableDuration(data);
+  if (duration_s < options.min_duration_s) {
+    std::ostringstream out;
+    out << "the recording is too short: " << recording.odometry_name << " and "
+        << recording.command_name << " overlap for " << duration_s << " s, at least "
+        << options.min_duration_s << " s are needed";
+    return failure(out.str());
+  }
+  return data;
+}
+
+}  // namespace otter_nav::identification

@@ -1,0 +1,187 @@
+#include "otter_nav/identification/identify.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "otter_nav/identification/regression.hpp"
+#include "otter_nav/identification/uncertainty.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+
+namespace otter_nav::identification {
+namespace {
+
+// Standard deviation of a quantity over the samples.
+template <typename Quantity>
+double deviation(const DataSet& data, Quantity quantity) {
+  double sum = 0.0;
+  double sum2 = 0.0;
+  for (const Sample& s : data.samples) {
+    sum += quantity(s);
+    sum2 += quantity(s) * quantity(s);
+  }
+  const double n = static_cast<double>(data.samples.size());
+  return std::sqrt(std::max(0.0, sum2 / n - sum / n * (sum / n)));
+}
+
+// Constant input shows a steady state, from which no inertia can be told.
+Status checkExcitation(const DataSet& data, const vessel::Thrusters& thrusters, double share) {
+  const double least_n = share * thrusters.ahead_max_n;
+  const double surge_n = deviation(data, [](const Sample& s) { return s.thrusts.sum(); });
+  const double yaw_n = deviation(
+      data, [](const Sample& s) { return s.thrusts[vessel::kRight] - s.thrusts[vessel::kLeft]; });
+  if (yaw_n >= least_n) {
+    return {};
+  }
+  std::string names = "m2_kgm2, d2_kgps, d3_kgm2ps (the thrusters' difference is constant)";
+  if (surge_n < least_n) {
+    names = "m1_kg (the thrusters' sum is constant), " + names;
+  }
+  return failure("the input does not excite " + names + ": they are not identifiable; deviations " +
+                 std::to_string(surge_n) + " N and " + std::to_string(yaw_n) + " N, at least " +
+                 std::to_string(least_n) + " N needed");
+}
+
+std::vector<Stretch> inSpeedRange(const DataSet& data, const std::vector<Stretch>& windows,
+                                  double min_mps, double max_mps) {
+  std::vector<Stretch> kept;
+  for (const Stretch& w : windows) {
+    double sum = 0.0;
+    for (std::size_t i = w.begin; i < w.end; ++i) {
+      sum += data.samples[i].state[vessel::kSurge];
+    }
+    const double mean = sum / static_cast<double>(w.end - w.begin);
+    if (mean >= min_mps && mean <= max_mps) {
+      kept.push_back(w);
+    }
+  }
+  return kept;
+}
+
+double totalCost(const Problem& problem, const Eigen::VectorXd& variables) {
+  double cost = problem.priorCost(variables);
+  for (std::size_t w = 0; w < problem.windowCount(); ++w) {
+    cost += problem.evaluateWindow(w, variables, nullptr);
+  }
+  return cost;
+}
+
+// The start with the lower cost; one that diverges loses.
+Eigen::VectorXd betterStart(const Problem& problem, const Eigen::VectorXd& a,
+                            const Eigen::VectorXd& b) {
+  return totalCost(problem, b) < totalCost(problem, a) ? b : a;
+}
+
+Result<Fit> fit(const Problem& problem, const Eigen::VectorXd& start,
+                const SolverOptions& options) {
+  const Result<Solution> solution = solve(problem, start, options);
+  if (!solution) {
+    return failure(solution.error().message);
+  }
+  const Uncertainty errors = uncertainty(problem, solution->variables);
+  Fit result;
+  result.model = problem.modelAt(solution->variables);
+  result.iterations = solution->iterations;
+  result.residual_rms = std::sqrt(2.0 * (solution->cost - problem.priorCost(solution->variables)) /
+                                  static_cast<double>(problem.residualCount()));
+  for (std::size_t i = 0; i < problem.shared().size(); ++i) {
+    const Parameter& p = problem.shared()[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    result.estimates.push_back(
+        {p.name, solution->variables[k], errors.standard_error[k], p.guess, errors.at_bound[i]});
+  }
+  return result;
+}
+
+Result<Fit> fitPaper(const Identification& work, const Options& options) {
+  const std::vector<Stretch> windows = inSpeedRange(
+      work.data, work.split.fit_windows, options.paper_speed_min_mps, options.paper_speed_max_mps);
+  if (windows.empty()) {
+    return failure("no window's mean surge speed lies within " +
+                   std::to_string(options.paper_speed_min_mps) + " to " +
+                   std::to_string(options.paper_speed_max_mps) + " m/s");
+  }
+  Result<ParameterSet> set = paperSet(work.guess.paper, options.paper_bounds);
+  if (!set) {
+    return failure(set.error().message);
+  }
+  const Problem problem(work.data, windows, *std::move(set), work.guess.thrusters, options.problem);
+  const vessel::PaperModel h =
+      regress(work.data, windows, work.guess.thrusters, 1.0, options.paper_bounds);
+  Eigen::VectorXd regressed = problem.startPoint();
+  regressed.head<5>() << h.m1_kg, h.m2_kgm2, h.d1_kgps, h.d2_kgps, h.d3_kgm2ps;
+  const Eigen::VectorXd start = betterStart(problem, problem.startPoint(), regressed);
+  const Status identifiable = checkIdentifiable(problem, start, options.identifiable_limit);
+  if (!identifiable) {
+    return failure(identifiable.error().message);
+  }
+  return fit(problem, start, options.solver);
+}
+
+Result<Fit> fitManoeuvring(const Identification& work, const Options& options) {
+  const Problem problem(work.data, work.split.fit_windows,
+                        manoeuvringSet(work.guess.manoeuvring, options.prior_relative),
+                        work.guess.thrusters, options.problem);
+  Eigen::VectorXd from_paper = problem.startPoint();
+  from_paper.head<kCoefficientCount>() = coefficientsOf(work.paper.model.coefficients);
+  return fit(problem, betterStart(problem, problem.startPoint(), from_paper), options.solver);
+}
+
+// Steady surge under full thrust: 2 F = d u + q u^2.
+double topSpeed(const vessel::ManoeuvringModel& m, const vessel::Thrusters& thrusters) {
+  const double thrust_n = 2.0 * thrusters.ahead_max_n;
+  const double d = m.surge_drag_kgps;
+  const double q = m.surge_drag_quadratic_kgpm;
+  return 2.0 * thrust_n / (d + std::sqrt(d * d + 4.0 * q * thrust_n));
+}
+
+vessel::PaperModel paperFrom(const Fit& fit) {
+  Eigen::VectorXd values(5);
+  for (int i = 0; i < 5; ++i) {
+    values[i] = fit.estimates[static_cast<std::size_t>(i)].value;
+  }
+  return paperOf(values);
+}
+
+}  // namespace
+
+Result<Identification> identify(const Recording& recording, const vessel::Parameters& guess,
+                                const Options& options) {
+  Result<DataSet> data = assemble(recording, options.data);
+  if (!data) {
+    return failure(data.error().message);
+  }
+  Identification work;
+  work.data = *std::move(data);
+  work.guess = guess;
+  work.vessel = guess;
+  const Status excited = checkExcitation(work.data, guess.thrusters, options.min_excitation);
+  if (!excited) {
+    return failure(excited.error().message);
+  }
+  Result<Split> parts = split(work.data, options.split);
+  if (!parts) {
+    return failure(parts.error().message);
+  }
+  work.split = *std::move(parts);
+
+  Result<Fit> paper = fitPaper(work, options);
+  if (!paper) {
+    return failure("paper_model: " + paper.error().message);
+  }
+  work.paper = *std::move(paper);
+  work.vessel.paper = paperFrom(work.paper);
+  work.vessel.manoeuvring = vessel::ManoeuvringModel::fromPaper(work.vessel.paper);
+  work.manoeuvring.model = work.paper.model;
+  if (options.fit_manoeuvring) {
+    Result<Fit> manoeuvring = fitManoeuvring(work, options);
+    if (!manoeuvring) {
+      return failure("manoeuvring_model: " + manoeuvring.error().message);
+    }
+    work.manoeuvring = *std::move(manoeuvring);
+    work.vessel.manoeuvring = work.manoeuvring.model.coefficients;
+  }
+  work.vessel.top_speed_mps = topSpeed(work.vessel.manoeuvring, guess.thrusters);
+  return work;
+}
+
+}  // namespace otter_nav::identification

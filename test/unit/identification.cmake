@@ -1,0 +1,1 @@
+otter_nav_test(unit_identification_recovery SOURCES ${CMAKE_CURRENT_LIST_DIR}/identification/recovery_test.cpp ROOMS identification)
