@@ -1,0 +1,68 @@
+// What people and programs get to read of a mission: result JSON, track CSV, progress, summary.
+#pragma once
+
+#include <fstream>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/mission/recorder.hpp"
+
+namespace otter_nav::mission {
+
+// {"missions": [{"scenario", "mission", "vessel", "disturbance", "seed", "outcome", "duration_s",
+// "distance_m", "min_clearance_m", "tracking_error_mean_m", "tracking_error_max_m", "replans",
+// "planning_ms_median", "planning_ms_max", "tracker_ms_p99", "track"}]}, and "reason" in those
+// that did not arrive.
+[[nodiscard]] std::string toJson(const std::vector<MissionResult>& results);
+[[nodiscard]] Status saveJson(const std::string& path, const std::vector<MissionResult>& results);
+
+// The true motion as CSV: t,x,y,psi,u,v,r,roll,pitch,f_left,f_right,x_ref,y_ref,psi_ref (ENU; SI
+// units). Without a trajectory the reference is the vessel's own pose.
+class TrackWriter {
+ public:
+  [[nodiscard]] static Result<TrackWriter> open(const std::string& path);
+  void write(const MotionSample& sample);
+  // An error if anything could not be written.
+  [[nodiscard]] Status close();
+
+ private:
+  TrackWriter(std::ofstream file, std::string path);
+  std::ofstream file_;
+  std::string path_;
+};
+
+struct Progress {
+  double t_s = 0.0;
+  double distance_left_m = 0.0;
+  double speed_mps = 0.0;
+  double clearance_m = 0.0;
+  double tracking_error_m = 0.0;
+  std::string state;
+  std::string detail;  // what there is to tell about the state; may be empty
+};
+[[nodiscard]] std::string progressText(const Progress& progress);
+
+// Shows progress: one line refreshed in place on a terminal; elsewhere a line each time the state
+// changes or `quiet_s` of the mission have passed.
+class ProgressLine {
+ public:
+  ProgressLine(std::ostream& out, bool terminal, double quiet_s = 20.0);
+  void show(const Progress& progress);
+  // Ends the line on a terminal, so that what follows starts on its own.
+  void finish();
+
+ private:
+  std::ostream& out_;
+  bool terminal_;
+  double quiet_s_;
+  double shown_s_ = 0.0;
+  std::string shown_state_;
+  std::size_t width_ = 0;
+};
+
+// A few lines for the end of a mission.
+[[nodiscard]] std::string summaryText(const MissionResult& result);
+
+}  // namespace otter_nav::mission

@@ -1,0 +1,71 @@
+#include "otter_nav/mission/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace otter_nav::mission {
+
+const char* name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kArrived:
+      return "arrived";
+    case Outcome::kStopped:
+      return "stopped";
+    case Outcome::kCollided:
+      return "collided";
+    case Outcome::kTimeout:
+      return "timeout";
+    case Outcome::kError:
+      break;
+  }
+  return "error";
+}
+
+void Recorder::addMotion(const MotionSample& sample) {
+  if (last_) {
+    distance_m_ += (sample.state.head<2>() - last_->state.head<2>()).norm();
+    min_clearance_m_ = std::min(min_clearance_m_, sample.clearance_m);
+  } else {
+    first_ = sample;
+    min_clearance_m_ = sample.clearance_m;
+  }
+  if (sample.reference) {
+    const double error = (sample.state.head<2>() - sample.reference->head<2>()).norm();
+    error_sum_m_ += error;
+    error_max_m_ = std::max(error_max_m_, error);
+    ++error_count_;
+  }
+  last_ = sample;
+}
+
+MissionResult Recorder::result(const MissionLabel& label, Outcome outcome, std::string reason,
+                               int replans) const {
+  MissionResult result;
+  result.label = label;
+  result.outcome = outcome;
+  result.reason = std::move(reason);
+  result.duration_s = last_ ? last_->t_s - first_->t_s : 0.0;
+  result.distance_m = distance_m_;
+  result.min_clearance_m = min_clearance_m_;
+  result.tracking_error_mean_m = error_count_ > 0 ? error_sum_m_ / error_count_ : 0.0;
+  result.tracking_error_max_m = error_max_m_;
+  result.replans = replans;
+  result.planning_ms_median = quantile(planning_ms_, 0.5);
+  result.planning_ms_max = quantile(planning_ms_, 1.0);
+  result.tracker_ms_p99 = quantile(tracking_ms_, 0.99);
+  return result;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const auto count = static_cast<double>(values.size());
+  const double rank = std::clamp(std::ceil(share * count), 1.0, count);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+}  // namespace otter_nav::mission

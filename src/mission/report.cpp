@@ -1,0 +1,133 @@
+#include "otter_nav/mission/report.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <utility>
+
+namespace otter_nav::mission {
+
+std::string toJson(const std::vector<MissionResult>& results) {
+  nlohmann::ordered_json missions = nlohmann::ordered_json::array();
+  for (const MissionResult& result : results) {
+    nlohmann::ordered_json mission = {{"scenario", result.label.scenario},
+                                      {"mission", result.label.mission},
+                                      {"vessel", result.label.vessel},
+                                      {"disturbance", result.label.disturbance},
+                                      {"seed", result.label.seed},
+                                      {"outcome", name(result.outcome)},
+                                      {"duration_s", result.duration_s},
+                                      {"distance_m", result.distance_m},
+                                      {"min_clearance_m", result.min_clearance_m},
+                                      {"tracking_error_mean_m", result.tracking_error_mean_m},
+                                      {"tracking_error_max_m", result.tracking_error_max_m},
+                                      {"replans", result.replans},
+                                      {"planning_ms_median", result.planning_ms_median},
+                                      {"planning_ms_max", result.planning_ms_max},
+                                      {"tracker_ms_p99", result.tracker_ms_p99},
+                                      {"track", result.track}};
+    if (!result.reason.empty()) {
+      mission["reason"] = result.reason;
+    }
+    missions.push_back(std::move(mission));
+  }
+  return nlohmann::ordered_json{{"missions", std::move(missions)}}.dump(2) + "\n";
+}
+
+Status saveJson(const std::string& path, const std::vector<MissionResult>& results) {
+  std::ofstream file(path);
+  file << toJson(results);
+  file.close();
+  if (!file) {
+    return failure("can't write result " + path);
+  }
+  return {};
+}
+
+TrackWriter::TrackWriter(std::ofstream file, std::string path)
+    : file_(std::move(file)), path_(std::move(path)) {}
+
+Result<TrackWriter> TrackWriter::open(const std::string& path) {
+  std::ofstream file(path);
+  file << "t,x,y,psi,u,v,r,roll,pitch,f_left,f_right,x_ref,y_ref,psi_ref\n";
+  if (!file) {
+    return failure("can't write track " + path);
+  }
+  return TrackWriter(std::move(file), path);
+}
+
+void TrackWriter::write(const MotionSample& sample) {
+  const vessel::State& x = sample.state;
+  const Eigen::Vector3d reference = sample.reference.value_or(x.head<3>());
+  char line[320];
+  std::snprintf(line, sizeof(line),
+                "%.3f,%.4f,%.4f,%.5f,%.4f,%.4f,%.5f,%.5f,%.5f,%.3f,%.3f,%.4f,%.4f,%.5f\n",
+                sample.t_s, x[0], x[1], x[2], x[3], x[4], x[5], sample.roll_rad, sample.pitch_rad,
+                sample.thrusts_n[vessel::kLeft], sample.thrusts_n[vessel::kRight], reference.x(),
+                reference.y(), reference.z());
+  file_ << line;
+}
+
+Status TrackWriter::close() {
+  file_.close();
+  if (!file_) {
+    return failure("can't write track " + path_);
+  }
+  return {};
+}
+
+std::string progressText(const Progress& progress) {
+  char text[192];
+  std::snprintf(text, sizeof(text),
+                "t %5.1f s  left %5.1f m  speed %4.2f m/s  clearance %5.2f m  error %4.2f m  ",
+                progress.t_s, progress.distance_left_m, progress.speed_mps, progress.clearance_m,
+                progress.tracking_error_m);
+  return text + progress.state + (progress.detail.empty() ? "" : ": " + progress.detail);
+}
+
+ProgressLine::ProgressLine(std::ostream& out, bool terminal, double quiet_s)
+    : out_(out), terminal_(terminal), quiet_s_(quiet_s) {}
+
+void ProgressLine::show(const Progress& progress) {
+  std::string text = progressText(progress);
+  if (terminal_) {
+    const std::size_t width = text.size();
+    text.append(width_ > width ? width_ - width : 0, ' ');
+    width_ = width;
+    out_ << '\r' << text << std::flush;
+    return;
+  }
+  if (!shown_state_.empty() && progress.state == shown_state_ &&
+      progress.t_s - shown_s_ < quiet_s_) {
+    return;
+  }
+  shown_state_ = progress.state;
+  shown_s_ = progress.t_s;
+  out_ << text << '\n' << std::flush;
+}
+
+void ProgressLine::finish() {
+  if (terminal_ && width_ > 0) {
+    out_ << '\n' << std::flush;
+    width_ = 0;
+  }
+}
+
+std::string summaryText(const MissionResult& result) {
+  const MissionLabel& label = result.label;
+  const std::string head = label.scenario + " mission " + std::to_string(label.mission) + ", " +
+                           label.vessel + ", disturbance " + label.disturbance + ", seed " +
+                           std::to_string(label.seed) + ": " + name(result.outcome) +
+                           (result.reason.empty() ? "" : ": " + result.reason) + "\n";
+  char text[384];
+  std::snprintf(text, sizeof(text),
+                "  %.1f s, %.1f m sailed, hull never nearer than %.2f m to anything\n"
+                "  tracking error %.3f m mean, %.3f m at most; %d replans\n"
+                "  planning %.1f ms median, %.1f ms at most; tracker %.3f ms (99th percentile)\n",
+                result.duration_s, result.distance_m, result.min_clearance_m,
+                result.tracking_error_mean_m, result.tracking_error_max_m, result.replans,
+                result.planning_ms_median, result.planning_ms_max, result.tracker_ms_p99);
+  return head + text;
+}
+
+}  // namespace otter_nav::mission
