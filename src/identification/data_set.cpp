@@ -93,7 +93,8 @@ double usableDuration(const DataSet& data) {
 
 }  // namespace
 
-Result<DataSet> assemble(const Recording& recording, const DataOptions& options) {
+Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
+                         double thrust_lag_s) {
   const Status status = check(recording);
   if (!status) {
     return failure(status.error().message);
@@ -115,7 +116,7 @@ Result<DataSet> assemble(const Recording& recording, const DataOptions& options)
     }
     data.samples.push_back(sample);
   }
-  ThrustHistory history(recording.commands, options.thrust_lag_s, options.command_timeout_s);
+  ThrustHistory history(recording.commands, thrust_lag_s, options.command_timeout_s);
   for (std::size_t i = 0; i + 1 < data.samples.size(); ++i) {
     data.samples[i].thrusts = history.mean(data.samples[i].time_s, data.samples[i + 1].time_s);
   }

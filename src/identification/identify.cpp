@@ -146,7 +146,7 @@ vessel::PaperModel paperFrom(const Fit& fit) {
 
 Result<Identification> identify(const Recording& recording, const vessel::Parameters& guess,
                                 const Options& options) {
-  Result<DataSet> data = assemble(recording, options.data);
+  Result<DataSet> data = assemble(recording, options.data, guess.thrusters.lag_s);
   if (!data) {
     return failure(data.error().message);
   }

@@ -7,7 +7,6 @@ Status readData(config::Section section, DataOptions& o) {
   section.read("min_duration_s", o.min_duration_s, {10.0, 1e5});
   section.read("max_gap_s", o.max_gap_s, {0.001, 60.0});
   section.read("command_timeout_s", o.command_timeout_s, {0.01, 1e5});
-  section.read("thrust_lag_s", o.thrust_lag_s, {0.0, 10.0});
   return section.finish();
 }
 

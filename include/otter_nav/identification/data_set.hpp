@@ -53,12 +53,12 @@ struct DataOptions {
   double min_duration_s = 60.0;    // shorter recordings are refused
   double max_gap_s = 0.5;          // a longer pause of the odometry splits the recording
   double command_timeout_s = 0.5;  // thrust is zero this long after the last command
-  double thrust_lag_s = 0.0;       // time constant from commanded to acting thrust
 };
 
 // Checks a recording (finite values, time going forward, both streams there and overlapping, long
 // enough) and puts both streams on the odometry's stamps. Errors name the stream and the row or
-// stamp.
-[[nodiscard]] Result<DataSet> assemble(const Recording& recording, const DataOptions& options);
+// stamp. Acting thrust follows the commands with the thrusters' lag.
+[[nodiscard]] Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
+                                       double thrust_lag_s);
 
 }  // namespace otter_nav::identification
