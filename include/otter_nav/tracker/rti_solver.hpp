@@ -1,0 +1,117 @@
+// The tracker's optimal control problem and its real-time iteration: one SQP step a cycle with the
+// Gauss-Newton Hessian, split into a preparation that needs no measurement and a feedback that only
+// takes the state (Diehl, Bock and Schloeder 2005).
+//
+//   min  sum_{k<N} 1/2 |x_k - xr_k|_Q^2 + 1/2 |F_k - Fr_k|_R^2  +  1/2 |x_N - xr_N|_QN^2
+//   s.t. x_0 measured, x_{k+1} = RK4(x_k, F_k), lower <= F_k <= upper      (paper, section V-B)
+//
+// The quadratic problem is factored without its inequalities (or with the last cycle's active
+// bounds) in the preparation. Only when the feedback finds a bound violated or a multiplier of the
+// wrong sign is it solved again: by primal-dual active-set steps, each one Riccati recursion over
+// the stages before the last change, and should those cycle, by Mehrotra's predictor-corrector
+// interior point method, each iteration one recursion and a second pass for the gradient alone.
+#pragma once
+
+#include <array>
+
+#include "otter_nav/tracker/interior_point.hpp"
+#include "otter_nav/tracker/limits.hpp"
+#include "otter_nav/tracker/riccati.hpp"
+#include "otter_nav/tracker/shooting.hpp"
+#include "otter_nav/tracker/solver_status.hpp"
+
+namespace otter_nav::tracker {
+
+// Q, R and QN as they stand in the sum above.
+struct OcpWeights {
+  vessel::State state = vessel::State::Ones();
+  vessel::State terminal = vessel::State::Ones();
+  vessel::Thrusts thrusts = vessel::Thrusts::Ones();
+};
+
+struct OcpOptions {
+  int stages = 20;
+  double step_s = 0.1;
+  OcpWeights weights;
+  vessel::Thrusts lower_n = vessel::Thrusts::Constant(-50.0);
+  vessel::Thrusts upper_n = vessel::Thrusts::Constant(50.0);
+  double regularization = 1e-9;  // added to the thrusts' Hessian
+  int active_set_iterations = 6;
+  int interior_point_iterations = 30;
+};
+
+// psi of all states is continuous along the horizon and near the measured one.
+struct OcpReference {
+  std::array<vessel::State, kMaxStages + 1> states;
+  std::array<vessel::Thrusts, kMaxStages> thrusts;
+};
+
+class RtiSolver {
+ public:
+  RtiSolver(const OcpOptions& options, const vessel::ManoeuvringModel& model,
+            const vessel::Thrusters& thrusters);
+
+  void setDisturbance(const vessel::Disturbance& disturbance);
+  void setWeights(const OcpWeights& weights) { options_.weights = weights; }
+  // Start from the reference (clamped to the bounds).
+  void initialize(const OcpReference& reference);
+  // Moves the plan on by `fraction` of a stage.
+  void shift(double fraction);
+
+  // Linearises about the plan and factors. On failure the plan is unchanged and feedback() fails.
+  SolverStatus prepare(const OcpReference& reference);
+  // Takes the measured state and moves the plan by the solution. On failure it is unchanged.
+  SolverStatus feedback(const vessel::State& measured);
+
+  [[nodiscard]] const std::array<vessel::State, kMaxStages + 1>& states() const { return states_; }
+  [[nodiscard]] const std::array<vessel::Thrusts, kMaxStages>& thrusts() const { return thrusts_; }
+  [[nodiscard]] int stages() const { return options_.stages; }
+  // Recursions over the horizon beyond the first, in the last feedback.
+  [[nodiscard]] int iterations() const { return iterations_; }
+  // Largest change of the plan in the last feedback, relative to the thrusts' range.
+  [[nodiscard]] double lastStep() const { return last_step_; }
+
+ private:
+  using Deviation = double[6];
+  void setCosts(const OcpReference& reference);
+  // Recursion from stage `from` down to 0 with the bounds in `hold_`.
+  [[nodiscard]] bool factor(int from, const std::array<InputCost, kMaxStages>& costs);
+  void rollOutPlan(const vessel::State& measured);
+  // Revises `hold_` from the last roll-out: the highest stage changed, or -1.
+  [[nodiscard]] int reviseHolds();
+  SolverStatus iterateActiveSet(const vessel::State& measured);
+  SolverStatus iterateInteriorPoint(const vessel::State& measured);
+  void startInterior();
+  double meanGap();
+  double predict(double gap);
+  void correct(double target);
+  void takeInterior();
+  template <typename Visit>
+  void forEachInterior(Visit visit);
+  // Takes the active set the interior point iterate points to; true when it is the right one.
+  [[nodiscard]] bool crossOver(const vessel::State& measured);
+  // The gradient part of factor() with the gains it found.
+  void updateGradients(const std::array<InputCost, kMaxStages>& costs);
+  [[nodiscard]] bool finite() const;
+  void accept();
+
+  OcpOptions options_;
+  StageModel model_;
+  std::array<vessel::State, kMaxStages + 1> states_;
+  std::array<vessel::Thrusts, kMaxStages> thrusts_;
+  std::array<Stage, kMaxStages + kLanes> linear_;
+  std::array<StateCost, kMaxStages + 1> state_costs_;
+  std::array<InputCost, kMaxStages> input_costs_;
+  std::array<Value, kMaxStages + 1> values_;
+  std::array<Feedback, kMaxStages> feedbacks_;
+  std::array<InputCost, kMaxStages> barrier_costs_;
+  InteriorPoint interior_[kMaxStages][2];
+  Hold hold_[kMaxStages][2];
+  Deviation dx_[kMaxStages + 1];
+  double du_[kMaxStages][2];
+  SolverStatus prepared_ = SolverStatus::kNotFinite;
+  int iterations_ = 0;
+  double last_step_ = 0.0;
+};
+
+}  // namespace otter_nav::tracker

@@ -1,0 +1,46 @@
+// Multiple shooting: one RK4 step over each stage of the horizon with its exact sensitivities
+// (paper, equation 7), four stages at a time.
+#pragma once
+
+#include "otter_nav/tracker/pack.hpp"
+#include "otter_nav/vessel/model.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/types.hpp"
+
+namespace otter_nav::tracker {
+
+// x+ = A dx + B du + c about a stage's state and thrusts. The columns of A for x and y are the
+// identity's, so only those for psi, u, v, r are kept, row by row.
+struct alignas(32) Stage {
+  Pack a[6];    // columns psi, u, v, r
+  Pack bc[6];   // columns F_left, F_right, gap to the next stage's state, 0
+};
+
+// The manoeuvring model divided by its inertias, with thrust levers and disturbance.
+class StageModel {
+ public:
+  StageModel(const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters);
+  void setDisturbance(const vessel::Disturbance& disturbance);
+
+  // Stages 0 to `count` - 1 from `states` (count + 1) and `thrusts` (count); step in s. `stages`
+  // has room for `count` rounded up to a multiple of kLanes.
+  void linearize(const vessel::State* states, const vessel::Thrusts* thrusts, int count,
+                 double step_s, Stage* stages) const;
+
+ private:
+  struct Derivative;
+  struct Sensitivity;
+  void differentiate(const Pack (&q)[4], Pack surge_acceleration, Pack yaw_acceleration,
+                     Derivative& d) const;
+  void propagate(const Derivative& d, const Sensitivity& s, Sensitivity& rate) const;
+
+  double surge_centripetal_, sway_centripetal_, munk_;
+  double surge_drag_, sway_drag_, yaw_drag_;
+  double surge_drag2_, sway_drag2_, yaw_drag2_;
+  double sway_from_yaw_, yaw_from_sway_;
+  double surge_mobility_, sway_mobility_, yaw_mobility_;  // 1 / inertia
+  double lever_;
+  double current_x_ = 0.0, current_y_ = 0.0, force_x_ = 0.0, force_y_ = 0.0, moment_ = 0.0;
+};
+
+}  // namespace otter_nav::tracker
