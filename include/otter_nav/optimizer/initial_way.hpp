@@ -1,0 +1,67 @@
+// From a polyline to a first spline: an elastic band for the shape, a forward and backward pass
+// for the speed, knots at even distances.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/optimizer/spline_problem.hpp"
+#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::optimizer {
+
+struct WayOptions {
+  double piece_length_m = 6.0;
+  double force_share = 0.85;  // of both thrusters together, for the first guess of the speed
+  double speed_max_mps = 4.6;
+  double clearance_m = 1.0;   // by DistanceField::smooth
+};
+
+// How the way leaves its start and reaches its goal.
+struct WayEnds {
+  Boundary start;
+  Boundary goal;
+  bool start_at_rest = true;
+  bool start_after_spin = false;  // then acceleration and jerk vanish there too
+  bool goal_before_spin = false;
+  Eigen::Vector2d leave = Eigen::Vector2d::UnitX();   // direction of the launch
+  Eigen::Vector2d arrive = Eigen::Vector2d::UnitX();  // and of the last straight
+};
+
+// The point `distance_m` along a polyline, from its start or, negative, from its end.
+[[nodiscard]] Eigen::Vector2d pointAlong(const std::vector<Eigen::Vector2d>& polyline,
+                                         double distance_m);
+
+// Not thread-safe: keeps its workspace.
+class InitialWay {
+ public:
+  InitialWay(const WayOptions& options, const vessel::Parameters& vessel)
+      : options_(options), vessel_(vessel) {}
+
+  WayOptions& options() { return options_; }
+
+  // Fills `spline` (knots, what is free of them, durations, straight ends).
+  void build(const map::DistanceField& field, const std::vector<Eigen::Vector2d>& polyline,
+             const WayEnds& ends, Spline& spline);
+
+ private:
+  void stretchBand(const map::DistanceField& field, const std::vector<Eigen::Vector2d>& polyline,
+                   const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  void paceBand(double speed_from, double speed_to);
+  [[nodiscard]] double speedIn(double curvature_per_m) const;
+  [[nodiscard]] Knot knotAt(double s) const;
+  [[nodiscard]] double timeBetween(double s_from, double s_to) const;
+
+  WayOptions options_;
+  vessel::Parameters vessel_;
+  double spacing_m_ = 1.0;
+  std::vector<Eigen::Vector2d> band_;
+  std::vector<Eigen::Vector2d> next_;
+  std::vector<Eigen::Vector2d> tangent_;
+  std::vector<double> curvature_;
+  std::vector<double> speed_;
+};
+
+}  // namespace otter_nav::optimizer

@@ -1,0 +1,210 @@
+#include "otter_nav/optimizer/initial_way.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace otter_nav::optimizer {
+namespace {
+
+constexpr double kSpacingM = 1.0;
+constexpr int kBandSteps = 60;
+constexpr double kSlowestMps = 0.8;
+// The straight ends' first guess.
+constexpr double kLaunchM = 1.2;
+constexpr double kLaunchS = 1.1;
+constexpr double kLaunchMps = 2.0;
+constexpr double kBrakeM = 2.6;
+constexpr double kBrakeS = 1.6;
+constexpr double kBrakeMps = 3.0;
+
+double lengthOf(const std::vector<Eigen::Vector2d>& polyline) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    length += (polyline[i] - polyline[i - 1]).norm();
+  }
+  return length;
+}
+
+constexpr std::array<bool, 8> kAllFree = {true, true, true, true, true, true, true, true};
+constexpr std::array<bool, 8> kOnLine = {true, false, true, false, true, false, true, false};
+constexpr std::array<bool, 8> kAtRest = {false, false, false, false, true, false, true, false};
+constexpr std::array<bool, 8> kFixed = {};
+
+}  // namespace
+
+Eigen::Vector2d pointAlong(const std::vector<Eigen::Vector2d>& polyline, double distance_m) {
+  const bool backward = distance_m < 0.0;
+  double left = std::abs(distance_m);
+  const std::size_t n = polyline.size();
+  for (std::size_t i = 1; i < n; ++i) {
+    const Eigen::Vector2d& a = polyline[backward ? n - i : i - 1];
+    const Eigen::Vector2d& b = polyline[backward ? n - i - 1 : i];
+    const double length = (b - a).norm();
+    if (length >= left && length > 0.0) {
+      return a + left / length * (b - a);
+    }
+    left -= length;
+  }
+  return backward ? polyline.front() : polyline.back();
+}
+
+// Each point moves to the middle of its neighbours and off obstacles, in turn.
+void InitialWay::stretchBand(const map::DistanceField& field,
+                             const std::vector<Eigen::Vector2d>& polyline,
+                             const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const double length = std::max(lengthOf(polyline), 2.0 * kSpacingM);
+  const int parts = std::max(4, static_cast<int>(std::ceil(length / kSpacingM)));
+  band_.clear();
+  for (int i = 0; i <= parts; ++i) {
+    band_.push_back(pointAlong(polyline, length * i / parts));
+  }
+  band_.front() = from;
+  band_.back() = to;
+  next_ = band_;
+  for (int step = 0; step < kBandSteps; ++step) {
+    for (std::size_t i = 1; i + 1 < band_.size(); ++i) {
+      Eigen::Vector2d p = 0.5 * band_[i] + 0.25 * (band_[i - 1] + band_[i + 1]);
+      const map::DistanceField::Smooth d = field.smooth(p);
+      if (d.distance_m < options_.clearance_m) {
+        const double steep = std::max(d.gradient.norm(), 0.3);
+        p += std::min(options_.clearance_m - d.distance_m, 0.5) / steep * d.gradient / steep;
+      }
+      next_[i] = p;
+    }
+    std::swap(band_, next_);
+  }
+}
+
+// The steady speed in a turn: |w| = hypot(d v, m v^2 k) and the moment d3 k v share the thrust.
+double InitialWay::speedIn(double curvature_per_m) const {
+  const vessel::PaperModel& m = vessel_.paper;
+  const double force = 2.0 * vessel_.thrusters.ahead_max_n * options_.force_share;
+  double low = 0.0;
+  double high = options_.speed_max_mps;
+  const double k = std::abs(curvature_per_m);
+  for (int i = 0; i < 12; ++i) {
+    const double v = 0.5 * (low + high);
+    const double need = std::hypot(std::max(m.d1_kgps, m.d2_kgps) * v, m.m1_kg * v * v * k) +
+                        m.d3_kgm2ps * k * v / vessel_.thrusters.lever_arm_m;
+    (need < force ? low : high) = v;
+  }
+  return std::max(low, kSlowestMps);
+}
+
+void InitialWay::paceBand(double speed_from, double speed_to) {
+  const std::size_t n = band_.size();
+  spacing_m_ = lengthOf(band_) / static_cast<double>(n - 1);
+  tangent_.resize(n);
+  curvature_.assign(n, 0.0);
+  speed_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d chord = band_[std::min(i + 1, n - 1)] - band_[i > 0 ? i - 1 : 0];
+    tangent_[i] = chord / std::max(chord.norm(), 1e-9);
+  }
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const Eigen::Vector2d& a = tangent_[i - 1];
+    const Eigen::Vector2d& b = tangent_[i + 1];
+    curvature_[i] = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)) / (2.0 * spacing_m_);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    speed_[i] = speedIn(curvature_[i]);
+  }
+  speed_.front() = std::max(speed_from, kSlowestMps);
+  speed_.back() = std::max(speed_to, kSlowestMps);
+  const vessel::PaperModel& m = vessel_.paper;
+  const double force = 2.0 * vessel_.thrusters.ahead_max_n * options_.force_share;
+  for (std::size_t i = 1; i < n; ++i) {
+    const double v = speed_[i - 1];
+    const double accel = std::max(0.7 * (force - m.d1_kgps * v) / m.m1_kg, 0.05);
+    speed_[i] = std::min(speed_[i], std::sqrt(v * v + 2.0 * accel * spacing_m_));
+  }
+  for (std::size_t i = n - 1; i-- > 1;) {
+    const double v = speed_[i + 1];
+    const double drag = 0.7 * m.d2_kgps * v / m.m1_kg;
+    speed_[i] = std::min(speed_[i], std::sqrt(v * v + 2.0 * drag * spacing_m_));
+  }
+}
+
+Knot InitialWay::knotAt(double s) const {
+  const double at = std::clamp(s / spacing_m_, 0.0, static_cast<double>(band_.size() - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(at), band_.size() - 2);
+  const double f = at - static_cast<double>(i);
+  Knot knot;
+  const Eigen::Vector2d along = ((1.0 - f) * tangent_[i] + f * tangent_[i + 1]).normalized();
+  const double v = (1.0 - f) * speed_[i] + f * speed_[i + 1];
+  const double k = (1.0 - f) * curvature_[i] + f * curvature_[i + 1];
+  const double slope = (speed_[i + 1] - speed_[i]) / spacing_m_;
+  knot.state.col(0) = (1.0 - f) * band_[i] + f * band_[i + 1];
+  knot.state.col(1) = v * along;
+  knot.state.col(2) = v * slope * along + v * v * k * Eigen::Vector2d(-along.y(), along.x());
+  knot.free = kAllFree;
+  return knot;
+}
+
+double InitialWay::timeBetween(double s_from, double s_to) const {
+  constexpr int kParts = 8;
+  double time = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    const double s = s_from + (s_to - s_from) * (i + 0.5) / kParts;
+    const auto at = std::min(static_cast<std::size_t>(s / spacing_m_ + 0.5), speed_.size() - 1);
+    time += (s_to - s_from) / kParts / speed_[at];
+  }
+  return time;
+}
+
+void InitialWay::build(const map::DistanceField& field,
+                       const std::vector<Eigen::Vector2d>& polyline, const WayEnds& ends,
+                       Spline& spline) {
+  const Eigen::Vector2d p0 = ends.start.flat.position;
+  const Eigen::Vector2d p1 = ends.goal.flat.position;
+  const double shrink = std::min(1.0, 0.25 * (p1 - p0).norm() / kBrakeM);
+  Knot first;
+  Knot last;
+  first.state.col(0) = p0;
+  last.state.col(0) = p1;
+  last.direction = ends.arrive;
+  last.free = ends.goal_before_spin ? kFixed : kAtRest;
+  spline.knots.clear();
+  spline.spans.clear();
+
+  Eigen::Vector2d from = p0;
+  double speed_from = ends.start.flat.velocity.norm();
+  if (ends.start_at_rest) {
+    first.direction = ends.leave;
+    first.free = ends.start_after_spin ? kFixed : kAtRest;
+    if (!ends.start_after_spin) {
+      first.state.col(2) = 2.2 * ends.leave;
+    }
+    from = p0 + shrink * kLaunchM * ends.leave;
+    speed_from = kLaunchMps;
+    spline.knots.push_back(first);
+    spline.spans.push_back({kLaunchS, true, true});
+    first.state << from, kLaunchMps * ends.leave, 1.0 * ends.leave, Eigen::Vector2d::Zero();
+    first.free = kOnLine;
+  } else {
+    first.state << p0, ends.start.flat.velocity, ends.start.flat.acceleration, ends.start.flat.jerk;
+    first.free = kFixed;
+  }
+  spline.knots.push_back(first);
+
+  const Eigen::Vector2d to = p1 - shrink * kBrakeM * ends.arrive;
+  stretchBand(field, polyline, from, to);
+  paceBand(speed_from, kBrakeMps);
+  const double length = spacing_m_ * static_cast<double>(band_.size() - 1);
+  const int parts = std::max(2, static_cast<int>(std::ceil(length / options_.piece_length_m)));
+  for (int i = 1; i <= parts; ++i) {
+    spline.spans.push_back({timeBetween(length * (i - 1) / parts, length * i / parts)});
+    spline.knots.push_back(knotAt(length * i / parts));
+  }
+  Knot& brake = spline.knots.back();
+  brake.state << to, kBrakeMps * ends.arrive, -1.0 * ends.arrive, Eigen::Vector2d::Zero();
+  brake.direction = ends.arrive;
+  brake.free = kOnLine;
+  if (!ends.goal_before_spin) {
+    last.state.col(2) = -2.0 * ends.arrive;
+  }
+  spline.spans.push_back({kBrakeS, true, true});
+  spline.knots.push_back(last);
+}
+
+}  // namespace otter_nav::optimizer

@@ -1,0 +1,296 @@
+#include "piece_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace otter_nav::optimizer {
+namespace {
+
+constexpr double kStraightShare = 1e-9;   // of a coefficient, that may point off the line
+constexpr double kSlowMps = 1e-3;         // below it a course says nothing of the heading
+constexpr double kLeastSlackM = 1e-3;     // nearer to the limit than this counts as a fault
+constexpr double kAcrossCosine = 0.02;    // heading and course nearer to a right angle: a jump
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+template <int Columns>
+Eigen::Matrix<double, 2, Columns - 1> differentiate(const Eigen::Matrix<double, 2, Columns>& c) {
+  Eigen::Matrix<double, 2, Columns - 1> d;
+  for (int k = 1; k < Columns; ++k) {
+    d.col(k - 1) = k * c.col(k);
+  }
+  return d;
+}
+
+template <int Columns>
+Eigen::Vector2d evaluate(const Eigen::Matrix<double, 2, Columns>& c, double t) {
+  Eigen::Vector2d value = c.col(Columns - 1);
+  for (int k = Columns - 2; k >= 0; --k) {
+    value = value * t + c.col(k);
+  }
+  return value;
+}
+
+// The direction all of a piece's motion is along, or zero.
+Eigen::Vector2d lineOf(const trajectory::Piece& piece) {
+  Eigen::Vector2d longest = Eigen::Vector2d::Zero();
+  double longest_m = 0.0;
+  std::array<double, trajectory::kCoefficients> size{};
+  double power = 1.0;
+  for (int k = 1; k < trajectory::kCoefficients; ++k) {
+    power *= piece.duration_s;
+    const double length = piece.position.col(k).norm() * power;
+    size[static_cast<std::size_t>(k)] = power;
+    if (length > longest_m) {
+      longest_m = length;
+      longest = piece.position.col(k).normalized();
+    }
+  }
+  for (int k = 1; k < trajectory::kCoefficients; ++k) {
+    const double off = std::abs(cross(longest, piece.position.col(k)));
+    if (off * size[static_cast<std::size_t>(k)] > kStraightShare * longest_m) {
+      return Eigen::Vector2d::Zero();
+    }
+  }
+  // Ahead is where the piece ends.
+  const Eigen::Vector2d way =
+      piece.flat(piece.duration_s).position - piece.flat(0.0).position;
+  return way.dot(longest) < 0.0 ? Eigen::Vector2d(-longest) : longest;
+}
+
+// Watches a quantity sampled at equal steps: its bound includes what a parabola through three
+// neighbours (twice its height, to be sure) rises to between them.
+class Sampled {
+ public:
+  double bound(double value) {
+    double widening = 0.0;
+    if (count_ >= 2) {
+      widening = 0.25 * std::abs(value - 2.0 * last_ + before_);
+    }
+    const double result = std::max(value, last_) + widening;
+    before_ = last_;
+    last_ = value;
+    ++count_;
+    return count_ == 1 ? value : result;
+  }
+
+ private:
+  int count_ = 0;
+  double last_ = -std::numeric_limits<double>::infinity();
+  double before_ = 0.0;
+};
+
+double shareOf(double thrust_n, const vessel::Thrusters& limits) {
+  return thrust_n >= 0.0 ? thrust_n / limits.ahead_max_n
+                         : -thrust_n / std::max(limits.astern_max_n, 1e-9);
+}
+
+}  // namespace
+
+struct PieceCheck::Point {
+  Eigen::Vector2d velocity, w;
+  double thrust_left_n, thrust_right_n, yaw_rate_radps;
+};
+
+HullCircles hullCircles(const vessel::Hull& hull) {
+  return {hull.length_m / 3.0, std::hypot(hull.length_m / 6.0, hull.beam_m / 2.0)};
+}
+
+PieceCheck::PieceCheck(const trajectory::Piece& piece, const vessel::Parameters& vessel,
+                       const CheckOptions& options)
+    : piece_(piece), vessel_(vessel), options_(options) {
+  velocity_ = differentiate<8>(piece.position);
+  acceleration_ = differentiate<7>(velocity_);
+  jerk_ = differentiate<6>(acceleration_);
+  snap_ = differentiate<5>(jerk_);
+  if (piece.kind == trajectory::PieceKind::kSail) {
+    direction_ = lineOf(piece);
+    straight_ = direction_.squaredNorm() > 0.5;
+  }
+}
+
+PieceCheck::Point PieceCheck::at(double t_s) const {
+  const vessel::PaperModel& m = vessel_.paper;
+  Point p;
+  p.velocity = evaluate<7>(velocity_, t_s);
+  const Eigen::Vector2d a = evaluate<6>(acceleration_, t_s);
+  p.w = m.m1_kg * a + m.d2_kgps * p.velocity;
+  if (straight_) {
+    const double force =
+        m.m1_kg * direction_.dot(a) + m.d1_kgps * direction_.dot(p.velocity);
+    p.thrust_left_n = p.thrust_right_n = 0.5 * force;
+    p.yaw_rate_radps = 0.0;
+    return p;
+  }
+  const Eigen::Vector2d j = evaluate<5>(jerk_, t_s);
+  const Eigen::Vector2d w1 = m.m1_kg * j + m.d2_kgps * a;
+  const Eigen::Vector2d w2 = m.m1_kg * evaluate<4>(snap_, t_s) + m.d2_kgps * j;
+  const double norm2 = std::max(p.w.squaredNorm(), 1e-12);
+  p.yaw_rate_radps = cross(p.w, w1) / norm2;
+  const double yaw_acceleration =
+      (cross(p.w, w2) - 2.0 * p.yaw_rate_radps * p.w.dot(w1)) / norm2;
+  const double sign = p.w.dot(p.velocity) >= 0.0 ? 1.0 : -1.0;
+  const double surge =
+      sign * p.w.dot(m.m1_kg * a + m.d1_kgps * p.velocity) / std::sqrt(norm2);
+  const double difference =
+      (m.m2_kgm2 * yaw_acceleration + m.d3_kgm2ps * p.yaw_rate_radps) /
+      vessel_.thrusters.lever_arm_m;
+  p.thrust_left_n = 0.5 * (surge - difference);
+  p.thrust_right_n = 0.5 * (surge + difference);
+  return p;
+}
+
+double PieceCheck::heading(double t_s) const {
+  if (piece_.kind == trajectory::PieceKind::kSpin) {
+    return piece_.spinHeading(t_s)[0];
+  }
+  const Eigen::Vector2d bow = bowAt(t_s);
+  return std::atan2(bow.y(), bow.x());
+}
+
+Eigen::Vector2d PieceCheck::bowAt(double t_s) const {
+  if (piece_.kind == trajectory::PieceKind::kSpin) {
+    const double psi = piece_.spinHeading(t_s)[0];
+    return {std::cos(psi), std::sin(psi)};
+  }
+  if (straight_) {
+    return direction_;
+  }
+  const Eigen::Vector2d velocity = evaluate<7>(velocity_, t_s);
+  const Eigen::Vector2d w =
+      vessel_.paper.m1_kg * evaluate<6>(acceleration_, t_s) + vessel_.paper.d2_kgps * velocity;
+  Eigen::Vector2d ahead = velocity;
+  if (velocity.norm() < kSlowMps) {
+    const double inward = std::min(1e-2, 0.25 * piece_.duration_s);
+    ahead = evaluate<7>(velocity_, t_s < 0.5 * piece_.duration_s ? t_s + inward : t_s - inward);
+  }
+  return w.dot(ahead) >= 0.0 ? w.normalized() : Eigen::Vector2d(-w.normalized());
+}
+
+void PieceCheck::checkSpin(PieceReport& report) const {
+  const int steps = std::max(2, static_cast<int>(std::ceil(piece_.duration_s / options_.step_s)));
+  Sampled share;
+  for (int i = 0; i <= steps && report.fault == Fault::kNone; ++i) {
+    report.time_s = piece_.duration_s * i / steps;
+    const Eigen::Vector3d psi = piece_.spinHeading(report.time_s);
+    const double thrust = (vessel_.paper.m2_kgm2 * psi[2] + vessel_.paper.d3_kgm2ps * psi[1]) /
+                          (2.0 * vessel_.thrusters.lever_arm_m);
+    const double worst = std::max(shareOf(thrust, vessel_.thrusters),
+                                  shareOf(-thrust, vessel_.thrusters));
+    report.thrust_share = std::max(report.thrust_share, share.bound(worst));
+    report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(psi[1]));
+    if (report.thrust_share > options_.thrust_share) {
+      report.fault = Fault::kThrust;
+    } else if (report.yaw_rate_radps > options_.yaw_rate_max_radps) {
+      report.fault = Fault::kYawRate;
+    }
+  }
+}
+
+void PieceCheck::checkDynamics(PieceReport& report) const {
+  report.heading_force_n = std::numeric_limits<double>::infinity();
+  if (piece_.kind == trajectory::PieceKind::kSpin) {
+    checkSpin(report);
+    return;
+  }
+  const int steps = std::max(4, static_cast<int>(std::ceil(piece_.duration_s / options_.step_s)));
+  Sampled left;
+  Sampled right;
+  double branch = 0.0;  // sign of w . v
+  for (int i = 0; i <= steps; ++i) {
+    report.time_s = piece_.duration_s * i / steps;
+    const Point p = at(report.time_s);
+    const double speed = p.velocity.norm();
+    report.speed_mps = std::max(report.speed_mps, speed);
+    report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
+    report.thrust_share =
+        std::max({report.thrust_share, left.bound(shareOf(p.thrust_left_n, vessel_.thrusters)),
+                  right.bound(shareOf(p.thrust_right_n, vessel_.thrusters))});
+    if (!straight_) {
+      const double norm = p.w.norm();
+      report.heading_force_n = std::min(report.heading_force_n, norm);
+      const double cosine = p.w.dot(p.velocity) / std::max(norm * speed, 1e-12);
+      if (speed > kSlowMps && (std::abs(cosine) < kAcrossCosine || cosine * branch < 0.0)) {
+        report.fault = Fault::kHeadingJump;
+      }
+      branch = speed > kSlowMps ? cosine : 0.0;
+      if (norm < options_.heading_force_min_n) {
+        report.fault = Fault::kHeadingUndefined;
+      }
+    } else if (direction_.dot(p.velocity) < -kSlowMps) {
+      report.fault = Fault::kAstern;
+    }
+    if (report.thrust_share > options_.thrust_share) {
+      report.fault = Fault::kThrust;
+    } else if (report.speed_mps > options_.speed_max_mps) {
+      report.fault = Fault::kSpeed;
+    } else if (report.yaw_rate_radps > options_.yaw_rate_max_radps) {
+      report.fault = Fault::kYawRate;
+    }
+    if (report.fault != Fault::kNone) {
+      return;
+    }
+  }
+}
+
+// The control polygon of the velocity (Bernstein form) holds all its values.
+double PieceCheck::speedBound() const {
+  constexpr int kN = 6;
+  constexpr double kBinomial[kN + 1] = {1, 6, 15, 20, 15, 6, 1};
+  // b_i = sum over k <= i of C(i, k) / C(n, k) c_k T^k, by repeated differences of columns.
+  double bound = 0.0;
+  std::array<double, kN + 1> power{};
+  power[0] = 1.0;
+  for (std::size_t k = 1; k <= kN; ++k) {
+    power[k] = power[k - 1] * piece_.duration_s;
+  }
+  for (int i = 0; i <= kN; ++i) {
+    Eigen::Vector2d b = Eigen::Vector2d::Zero();
+    double choose = 1.0;  // C(i, k)
+    for (int k = 0; k <= i; ++k) {
+      b += choose / kBinomial[k] * power[static_cast<std::size_t>(k)] * velocity_.col(k);
+      choose = choose * (i - k) / (k + 1);
+    }
+    bound = std::max(bound, b.norm());
+  }
+  return bound;
+}
+
+void PieceCheck::checkClearance(const map::DistanceField& field, PieceReport& report) const {
+  const HullCircles hull = hullCircles(vessel_.hull);
+  const double speed = std::max(speedBound(), 1e-3);
+  const double end_speed = speed + hull.offset_m * (1.1 * report.yaw_rate_radps + 0.01);
+  const double around = hull.offset_m + hull.radius_m;
+  report.clearance_m = std::numeric_limits<double>::infinity();
+  double t = 0.0;
+  while (report.fault == Fault::kNone) {
+    report.time_s = t;
+    const Eigen::Vector2d p = evaluate<8>(piece_.position, t);
+    const double clearance = field.clearance(p);
+    report.clearance_m = std::min(report.clearance_m, clearance);
+    const double slack = clearance - options_.clearance_m;
+    double jump = slack / speed;
+    if (slack < kLeastSlackM) {
+      report.fault = Fault::kClearance;
+    } else if (options_.check_hull && clearance - around < 0.5 * slack) {
+      const Eigen::Vector2d bow = hull.offset_m * bowAt(t);
+      const double ends = std::min(field.clearance(p + bow), field.clearance(p - bow));
+      if (ends - hull.radius_m < kLeastSlackM) {
+        report.fault = Fault::kHull;
+      }
+      jump = std::min(jump, (ends - hull.radius_m) / end_speed);
+    } else if (options_.check_hull) {
+      jump = std::min(jump, (clearance - around) / speed);
+    }
+    if (t >= piece_.duration_s) {
+      return;
+    }
+    t = std::min(t + jump, piece_.duration_s);
+  }
+}
+
+}  // namespace otter_nav::optimizer

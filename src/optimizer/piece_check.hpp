@@ -1,0 +1,76 @@
+// One piece of a trajectory under verification: limits of thrust, speed and turning, then the
+// clearance along it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/trajectory/piece.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::optimizer {
+
+// The hull's rectangle is covered by three circles of `radius_m`: at the centre and `offset_m`
+// ahead and astern of it.
+struct HullCircles {
+  double offset_m = 0.0;
+  double radius_m = 0.0;
+};
+[[nodiscard]] HullCircles hullCircles(const vessel::Hull& hull);
+
+enum class Fault {
+  kNone,
+  kThrust,
+  kSpeed,
+  kYawRate,
+  kHeadingUndefined,
+  kHeadingJump,
+  kAstern,
+  kClearance,
+  kHull
+};
+
+struct PieceReport {
+  Fault fault = Fault::kNone;
+  double time_s = 0.0;  // of the fault, from the piece's start
+  double thrust_share = 0.0;
+  double speed_mps = 0.0;
+  double yaw_rate_radps = 0.0;
+  double heading_force_n = 0.0;  // least; infinite on straight pieces
+  double clearance_m = 0.0;
+};
+
+class PieceCheck {
+ public:
+  PieceCheck(const trajectory::Piece& piece, const vessel::Parameters& vessel,
+             const CheckOptions& options);
+
+  [[nodiscard]] bool straight() const { return straight_; }
+  // The heading at an end of the piece (`t_s` is 0 or the duration), not wrapped.
+  [[nodiscard]] double heading(double t_s) const;
+
+  // Fills all of the report but the clearance.
+  void checkDynamics(PieceReport& report) const;
+  // Needs the report's yaw rate.
+  void checkClearance(const map::DistanceField& field, PieceReport& report) const;
+
+ private:
+  struct Point;
+  [[nodiscard]] Point at(double t_s) const;
+  void checkSpin(PieceReport& report) const;
+  [[nodiscard]] Eigen::Vector2d bowAt(double t_s) const;
+  [[nodiscard]] double speedBound() const;
+
+  const trajectory::Piece& piece_;
+  const vessel::Parameters& vessel_;
+  const CheckOptions& options_;
+  bool straight_ = false;
+  Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();  // of a straight piece
+  Eigen::Matrix<double, 2, 7> velocity_;
+  Eigen::Matrix<double, 2, 6> acceleration_;
+  Eigen::Matrix<double, 2, 5> jerk_;
+  Eigen::Matrix<double, 2, 4> snap_;
+};
+
+}  // namespace otter_nav::optimizer

@@ -1,0 +1,377 @@
+#include "otter_nav/optimizer/spline_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/optimizer/flat_gradient.hpp"
+
+namespace otter_nav::optimizer {
+namespace {
+
+constexpr double kForceScaleN = 50.0;   // a thrust exceeded by this counts as one
+constexpr double kForceFloorN = 3.0;    // |w| below this is treated as this
+constexpr double kSlowMps = 0.5;        // below it the length's curvature is bounded
+constexpr double kEvenness = 0.02;      // pieces shall last about as long as their neighbours
+
+using Rows = Eigen::Matrix<double, 2, kOrders>;  // derivatives by position ... snap
+
+Eigen::Vector2d across(const Eigen::Vector2d& v) {
+  return {-v.y(), v.x()};
+}
+
+}  // namespace
+
+// One piece's share: unknowns are 8 of the first knot, the duration, 8 of the second.
+struct SplineProblem::Local {
+  static constexpr int kUnknowns = 17;
+  static constexpr int kDuration = 8;
+  using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+
+  Eigen::Matrix<double, 2, kEndValues> ends;
+  double duration_s = 1.0;
+  bool model = false;  // gradient and Hessian wanted
+  double cost = 0.0;
+  Vector gradient;
+  Eigen::Matrix<double, kUnknowns, kUnknowns> hessian;  // lower triangle
+
+  ScaledBasis basis;
+  Rows slope;  // of the point's derivatives with respect to the duration
+
+  [[nodiscard]] Rows at(const BasisMatrix& unit_basis) {
+    basis = scaleBasis(unit_basis, duration_s);
+    slope.noalias() = ends * basis.slope.transpose();
+    return ends * basis.value.transpose();
+  }
+
+  // d scalar / d unknowns from d scalar / d derivatives.
+  [[nodiscard]] Vector chain(const Rows& rows) const {
+    const Eigen::Matrix<double, 2, kEndValues> by_ends = rows * basis.value;
+    Vector j;
+    for (int m = 0; m < 4; ++m) {
+      j.segment<2>(2 * m) = by_ends.col(m);
+      j.segment<2>(9 + 2 * m) = by_ends.col(m + 4);
+    }
+    j[kDuration] = rows.cwiseProduct(slope).sum();
+    return j;
+  }
+
+  void addSquare(double weight, double residual, const Vector& j) {
+    gradient += 2.0 * weight * residual * j;
+    addCurvature(2.0 * weight, j);
+  }
+  void addCurvature(double curvature, const Vector& j) {
+    for (int c = 0; c < kUnknowns; ++c) {
+      hessian.col(c).noalias() += (curvature * j[c]) * j;
+    }
+  }
+  // weight * max(0, excess)^2, `rows` being the derivative of excess.
+  template <typename MakeRows>
+  void hinge(double weight, double excess, const MakeRows& rows) {
+    if (excess <= 0.0) {
+      return;
+    }
+    cost += weight * excess * excess;
+    if (model) {
+      addSquare(weight, excess, chain(rows()));
+    }
+  }
+};
+
+SplineProblem::SplineProblem(const vessel::Parameters& vessel) : vessel_(vessel) {
+  for (std::size_t i = 0; i < quadrature_.size(); ++i) {
+    quadrature_[i] = hermiteBasis(quadraturePoints()[i]);
+  }
+  for (std::size_t i = 0; i < clearance_.size(); ++i) {
+    clearance_[i] = hermiteBasis((static_cast<double>(i) + 0.5) / kClearancePoints);
+  }
+}
+
+void SplineProblem::addStraight(const Rows& z, const Eigen::Vector2d& along, Local& local) const {
+  const vessel::PaperModel& m = vessel_.paper;
+  const double speed = along.dot(z.col(1));
+  const double force = m.m1_kg * along.dot(z.col(2)) + m.d1_kgps * speed;
+  const auto force_rows = [&](double sign) {
+    Rows rows = Rows::Zero();
+    rows.col(1) = sign / (2.0 * kForceScaleN) * m.d1_kgps * along;
+    rows.col(2) = sign / (2.0 * kForceScaleN) * m.m1_kg * along;
+    return rows;
+  };
+  const auto speed_rows = [&](double sign) {
+    Rows rows = Rows::Zero();
+    rows.col(1) = sign * along;
+    return rows;
+  };
+  const double weight = 2.0 * weights.dynamics;
+  local.hinge(weight, (0.5 * force - limits.thrust_ahead_n) / kForceScaleN,
+              [&] { return force_rows(1.0); });
+  local.hinge(weight, (-0.5 * force - limits.thrust_astern_n) / kForceScaleN,
+              [&] { return force_rows(-1.0); });
+  local.hinge(weight, speed - limits.speed_mps, [&] { return speed_rows(1.0); });
+  local.hinge(weight, -speed, [&] { return speed_rows(-1.0); });
+}
+
+void SplineProblem::addFree(const Rows& z, Local& local) const {
+  vessel::FlatPoint flat;
+  flat.velocity = z.col(1);
+  flat.acceleration = z.col(2);
+  flat.jerk = z.col(3);
+  flat.snap = z.col(4);
+  const FlatGradient g = flatGradient(flat, vessel_, kForceFloorN);
+  const auto widen = [](const FlatRow& row, double scale) {
+    Rows rows;
+    rows.col(0).setZero();
+    rows.rightCols<4>() = scale * row;
+    return rows;
+  };
+  for (const double side : {-1.0, 1.0}) {
+    const double thrust = 0.5 * (g.surge_n + side * g.difference_n);
+    const FlatRow row = 0.5 * (g.surge + side * g.difference);
+    local.hinge(weights.dynamics, (thrust - limits.thrust_ahead_n) / kForceScaleN,
+                [&] { return widen(row, 1.0 / kForceScaleN); });
+    local.hinge(weights.dynamics, (-thrust - limits.thrust_astern_n) / kForceScaleN,
+                [&] { return widen(row, -1.0 / kForceScaleN); });
+  }
+  local.hinge(weights.dynamics, std::abs(g.yaw_rate_radps) - limits.yaw_rate_radps,
+              [&] { return widen(g.yaw_rate, g.yaw_rate_radps < 0.0 ? -1.0 : 1.0); });
+  const double speed = flat.velocity.norm();
+  local.hinge(weights.dynamics, speed - limits.speed_mps, [&] {
+    Rows rows = Rows::Zero();
+    rows.col(1) = flat.velocity / speed;
+    return rows;
+  });
+  // |w| by its component along the course: a heading against the course counts as missing it all.
+  if (speed > 1e-3) {
+    const Eigen::Vector2d course = flat.velocity / speed;
+    const vessel::PaperModel& m = vessel_.paper;
+    const double ahead = m.m1_kg * course.dot(flat.acceleration) + m.d2_kgps * speed;
+    local.hinge(weights.dynamics, (limits.heading_force_n - ahead) / kForceScaleN, [&] {
+      Rows rows = Rows::Zero();
+      const Eigen::Vector2d turn = across(course);
+      rows.col(1) = -(m.d2_kgps * course +
+                      m.m1_kg * turn.dot(flat.acceleration) / std::max(speed, kSlowMps) * turn) /
+                    kForceScaleN;
+      rows.col(2) = -m.m1_kg / kForceScaleN * course;
+      return rows;
+    });
+  }
+}
+
+void SplineProblem::addQuadraturePoint(const Spline& spline, std::size_t i, int point,
+                                       Local& local) const {
+  const auto index = static_cast<std::size_t>(point);
+  const Rows z = local.at(quadrature_[index]);
+  const double share = quadratureWeights()[index];
+  const double dt = local.duration_s * share;
+  const double half_inverse = 0.5 / local.duration_s;
+
+  const double speed = z.col(1).norm();
+  local.cost += weights.smooth * dt * z.col(3).squaredNorm() + weights.length * dt * speed;
+  if (local.model) {
+    for (int axis = 0; axis < 2; ++axis) {
+      Rows rows = Rows::Zero();
+      rows(axis, 3) = 1.0;
+      Local::Vector j = local.chain(rows);
+      j[Local::kDuration] += half_inverse * z(axis, 3);
+      local.addSquare(weights.smooth * dt, z(axis, 3), j);
+    }
+    if (speed > 1e-6) {
+      Rows rows = Rows::Zero();
+      rows.col(1) = z.col(1) / speed;
+      local.gradient += weights.length * dt * local.chain(rows);
+      local.gradient[Local::kDuration] += weights.length * share * speed;
+      rows.col(1) = across(rows.col(1));
+      local.addCurvature(weights.length * dt / std::max(speed, kSlowMps), local.chain(rows));
+    }
+  }
+  if (originals != nullptr && weights.original > 0.0) {
+    const Eigen::Vector2d off = z.col(0) - (*originals)[i][index];
+    local.cost += weights.original * share * off.squaredNorm();
+    if (local.model) {
+      for (int axis = 0; axis < 2; ++axis) {
+        Rows rows = Rows::Zero();
+        rows(axis, 0) = 1.0;
+        local.addSquare(weights.original * share, off[axis], local.chain(rows));
+      }
+    }
+  }
+  if (spline.spans[i].straight) {
+    addStraight(z, spline.knots[i].direction, local);
+  } else {
+    addFree(z, local);
+  }
+}
+
+void SplineProblem::addClearance(int point, bool straight, const Eigen::Vector2d& along,
+                                 Local& local) const {
+  const BasisMatrix& unit = clearance_[static_cast<std::size_t>(point)];
+  // Position first, the rest only near obstacles.
+  Eigen::Vector2d p = Eigen::Vector2d::Zero();
+  double power = 1.0;
+  for (int m = 0; m < 4; ++m) {
+    p += power * (unit(0, m) * local.ends.col(m) + unit(0, m + 4) * local.ends.col(m + 4));
+    power *= local.duration_s;
+  }
+  const map::DistanceField::Smooth centre = field->smooth(p);
+  const double reach =
+      std::max(limits.clearance_m,
+               limits.hull_offset_m > 0.0 ? limits.hull_offset_m + limits.hull_clearance_m : 0.0);
+  if (centre.distance_m > reach) {
+    return;
+  }
+  const Rows z = local.at(unit);
+  local.hinge(weights.clearance, limits.clearance_m - centre.distance_m, [&] {
+    Rows rows = Rows::Zero();
+    rows.col(0) = -centre.gradient;
+    return rows;
+  });
+  if (limits.hull_offset_m <= 0.0) {
+    return;
+  }
+  const vessel::PaperModel& m = vessel_.paper;
+  const Eigen::Vector2d w = m.m1_kg * z.col(2) + m.d2_kgps * z.col(1);
+  const double norm = std::max(w.norm(), kForceFloorN);
+  const Eigen::Vector2d bow = straight ? along : Eigen::Vector2d(w / norm);
+  for (const double offset : {-limits.hull_offset_m, limits.hull_offset_m}) {
+    const map::DistanceField::Smooth end = field->smooth(p + offset * bow);
+    local.hinge(weights.clearance, limits.hull_clearance_m - end.distance_m, [&] {
+      Rows rows = Rows::Zero();
+      rows.col(0) = -end.gradient;
+      if (!straight) {
+        const Eigen::Vector2d turn =
+            -offset / norm * (end.gradient - end.gradient.dot(bow) * bow);
+        rows.col(1) = m.d2_kgps * turn;
+        rows.col(2) = m.m1_kg * turn;
+      }
+      return rows;
+    });
+  }
+}
+
+void SplineProblem::addPiece(const Spline& spline, std::size_t i, Local& local) const {
+  const Span& span = spline.spans[i];
+  local.ends << spline.knots[i].state, spline.knots[i + 1].state;
+  local.duration_s = span.duration_s;
+  local.gradient.setZero();
+  local.hessian.setZero();
+  local.cost += weights.time * span.duration_s;
+  if (local.model) {
+    local.gradient[Local::kDuration] += weights.time;
+    local.hessian(Local::kDuration, Local::kDuration) += 0.5 * weights.time / span.duration_s;
+  }
+  for (int point = 0; point < kQuadraturePoints; ++point) {
+    addQuadraturePoint(spline, i, point, local);
+  }
+  if (field != nullptr) {
+    for (int point = 0; point < kClearancePoints; ++point) {
+      addClearance(point, span.straight, spline.knots[i].direction, local);
+    }
+  }
+}
+
+namespace {
+
+// Turns the four pairs starting at `first` of a piece's model into a knot's own frame.
+template <typename Vector, typename Matrix>
+void rotatePairs(const Eigen::Vector2d& direction, int first, Vector& gradient, Matrix& hessian) {
+  if (direction == Eigen::Vector2d::UnitX()) {
+    return;
+  }
+  Eigen::Matrix2d to_frame;
+  to_frame << direction.transpose(), across(direction).transpose();
+  for (int m = 0; m < 4; ++m) {
+    const int row = first + 2 * m;
+    gradient.template segment<2>(row) = (to_frame * gradient.template segment<2>(row)).eval();
+    hessian.template middleRows<2>(row) = (to_frame * hessian.template middleRows<2>(row)).eval();
+    hessian.template middleCols<2>(row) =
+        (hessian.template middleCols<2>(row) * to_frame.transpose()).eval();
+  }
+}
+
+void addEvenness(const Spline& spline, double& cost, System* system) {
+  for (std::size_t i = 0; i + 1 < spline.spans.size(); ++i) {
+    const Span& a = spline.spans[i];
+    const Span& b = spline.spans[i + 1];
+    if (a.straight || b.straight || !a.duration_free || !b.duration_free) {
+      continue;
+    }
+    const double off = a.duration_s - b.duration_s;
+    cost += kEvenness * off * off;
+    if (system != nullptr) {
+      system->right[i][8] -= 2.0 * kEvenness * off;
+      system->right[i + 1][8] += 2.0 * kEvenness * off;
+      system->diagonal[i](8, 8) += 2.0 * kEvenness;
+      system->diagonal[i + 1](8, 8) += 2.0 * kEvenness;
+      system->below[i](8, 8) -= 2.0 * kEvenness;
+    }
+  }
+}
+
+// What is not free does not move.
+void pin(System& system, std::size_t block, int row) {
+  system.diagonal[block].row(row).setZero();
+  system.diagonal[block].col(row).setZero();
+  system.diagonal[block](row, row) = 1.0;
+  system.right[block][row] = 0.0;
+  system.below[block].col(row).setZero();
+  if (block > 0) {
+    system.below[block - 1].row(row).setZero();
+  }
+}
+
+void pinAll(const Spline& spline, System& system) {
+  for (std::size_t k = 0; k < spline.knots.size(); ++k) {
+    for (int row = 0; row < 8; ++row) {
+      if (!spline.knots[k].free[static_cast<std::size_t>(row)]) {
+        pin(system, k, row);
+      }
+    }
+    if (k == spline.spans.size() || !spline.spans[k].duration_free) {
+      pin(system, k, 8);
+    }
+  }
+}
+
+}  // namespace
+
+double SplineProblem::evaluate(const Spline& spline, System* system) const {
+  Local local;
+  local.model = system != nullptr;
+  if (system != nullptr) {
+    system->reset(spline.knots.size());
+  }
+  for (std::size_t i = 0; i < spline.spans.size(); ++i) {
+    addPiece(spline, i, local);
+    if (system == nullptr) {
+      continue;
+    }
+    rotatePairs(spline.knots[i].direction, 0, local.gradient, local.hessian);
+    rotatePairs(spline.knots[i + 1].direction, 9, local.gradient, local.hessian);
+    system->diagonal[i] += local.hessian.topLeftCorner<9, 9>();
+    system->diagonal[i + 1].topLeftCorner<8, 8>() += local.hessian.bottomRightCorner<8, 8>();
+    system->below[i].topRows<8>() += local.hessian.bottomLeftCorner<8, 9>();
+    system->right[i] -= local.gradient.head<9>();
+    system->right[i + 1].head<8>() -= local.gradient.tail<8>();
+  }
+  addEvenness(spline, local.cost, system);
+  if (system != nullptr) {
+    pinAll(spline, *system);
+  }
+  return local.cost;
+}
+
+void SplineProblem::apply(const std::vector<System::Vector>& step, double scale, Spline& spline) {
+  for (std::size_t k = 0; k < spline.knots.size(); ++k) {
+    Knot& knot = spline.knots[k];
+    const Eigen::Vector2d side = across(knot.direction);
+    for (int m = 0; m < 4; ++m) {
+      knot.state.col(m) +=
+          scale * (step[k][2 * m] * knot.direction + step[k][2 * m + 1] * side);
+    }
+    if (k < spline.spans.size()) {
+      double& duration = spline.spans[k].duration_s;
+      duration = std::clamp(duration + scale * step[k][8], 0.6 * duration, 1.6 * duration);
+    }
+  }
+}
+
+}  // namespace otter_nav::optimizer

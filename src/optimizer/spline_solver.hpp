@@ -1,0 +1,30 @@
+// Levenberg and Marquardt's way down the spline problem's objective.
+#pragma once
+
+#include <functional>
+
+#include "otter_nav/optimizer/spline_problem.hpp"
+
+namespace otter_nav::optimizer {
+
+class SplineSolver {
+ public:
+  struct Stop {
+    int max_iterations = 12;
+    double relative_decrease = 1e-3;  // smaller improvements end it
+    // Asked before each iteration; empty: never out of time.
+    std::function<bool()> out_of_time;
+  };
+
+  // Improves `spline` in place; returns the number of closed-form solutions made.
+  int improve(const SplineProblem& problem, const Stop& stop, Spline& spline);
+  [[nodiscard]] double cost() const { return cost_; }
+
+ private:
+  Spline trial_;
+  System system_;
+  System trial_system_;
+  double cost_ = 0.0;
+};
+
+}  // namespace otter_nav::optimizer

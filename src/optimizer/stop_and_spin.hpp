@@ -1,0 +1,34 @@
+// The last resort: straight from point to point of a clear polyline, stopping at each to spin.
+// Slow, but feasible wherever the polyline is clear.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "otter_nav/optimizer/spin.hpp"
+#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::optimizer {
+
+class StopAndSpin {
+ public:
+  StopAndSpin(const vessel::Parameters& vessel, const SpinLimits& spin, const CheckOptions& check)
+      : vessel_(vessel), spin_(spin), check_(check) {}
+
+  // From rest at `start` to rest at `goal`, headings included; the way's ends are replaced by
+  // theirs.
+  [[nodiscard]] trajectory::Trajectory follow(const std::vector<Eigen::Vector2d>& way,
+                                              const Boundary& start, const Boundary& goal) const;
+
+ private:
+  void appendStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                      std::vector<trajectory::Piece>& pieces) const;
+
+  vessel::Parameters vessel_;
+  SpinLimits spin_;
+  CheckOptions check_;
+};
+
+}  // namespace otter_nav::optimizer

@@ -1,0 +1,227 @@
+#include "otter_nav/optimizer/verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "otter_nav/base/angles.hpp"
+#include "piece_check.hpp"
+
+namespace otter_nav::optimizer {
+namespace {
+
+// Largest jumps at a joint: what rounding leaves.
+constexpr double kJumpM = 1e-6;
+constexpr double kJumpMps = 1e-6;
+constexpr double kJumpMps2 = 1e-5;
+constexpr double kJumpMps3 = 1e-4;
+constexpr double kJumpRad = 1e-3;
+constexpr double kJumpRadps = 1e-3;
+// A boundary's velocity, acceleration and jerk are met this closely.
+constexpr double kEndMps = 2e-3;
+
+std::string sentence(const char* what, double t_s, double value, double limit) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s at %.2f s: %.3f (limit %.3f)", what, t_s, value, limit);
+  return text;
+}
+
+class Verifier {
+ public:
+  Verifier(const trajectory::Trajectory& trajectory, const map::DistanceField& field,
+           const vessel::Parameters& vessel, const CheckOptions& options)
+      : trajectory_(trajectory), field_(field), vessel_(vessel), options_(options) {
+    result_.clearance_m = std::numeric_limits<double>::infinity();
+    result_.heading_force_n = std::numeric_limits<double>::infinity();
+  }
+
+  Verification run(const Boundary* start, const Boundary* goal) {
+    result_.ok = !trajectory_.empty() || fail(0.0, "the trajectory is empty");
+    if (result_.ok) {
+      checkFinite();
+    }
+    if (result_.ok && start != nullptr) {
+      checkEnd(*start, 0, 0.0, "start");
+    }
+    if (result_.ok && goal != nullptr) {
+      const std::size_t last = trajectory_.pieces().size() - 1;
+      checkEnd(*goal, last, trajectory_.pieces()[last].duration_s, "goal");
+    }
+    for (std::size_t i = 0; i < trajectory_.pieces().size() && result_.ok; ++i) {
+      checkPiece(i);
+    }
+    return result_;
+  }
+
+ private:
+  bool fail(double t_s, std::string reason) {
+    result_.ok = false;
+    result_.fault_s = t_s;
+    result_.reason = std::move(reason);
+    return false;
+  }
+
+  void checkFinite() {
+    for (std::size_t i = 0; i < trajectory_.pieces().size(); ++i) {
+      const trajectory::Piece& piece = trajectory_.pieces()[i];
+      if (!(piece.duration_s > 0.0) || !std::isfinite(piece.duration_s) ||
+          !piece.position.allFinite() || !piece.heading.allFinite()) {
+        fail(trajectory_.startOf(i), sentence("a piece is not finite or has no duration",
+                                              trajectory_.startOf(i), piece.duration_s, 0.0));
+        return;
+      }
+    }
+  }
+
+  void checkEnd(const Boundary& boundary, std::size_t piece, double t_in_piece, const char* name) {
+    const double t = trajectory_.startOf(piece) + t_in_piece;
+    const std::string label(name);
+    const vessel::FlatPoint z = trajectory_.pieces()[piece].flat(t_in_piece);
+    const double off = (z.position - boundary.flat.position).norm();
+    if (off > options_.position_tolerance_m) {
+      fail(t, sentence((label + " position missed").c_str(), t, off,
+                       options_.position_tolerance_m));
+      return;
+    }
+    double motion = (z.velocity - boundary.flat.velocity).norm();
+    if (!atRest(boundary)) {
+      motion = std::max({motion, (z.acceleration - boundary.flat.acceleration).norm(),
+                         (z.jerk - boundary.flat.jerk).norm()});
+    }
+    if (motion > kEndMps) {
+      fail(t, sentence((label + " motion missed").c_str(), t, motion, kEndMps));
+      return;
+    }
+    if (atRest(boundary)) {
+      const PieceCheck check(trajectory_.pieces()[piece], vessel_, options_);
+      const double turn = std::abs(wrapAngle(check.heading(t_in_piece) - boundary.psi_rad));
+      if (!(turn <= options_.heading_tolerance_rad)) {
+        fail(t, sentence((label + " heading missed").c_str(), t, turn,
+                         options_.heading_tolerance_rad));
+      }
+    }
+  }
+
+  // The joint before piece `i`.
+  void checkJoint(std::size_t i, const PieceCheck& check) {
+    const trajectory::Piece& before = trajectory_.pieces()[i - 1];
+    const trajectory::Piece& after = trajectory_.pieces()[i];
+    const double t = trajectory_.startOf(i);
+    const vessel::FlatPoint a = before.flat(before.duration_s);
+    const vessel::FlatPoint b = after.flat(0.0);
+    const auto jump = [&](const char* what, const Eigen::Vector2d& off, double limit) {
+      if (result_.ok && off.norm() > limit) {
+        fail(t, sentence(what, t, off.norm(), limit));
+      }
+    };
+    jump("position jumps", b.position - a.position, kJumpM);
+    jump("velocity jumps", b.velocity - a.velocity, kJumpMps);
+    jump("acceleration jumps", b.acceleration - a.acceleration, kJumpMps2);
+    jump("jerk jumps", b.jerk - a.jerk, kJumpMps3);
+    if (!result_.ok) {
+      return;
+    }
+    const double turn = std::abs(wrapAngle(check.heading(0.0) - heading_));
+    if (!(turn <= kJumpRad)) {
+      fail(t, sentence("heading jumps", t, turn, kJumpRad));
+      return;
+    }
+    const bool spin = after.kind == trajectory::PieceKind::kSpin;
+    const bool spun = before.kind == trajectory::PieceKind::kSpin;
+    if (spin || spun) {
+      // A sailing piece that meets a spin is straight there, at rest, and does not turn.
+      const double rate = (spin ? after.spinHeading(0.0)[1] : 0.0) -
+                          (spun ? before.spinHeading(before.duration_s)[1] : 0.0);
+      if (std::abs(rate) > kJumpRadps) {
+        fail(t, sentence("yaw rate jumps", t, std::abs(rate), kJumpRadps));
+      }
+    }
+  }
+
+  void checkPiece(std::size_t i) {
+    const trajectory::Piece& piece = trajectory_.pieces()[i];
+    const PieceCheck check(piece, vessel_, options_);
+    if (i > 0) {
+      checkJoint(i, check);
+    }
+    if (!result_.ok) {
+      return;
+    }
+    PieceReport report;
+    check.checkDynamics(report);
+    if (report.fault == Fault::kNone) {
+      check.checkClearance(field_, report);
+      result_.clearance_m = std::min(result_.clearance_m, report.clearance_m);
+    }
+    result_.thrust_share = std::max(result_.thrust_share, report.thrust_share);
+    result_.speed_mps = std::max(result_.speed_mps, report.speed_mps);
+    result_.yaw_rate_radps = std::max(result_.yaw_rate_radps, report.yaw_rate_radps);
+    result_.heading_force_n = std::min(result_.heading_force_n, report.heading_force_n);
+    if (report.fault != Fault::kNone) {
+      explain(report, trajectory_.startOf(i) + report.time_s);
+      return;
+    }
+    heading_ = check.heading(piece.duration_s);
+  }
+
+  void explain(const PieceReport& r, double t) {
+    const CheckOptions& o = options_;
+    switch (r.fault) {
+      case Fault::kThrust:
+        fail(t, sentence("thrust share too large", t, r.thrust_share, o.thrust_share));
+        break;
+      case Fault::kSpeed:
+        fail(t, sentence("too fast, m/s", t, r.speed_mps, o.speed_max_mps));
+        break;
+      case Fault::kYawRate:
+        fail(t, sentence("turns too fast, rad/s", t, r.yaw_rate_radps, o.yaw_rate_max_radps));
+        break;
+      case Fault::kHeadingUndefined:
+        fail(t, sentence("turns without a force to turn by, N", t, r.heading_force_n,
+                         o.heading_force_min_n));
+        break;
+      case Fault::kHeadingJump:
+        fail(t, sentence("heading swings across the course", t, 0.0, 0.0));
+        break;
+      case Fault::kAstern:
+        fail(t, sentence("sails astern", t, 0.0, 0.0));
+        break;
+      case Fault::kClearance:
+        fail(t, sentence("too near an obstacle, m", t, r.clearance_m, o.clearance_m));
+        break;
+      case Fault::kHull:
+        fail(t, sentence("the hull touches an obstacle", t, r.clearance_m, o.clearance_m));
+        break;
+      case Fault::kNone:
+        break;
+    }
+  }
+
+  const trajectory::Trajectory& trajectory_;
+  const map::DistanceField& field_;
+  const vessel::Parameters& vessel_;
+  const CheckOptions& options_;
+  Verification result_;
+  double heading_ = 0.0;  // at the end of the piece before
+};
+
+}  // namespace
+
+bool atRest(const Boundary& boundary) {
+  return boundary.flat.velocity.norm() < 1e-3 && boundary.flat.acceleration.norm() < 1e-3 &&
+         boundary.flat.jerk.norm() < 1e-3;
+}
+
+Verification verify(const trajectory::Trajectory& trajectory, const map::DistanceField& field,
+                    const vessel::Parameters& vessel, const Boundary& start, const Boundary& goal,
+                    const CheckOptions& options) {
+  return Verifier(trajectory, field, vessel, options).run(&start, &goal);
+}
+
+Verification verify(const trajectory::Trajectory& trajectory, const map::DistanceField& field,
+                    const vessel::Parameters& vessel, const CheckOptions& options) {
+  return Verifier(trajectory, field, vessel, options).run(nullptr, nullptr);
+}
+
+}  // namespace otter_nav::optimizer
