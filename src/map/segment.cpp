@@ -8,18 +8,6 @@ namespace {
 
 constexpr double kShortestStep_m = 1e-4;
 
-// Along a line the squared distance less the squared arc length is concave: between two points
-// `length` apart with squared distances a and b it is at least
-// (1 - k) a + k b - k (1 - k) length^2, whose least value over k in [0, 1] this is.
-double leastSquaredBetween(double a, double b, double length) {
-  const double l2 = length * length;
-  const double k = 0.5 * (1.0 + (a - b) / l2);
-  if (k <= 0.0 || k >= 1.0) {
-    return std::min(a, b);
-  }
-  return (1.0 - k) * a + k * b - k * (1.0 - k) * l2;
-}
-
 }  // namespace
 
 bool segmentIsClear(const DistanceField& field, const Eigen::Vector2d& from,

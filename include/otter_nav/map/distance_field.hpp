@@ -9,6 +9,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -45,6 +47,15 @@ class DistanceField {
 
   // Whether clearance(p) >= clearance_m, for less: ridges need no exact distance then.
   [[nodiscard]] bool isClear(const Eigen::Vector2d& p, double clearance_m) const;
+
+  // The distance, m, at the corner south-west of cell (column, row), exact up to rounding; 0 on
+  // and inside outlines. Columns 0 to width, rows 0 to height.
+  [[nodiscard]] double cornerClearance(int column, int row) const {
+    const float distance =
+        corner_distance_[static_cast<std::size_t>(row) * static_cast<std::size_t>(corner_width_) +
+                         static_cast<std::size_t>(column)];
+    return distance > 0.0F ? distance * geometry_.resolution_m : 0.0;
+  }
 
   // A smooth (bilinear between cell corners, C0) signed distance in m for optimisation, negative
   // inside obstacles and outside the map, with its gradient (d distance / d p). Not a bound.
@@ -87,6 +98,18 @@ class DistanceField {
   std::vector<std::uint8_t> corner_kind_;
   std::vector<std::uint16_t> corner_up_, corner_down_;
 };
+
+// The least squared distance there can be between two points `length` apart whose squared
+// distances are at least a and b: along a line the squared distance less the squared arc length is
+// concave, so at a share k of the way it is at least (1 - k) a + k b - k (1 - k) length^2.
+inline double leastSquaredBetween(double a, double b, double length) {
+  const double l2 = length * length;
+  if (std::abs(a - b) >= l2) {
+    return std::min(a, b);
+  }
+  const double k = 0.5 * (1.0 + (a - b) / l2);
+  return (1.0 - k) * a + k * b - k * (1.0 - k) * l2;
+}
 
 // Whether the straight segment keeps `clearance_m` from everything occupied. Proven, not sampled:
 // between two points the concavity above bounds the distance from below. A segment that clears by

@@ -18,12 +18,14 @@ namespace otter_nav::topology {
 struct Options {
   double turning_radius_m = 3.0;     // of the Dubins curve
   double clearance_m = 0.8;          // every segment keeps this from every occupied square
-  double clearance_margin_m = 0.02;  // on top, so that what follows the path has room to round off
-  double safe_distance_m = 1.6;      // collision points are pushed out to this where there is room
+  double clearance_margin_m = 0.02;  // on top where there is room, for what rounds the path off
+  double safe_distance_m = 1.6;      // collision points are pushed out to this
   double corridor_max_m = 6.0;       // corridor radii end here
-  double local_window_m = 15.0;      // a repair first looks this far around its stretch
-  int max_repairs = 3;               // colliding stretches repaired singly; with more, one search
-                                     // from start to goal is quicker
+  double lattice_m = 1.0;            // spacing of the A* search's nodes
+  double local_window_m = 15.0;      // a repair looks this far around its stretch
+  int max_repairs = 8;        // with more colliding stretches the whole way is searched at once
+  double good_ratio = 1.01;   // a repaired path this close to the straight line is not improved
+  int max_expansions = 6000;  // of the search that improves it; the first path is found regardless
 };
 [[nodiscard]] Result<Options> readOptions(config::Section section);
 
@@ -67,6 +69,11 @@ class GuidePathFinder {
 
  private:
   struct Workspace;
+  bool searchWhole(const map::DistanceField& field, double clearance_m, const Pose& start,
+                   const Pose& goal);
+  void improve(const map::DistanceField& field, double clearance_m, const Pose& start,
+               const Pose& goal);
+
   Options options_;
   std::unique_ptr<Workspace> workspace_;
 };
