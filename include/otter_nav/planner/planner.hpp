@@ -98,8 +98,8 @@ class Planner {
                           const Termination& termination);
 
  private:
-  class Search;
-  std::unique_ptr<Search> search_;
+  class Pipeline;
+  std::unique_ptr<Pipeline> pipeline_;
 };
 
 }  // namespace otter_nav::planner

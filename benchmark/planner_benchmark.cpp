@@ -1,0 +1,85 @@
+// The paper's table I on a folder of scenarios: plans every mission with every method and seed,
+// prints the table, and writes the cases as JSON and the trajectories as CSV. Needs no ROS master.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "otter_nav/config/share.hpp"
+#include "planner_cases.hpp"
+#include "planner_report.hpp"
+#include "progress_bar.hpp"
+
+namespace {
+
+using otter_nav::benchmark::Request;
+
+void addOptions(CLI::App& app, Request& request, std::string& out, bool& profile) {
+  app.add_option("--scenarios", request.scenarios, "folder of scenario files")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--map", request.map, "plan on the world or on the chart")
+      ->check(CLI::IsMember({"world", "chart"}))
+      ->capture_default_str();
+  app.add_option("--kind", request.kind, "missions to plan")
+      ->check(CLI::IsMember({"local", "cross", "all"}))
+      ->capture_default_str();
+  app.add_option("--seeds", request.seeds, "seeds 1 to N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--budget-ms", request.budget_ms, "time for one query")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
+  app.add_option("--methods", request.methods, "comma-separated: baseline,local,global,proposed")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"baseline", "local", "global", "proposed"}))
+      ->capture_default_str();
+  app.add_option("--vessel", request.vessel, "name in config/vessels or a YAML file")
+      ->capture_default_str();
+  app.add_option("--config", request.config,
+                 "folder of planner.yaml, optimizer.yaml, topology.yaml (default: the package's)");
+  app.add_option("--out", out, "JSON file to write");
+  app.add_option("--dump", request.dump, "folder for trajectories, one CSV a case");
+  app.add_flag("--profile", profile, "print where the time went");
+}
+
+int fail(const std::string& message) {
+  std::cerr << "planner_benchmark: " << message << "\n";
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Request request;
+  std::string out;
+  bool profile = false;
+  CLI::App app("Plans every mission of a folder of scenarios and prints the paper's table I.");
+  addOptions(app, request, out, profile);
+  CLI11_PARSE(app, argc, argv);
+  if (request.config.empty()) {
+    const auto share = otter_nav::config::shareDirectory();
+    if (!share) {
+      return fail(share.error().message);
+    }
+    request.config = *share + "/config";
+  }
+  std::ofstream json;
+  if (!out.empty()) {
+    json.open(out);
+    if (!json) {
+      return fail("--out: can't write " + out);
+    }
+  }
+  otter_nav::benchmark::ProgressBar bar;
+  const auto outcome =
+      otter_nav::benchmark::runCases(request, [&bar](int done, int all) { bar.show(done, all); });
+  if (!outcome) {
+    return fail(outcome.error().message);
+  }
+  otter_nav::benchmark::printTable(*outcome, request, profile, std::cout);
+  if (json) {
+    json << otter_nav::benchmark::toJson(*outcome, request).dump(1) << "\n";
+  }
+  return json.fail() && !out.empty() ? fail("--out: writing " + out + " failed") : 0;
+}

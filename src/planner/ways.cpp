@@ -1,0 +1,143 @@
+#include "ways.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/optimizer/spin.hpp"
+
+namespace otter_nav::planner {
+namespace {
+
+using trajectory::Piece;
+using vessel::FlatPoint;
+
+constexpr double kLaunchM = 3.0;
+constexpr double kLaunchSpeedShare = 0.4;  // of the top speed, at the launch's end
+
+FlatPoint reversed(const FlatPoint& z) {
+  FlatPoint r = z;
+  r.velocity = -z.velocity;
+  r.jerk = -z.jerk;
+  return r;
+}
+
+// z(t / slowdown): the same way, each derivative smaller by another power.
+Piece slowed(const Piece& piece, double slowdown) {
+  Piece slow = piece;
+  slow.duration_s = slowdown * piece.duration_s;
+  double power = 1.0;
+  for (int k = 0; k < trajectory::kCoefficients; ++k) {
+    slow.position.col(k) *= power;
+    power /= slowdown;
+  }
+  return slow;
+}
+
+// Jerks on both sides of each joint averaged; next to launch and stop only their part along the
+// way is kept, so that these stay straight.
+std::vector<Piece> smoothed(const std::vector<Piece>& way) {
+  std::vector<FlatPoint> knots(way.size() + 1);
+  knots.front() = way.front().flat(0.0);
+  knots.back() = way.back().flat(way.back().duration_s);
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const FlatPoint before = way[i - 1].flat(way[i - 1].duration_s);
+    knots[i] = way[i].flat(0.0);
+    knots[i].jerk = 0.5 * (before.jerk + knots[i].jerk);
+    const bool at_launch = i == 1 && way.front().flat(0.0).velocity.norm() < 1e-6;
+    if (at_launch || i + 1 == way.size()) {
+      const Eigen::Vector2d along = knots[i].velocity.normalized();
+      knots[i].jerk = along * along.dot(knots[i].jerk);
+    }
+  }
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    pieces.push_back(trajectory::hermitePiece(knots[i], knots[i + 1], way[i].duration_s));
+  }
+  return pieces;
+}
+
+double course(const Eigen::Vector2d& v) {
+  return std::atan2(v.y(), v.x());
+}
+
+trajectory::Trajectory assemble(const std::vector<Piece>& smooth, double slowdown,
+                                const optimizer::Boundary& start, const optimizer::Boundary& goal,
+                                const vessel::Parameters& vessel) {
+  std::vector<Piece> pieces;
+  const optimizer::SpinLimits spin;
+  if (optimizer::atRest(start)) {
+    const Piece& first = smooth.front();
+    const double psi = course(first.flat(first.duration_s).velocity);
+    optimizer::appendSpin(start.flat.position, start.psi_rad, wrapAngle(psi - start.psi_rad),
+                          vessel, spin, pieces);
+  }
+  for (const Piece& piece : smooth) {
+    pieces.push_back(slowed(piece, slowdown));
+  }
+  const double psi = course(smooth.back().flat(0.0).velocity);
+  optimizer::appendSpin(goal.flat.position, psi, wrapAngle(goal.psi_rad - psi), vessel, spin,
+                        pieces);
+  return trajectory::Trajectory(std::move(pieces));
+}
+
+}  // namespace
+
+double trajectoryCost(const trajectory::Trajectory& trajectory, double sigma) {
+  double cost = 0.0;
+  for (const Piece& piece : trajectory.pieces()) {
+    cost += piece.kind == trajectory::PieceKind::kSpin ? sigma * piece.duration_s
+                                                       : pieceCost(piece, sigma);
+  }
+  return cost;
+}
+
+Launch launchFrom(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
+                  double top_speed_mps) {
+  FlatPoint rest;
+  rest.position = position;
+  FlatPoint end;
+  end.position = position + kLaunchM * direction;
+  end.velocity = kLaunchSpeedShare * top_speed_mps * direction;
+  Launch launch;
+  launch.root.position = end.position;
+  launch.root.velocity = end.velocity;
+  launch.piece = trajectory::hermitePiece(rest, end, 2.0 * kLaunchM / end.velocity.norm());
+  return launch;
+}
+
+Launch stopAt(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
+              double top_speed_mps) {
+  Launch stop = launchFrom(position, -direction, top_speed_mps);
+  FlatPoint rest;
+  rest.position = position;
+  const FlatPoint moving = reversed(stop.piece.flat(stop.piece.duration_s));
+  stop.root.velocity = moving.velocity;
+  stop.piece = trajectory::hermitePiece(moving, rest, stop.piece.duration_s);
+  return stop;
+}
+
+Result<trajectory::Trajectory> closeWay(const std::vector<Piece>& way,
+                                        const optimizer::Boundary& start,
+                                        const optimizer::Boundary& goal,
+                                        const map::DistanceField& field,
+                                        const vessel::Parameters& vessel,
+                                        const optimizer::CheckOptions& check) {
+  constexpr std::array<double, 7> kSlowdown = {1.0, 1.05, 1.1, 1.2, 1.4, 1.7, 2.1};
+  const std::vector<Piece> smooth = smoothed(way);
+  std::string reason;
+  for (const double slowdown : kSlowdown) {
+    if (slowdown > 1.0 && !optimizer::atRest(start)) {
+      break;
+    }
+    trajectory::Trajectory trajectory = assemble(smooth, slowdown, start, goal, vessel);
+    const auto verification = optimizer::verify(trajectory, field, vessel, start, goal, check);
+    if (verification.ok) {
+      return trajectory;
+    }
+    reason = verification.reason;
+  }
+  return failure("the trees' way can't be made sound: " + reason);
+}
+
+}  // namespace otter_nav::planner
