@@ -145,6 +145,19 @@ Section Section::child(const std::string& key) {
   return {find(key), where_ + "/" + key};
 }
 
+std::vector<Section> Section::children(const std::string& key) {
+  const YAML::Node found = find(key);
+  std::vector<Section> sections;
+  if (found && !found.IsSequence()) {
+    fail(key, "is not a list of mappings");
+  } else if (found) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      sections.emplace_back(found[i], where_ + "/" + key + "[" + std::to_string(i) + "]");
+    }
+  }
+  return sections;
+}
+
 Status Section::finish() const {
   if (!first_error_.empty()) {
     return failure(first_error_);

@@ -42,6 +42,8 @@ class Section {
   [[nodiscard]] bool has(const std::string& key) const;
   // A nested mapping; its finish() is the caller's to call. An absent one is an error.
   Section child(const std::string& key);
+  // A list of mappings, each as a section.
+  std::vector<Section> children(const std::string& key);
 
   // The first error, or an unknown key, or success.
   [[nodiscard]] Status finish() const;

@@ -11,15 +11,16 @@
 
 namespace otter_nav::plant {
 
-// Mean, a slow variation and gusts along the mean direction: two first-order Gauss-Markov
+// Mean, a slow variation of speed and direction, gusts along the wind: first-order Gauss-Markov
 // processes (Fossen 2021, section 10.1; the gust's first-order spectrum is Dryden's).
 struct WindOptions {
   double speed_mps = 0.0;
   double direction_rad = 0.0;
-  double slow_deviation_mps = 0.0;  // standard deviation of the slow variation
-  double slow_time_s = 100.0;       // its correlation time
-  double gust_intensity = 0.0;      // standard deviation of the gusts over the mean speed
-  double gust_time_s = 5.0;         // their correlation time
+  double slow_deviation_mps = 0.0;       // standard deviation of the speed's slow variation
+  double direction_deviation_rad = 0.0;  // and of the direction's
+  double slow_time_s = 100.0;            // their correlation time
+  double gust_intensity = 0.0;           // standard deviation of the gusts over the mean speed
+  double gust_time_s = 5.0;              // their correlation time
 };
 
 struct CurrentOptions {
