@@ -5,13 +5,16 @@
 namespace otter_nav::planner {
 namespace {
 
-// One mapping of one file, through that room's reader.
+// One file through a room's reader: its root, or the mapping `key` of it.
 template <typename Reader>
-auto loadMapping(const std::string& path, const std::string& key, const Reader& reader)
+auto loadWith(const std::string& path, const std::string& key, const Reader& reader)
     -> decltype(reader(config::Section(YAML::Node(), ""))) {
   const auto root = config::loadFile(path);
   if (!root) {
     return failure(root.error().message);
+  }
+  if (key.empty()) {
+    return reader(config::Section(*root, path));
   }
   if (!root->IsMap() || !(*root)[key]) {
     return failure(path + ": no mapping '" + key + "'");
@@ -49,19 +52,18 @@ Result<Options> readOptions(config::Section section) {
 }
 
 Result<Options> loadOptions(const std::string& folder) {
-  auto options = loadMapping(folder + "/planner.yaml", "planner", readOptions);
+  auto options = loadWith(folder + "/planner.yaml", "", readOptions);
   if (!options) {
     return options;
   }
-  const auto topology =
-      loadMapping(folder + "/topology.yaml", "topology",
-                  [](const config::Section& s) { return topology::readOptions(s); });
-  const auto local = loadMapping(folder + "/optimizer.yaml", "local", [](const config::Section& s) {
+  const auto topology = loadWith(folder + "/topology.yaml", "",
+                                 [](const config::Section& s) { return topology::readOptions(s); });
+  const auto local = loadWith(folder + "/optimizer.yaml", "local", [](const config::Section& s) {
     return optimizer::readLocalOptions(s);
   });
-  const auto global =
-      loadMapping(folder + "/optimizer.yaml", "global",
-                  [](const config::Section& s) { return optimizer::readGlobalOptions(s); });
+  const auto global = loadWith(folder + "/optimizer.yaml", "global", [](const config::Section& s) {
+    return optimizer::readGlobalOptions(s);
+  });
   if (!topology) {
     return failure(topology.error().message);
   }

@@ -40,7 +40,7 @@ struct Options {
   optimizer::GlobalOptions global;
 };
 
-// config/planner.yaml: mapping `planner`. The other rooms' options keep their defaults.
+// config/planner.yaml's root. The other rooms' options keep their defaults.
 [[nodiscard]] Result<Options> readOptions(config::Section section);
 
 // planner.yaml, optimizer.yaml and topology.yaml of a folder.
