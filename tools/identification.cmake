@@ -8,3 +8,5 @@ else()
     SOURCES ${CMAKE_CURRENT_LIST_DIR}/identify.cpp
     ROOMS identification bag)
 endif()
+otter_nav_program(excitation_run
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/excitation_run.cpp ROOMS identification plant)

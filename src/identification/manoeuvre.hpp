@@ -1,0 +1,27 @@
+// One manoeuvre under way.
+#pragma once
+
+#include <memory>
+
+#include "otter_nav/identification/manoeuvres.hpp"
+
+namespace otter_nav::identification {
+
+// Shares of thrust: mean and half the difference.
+struct Shares {
+  double ahead = 0.0;
+  double turn = 0.0;
+};
+
+class Manoeuvre {
+ public:
+  virtual ~Manoeuvre() = default;
+  // `elapsed_s` since the manoeuvre began, `psi_rad` unwrapped.
+  virtual Shares step(double elapsed_s, double psi_rad, double yaw_rate_radps) = 0;
+  [[nodiscard]] virtual bool finished() const = 0;
+};
+
+[[nodiscard]] std::unique_ptr<Manoeuvre> makeManoeuvre(const ManoeuvreOptions& options,
+                                                       double psi_rad);
+
+}  // namespace otter_nav::identification
