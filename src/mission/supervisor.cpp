@@ -92,6 +92,7 @@ Result<Orders> Supervisor::setGoal(double now_s, const Goal& goal, const Situati
   latency_s_ = options_.planning_latency_s;
   if (phase_ == Phase::kSailing || phase_ == Phase::kReplanning) {
     enter(Phase::kReplanning, "new goal");
+    for_clearance_ = false;
     return requestFromSailed(now_s, field);
   }
   if (phase_ == Phase::kStopping) {

@@ -56,12 +56,16 @@ Orders Supervisor::watchTheWay(double now_s, const Situation& situation,
   if (ahead.found) {
     if (phase_ == Phase::kSailing) {
       enter(Phase::kReplanning, conflictText(ahead));
+      for_clearance_ = true;
     }
     const Conflict blocking = firstConflict(sailed_.trajectory, at, field, least);
     if (blocking.found && blocking.time_s - at < options_.brake_horizon_s &&
         mustBrake(now_s, field)) {
       return brake(now_s, field, conflictText(blocking));
     }
+  } else if (phase_ == Phase::kReplanning && for_clearance_) {
+    pending_.reset();
+    enter(Phase::kSailing);
   }
   return replanIfNeeded(now_s, situation, field);
 }
@@ -73,6 +77,7 @@ Orders Supervisor::replanIfNeeded(double now_s, const Situation& situation,
   }
   if (situation.tracking_error_m > options_.tracking_error_max_m) {
     enter(Phase::kReplanning, "far off the trajectory");
+    for_clearance_ = false;
     return requestFromVessel(now_s, situation, field);
   }
   if (phase_ == Phase::kReplanning) {

@@ -213,6 +213,7 @@ class Supervisor {
   double plan_time_s_ = 0.0;         // when the sailed trajectory was taken
   double phase_time_s_ = 0.0;        // when the vessel began to stop
   std::optional<Phase> after_stop_;  // kIdle or kFailed: the mission ends with the stop
+  bool for_clearance_ = false;       // replanning because of the way's clearance, nothing else
   int replans_ = 0;
   int stops_ = 0;
 };

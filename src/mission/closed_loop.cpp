@@ -1,0 +1,257 @@
+#include "otter_nav/mission/closed_loop.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "otter_nav/mission/plan_desk.hpp"
+#include "otter_nav/mission/sensing.hpp"
+#include "otter_nav/plant/simulator.hpp"
+#include "otter_nav/tracker/tracker.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double milliseconds() const {
+    const auto passed = std::chrono::steady_clock::now() - begin_;
+    return std::chrono::duration<double, std::milli>(passed).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+class ClosedLoop::Impl {
+ public:
+  Impl(const LoopOptions& options, plant::Simulator plant, map::OccupancyGrid chart,
+       const Mission& mission, std::uint64_t seed)
+      : options_(options),
+        plant_(std::move(plant)),
+        sensing_(std::move(chart), options),
+        desk_(options.planner, options.vessel),
+        tracker_(options.tracker, options.vessel),
+        supervisor_(options.supervisor, options.vessel, seed),
+        goal_{mission.goal.position, mission.goal.psi_rad} {
+    plant_.placeAt(mission.start.position, mission.start.psi_rad);
+  }
+
+  bool step();
+  [[nodiscard]] bool over() const { return outcome_.has_value(); }
+  [[nodiscard]] double time() const { return plant_.time(); }
+  [[nodiscard]] const Supervisor& supervisor() const { return supervisor_; }
+  [[nodiscard]] MotionSample motion() const;
+  [[nodiscard]] Progress progress() const;
+  [[nodiscard]] MissionResult result(const MissionLabel& label) const {
+    return recorder_.result(label, outcome_.value_or(Outcome::kTimeout), reason_,
+                            supervisor_.replans());
+  }
+
+ private:
+  void sense();
+  void start();
+  void control();
+  void judge();
+  void obey(const Orders& orders);
+  [[nodiscard]] Situation situation() const;
+  void finish(Outcome outcome, std::string reason) {
+    outcome_ = outcome;
+    reason_ = std::move(reason);
+  }
+
+  LoopOptions options_;
+  plant::Simulator plant_;
+  Sensing sensing_;
+  PlanDesk desk_;
+  tracker::Tracker tracker_;
+  Supervisor supervisor_;
+  Goal goal_;
+  Recorder recorder_;
+  tracker::Command command_;
+  bool started_ = false;
+  bool stop_ordered_ = false;
+  // The answer to the last request, and when the vessel gets it.
+  std::optional<PlanReply> reply_;
+  double reply_time_s_ = 0.0;
+  double last_record_s_ = -1e9;
+  std::optional<Outcome> outcome_;
+  std::string reason_;
+};
+
+bool ClosedLoop::Impl::step() {
+  if (over()) {
+    return false;
+  }
+  sense();
+  if (reply_ && time() >= reply_time_s_) {
+    const PlanReply reply = std::move(*reply_);
+    reply_.reset();
+    obey(supervisor_.planFinished(time(), reply, situation(), sensing_.field()));
+  }
+  control();
+  judge();
+  return !over();
+}
+
+void ClosedLoop::Impl::sense() {
+  const plant::Odometry& odometry = plant_.odometry();
+  tracker_.addOdometry(odometry.stamp_s, odometry.state);
+  if (!plant_.scanDue()) {
+    return;
+  }
+  if (const Status status = sensing_.insert(plant_.scan(), odometry); !status) {
+    finish(Outcome::kError, status.error().message);
+    return;
+  }
+  if (!started_) {
+    start();
+    return;
+  }
+  obey(supervisor_.update(time(), situation(), sensing_.field()));
+}
+
+void ClosedLoop::Impl::start() {
+  started_ = true;
+  const Result<Orders> orders = supervisor_.setGoal(time(), goal_, situation(), sensing_.field());
+  if (orders) {
+    obey(*orders);
+  } else {
+    finish(Outcome::kError, orders.error().message);
+  }
+}
+
+void ClosedLoop::Impl::control() {
+  const Stopwatch watch;
+  command_ = tracker_.step(time());
+  recorder_.addTracking(watch.milliseconds());
+  plant_.step(command_.thrusts, options_.control_period_s);
+  if (time() - last_record_s_ >= options_.record_period_s - 1e-6) {
+    last_record_s_ = time();
+    recorder_.addMotion(motion());
+  }
+}
+
+void ClosedLoop::Impl::judge() {
+  if (plant_.hadContact()) {
+    finish(Outcome::kCollided,
+           "the hull touched something while " + std::string(name(supervisor_.phase())));
+  } else if (supervisor_.phase() == Phase::kArrived) {
+    finish(Outcome::kArrived, {});
+  } else if (supervisor_.phase() == Phase::kFailed) {
+    finish(Outcome::kStopped, supervisor_.reason());
+  } else if (!over() && time() >= options_.timeout_s) {
+    finish(Outcome::kTimeout, std::string(name(supervisor_.phase())) + ": " + supervisor_.reason());
+  }
+}
+
+void ClosedLoop::Impl::obey(const Orders& orders) {
+  if (orders.stop) {
+    stop_ordered_ = true;
+    tracker_.requestStop("stop ordered");
+  }
+  if (orders.sail) {
+    stop_ordered_ = false;
+    const Status status =
+        tracker_.setTrajectory(orders.sail->trajectory, orders.sail->start_time_s);
+    if (!status) {
+      finish(Outcome::kError, "the tracker refused a trajectory: " + status.error().message);
+    }
+  }
+  if (orders.plan) {
+    const Stopwatch watch;
+    planner::Termination termination;
+    termination.max_iterations = options_.planning_iterations;
+    PlanDesk::Answer answer = desk_.answer(*orders.plan, sensing_.field(), termination);
+    recorder_.addPlanning(watch.milliseconds());
+    reply_ = std::move(answer.reply);
+    // A little before the new trajectory begins, as in life.
+    constexpr double kEarlyS = 0.05;
+    reply_time_s_ = time() + options_.supervisor.planning_latency_s - kEarlyS;
+  }
+}
+
+Situation ClosedLoop::Impl::situation() const {
+  Situation situation;
+  situation.state = plant_.odometry().state;
+  situation.odometry_stamp_s = plant_.odometry().stamp_s;
+  situation.tracking_error_m = command_.tracking_error_m;
+  using tracker::Mode;
+  const bool braking = command_.mode == Mode::kStopping || command_.mode == Mode::kStopped;
+  situation.tracker_fault = command_.mode == Mode::kFault || (braking && !stop_ordered_);
+  situation.tracker_reason = std::string(command_.reason);
+  return situation;
+}
+
+MotionSample ClosedLoop::Impl::motion() const {
+  const plant::Truth& truth = plant_.truth();
+  MotionSample sample;
+  sample.t_s = truth.stamp_s;
+  sample.state = truth.planar;
+  sample.roll_rad = truth.roll_rad;
+  sample.pitch_rad = truth.pitch_rad;
+  sample.thrusts_n = truth.thrusts_n;
+  sample.clearance_m = plant_.clearance();
+  const SailOrder& sailed = supervisor_.sailed();
+  if (!sailed.trajectory.empty()) {
+    sample.reference =
+        sailed.trajectory.sample(time() - sailed.start_time_s, options_.vessel).state.head<3>();
+  }
+  return sample;
+}
+
+Progress ClosedLoop::Impl::progress() const {
+  const MotionSample now = motion();
+  Progress progress;
+  progress.t_s = now.t_s;
+  progress.speed_mps = now.state.segment<2>(vessel::kSurge).norm();
+  progress.clearance_m = now.clearance_m;
+  progress.tracking_error_m = command_.tracking_error_m;
+  progress.state = name(supervisor_.phase());
+  progress.detail = supervisor_.reason();
+  const SailOrder& sailed = supervisor_.sailed();
+  progress.distance_left_m =
+      sailed.trajectory.empty()
+          ? (now.state.head<2>() - goal_.position).norm()
+          : trajectory::length(remainder(sailed.trajectory, time() - sailed.start_time_s));
+  return progress;
+}
+
+ClosedLoop::ClosedLoop(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ClosedLoop::~ClosedLoop() = default;
+ClosedLoop::ClosedLoop(ClosedLoop&&) noexcept = default;
+ClosedLoop& ClosedLoop::operator=(ClosedLoop&&) noexcept = default;
+
+Result<ClosedLoop> ClosedLoop::create(const LoopOptions& options, Waters waters,
+                                      const Mission& mission, std::uint64_t seed) {
+  Result<plant::Simulator> plant =
+      plant::Simulator::create(options.plant, std::move(waters.world), seed);
+  if (!plant) {
+    return failure(plant.error().message);
+  }
+  return ClosedLoop(
+      std::make_unique<Impl>(options, std::move(*plant), std::move(waters.chart), mission, seed));
+}
+
+bool ClosedLoop::step() {
+  return impl_->step();
+}
+double ClosedLoop::time() const {
+  return impl_->time();
+}
+const Supervisor& ClosedLoop::supervisor() const {
+  return impl_->supervisor();
+}
+MotionSample ClosedLoop::motion() const {
+  return impl_->motion();
+}
+Progress ClosedLoop::progress() const {
+  return impl_->progress();
+}
+MissionResult ClosedLoop::result(const MissionLabel& label) const {
+  return impl_->result(label);
+}
+
+}  // namespace otter_nav::mission

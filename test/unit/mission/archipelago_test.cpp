@@ -1,0 +1,116 @@
+#include "otter_nav/mission/archipelago.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "otter_nav/map/distance_field.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+ArchipelagoOptions small() {
+  ArchipelagoOptions options;
+  options.size_m = 120.0;
+  options.resolution_m = 0.5;
+  options.islands = 40.0;
+  options.local_missions = 3;
+  options.local_distance_m = 40.0;
+  options.cross_missions = 2;
+  return options;
+}
+
+// The test's own flood fill, cell by cell on the clearance.
+bool connected(const map::DistanceField& field, const Eigen::Vector2d& from,
+               const Eigen::Vector2d& to, double clearance_m) {
+  const map::GridGeometry& g = field.geometry();
+  const auto cells = static_cast<std::size_t>(g.width) * static_cast<std::size_t>(g.height);
+  std::vector<char> seen(cells, 0);
+  std::vector<Eigen::Vector2i> front = {g.cellAt(from)};
+  while (!front.empty()) {
+    const Eigen::Vector2i cell = front.back();
+    front.pop_back();
+    if (!g.containsCell(cell.x(), cell.y()) || seen[g.index(cell.x(), cell.y())] != 0 ||
+        field.clearance(g.centreOf(cell.x(), cell.y())) < clearance_m) {
+      continue;
+    }
+    seen[g.index(cell.x(), cell.y())] = 1;
+    for (const auto& step : {Eigen::Vector2i(1, 0), Eigen::Vector2i(-1, 0), Eigen::Vector2i(0, 1),
+                             Eigen::Vector2i(0, -1)}) {
+      front.push_back(cell + step);
+    }
+  }
+  const Eigen::Vector2i end = g.cellAt(to);
+  return seen[g.index(end.x(), end.y())] != 0;
+}
+
+TEST(Archipelago, MissionsCanBeSailedButNotStraight) {
+  const ArchipelagoOptions options = small();
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const auto archipelago = generateArchipelago(options, seed);
+    ASSERT_TRUE(archipelago.has_value()) << archipelago.error().message;
+    ASSERT_EQ(archipelago->missions.size(), 5U);
+    const map::DistanceField world(archipelago->world, {10.0, false});
+    for (const Mission& mission : archipelago->missions) {
+      const Eigen::Vector2d start = mission.start.position;
+      const Eigen::Vector2d goal = mission.goal.position;
+      EXPECT_GE(world.clearance(start), options.clear_m);
+      EXPECT_GE(world.clearance(goal), options.clear_m);
+      EXPECT_TRUE(connected(world, start, goal, options.passage_clearance_m));
+      EXPECT_FALSE(map::segmentIsClear(world, start, goal, 0.0));
+      const double apart = (goal - start).norm();
+      if (mission.kind == "local") {
+        EXPECT_NEAR(apart, 40.0, 4.01);
+      } else {
+        EXPECT_GE(apart, 0.63 * options.size_m);
+      }
+    }
+  }
+}
+
+TEST(Archipelago, WorldIsTheChartAndMore) {
+  const auto archipelago = generateArchipelago(small(), 4);
+  ASSERT_TRUE(archipelago.has_value());
+  const auto& chart = archipelago->chart.cells;
+  const auto& world = archipelago->world.cells;
+  int charted = 0;
+  int uncharted = 0;
+  for (std::size_t k = 0; k < chart.size(); ++k) {
+    charted += chart[k] == map::Cell::kOccupied ? 1 : 0;
+    uncharted += world[k] != chart[k] ? 1 : 0;
+    if (chart[k] == map::Cell::kOccupied) {
+      ASSERT_EQ(world[k], map::Cell::kOccupied);
+    }
+  }
+  const auto cells = static_cast<int>(chart.size());
+  EXPECT_GT(charted, cells / 50);
+  EXPECT_LT(charted, cells / 2);
+  EXPECT_GT(uncharted, 10);
+}
+
+TEST(Archipelago, SameSeedSameArchipelago) {
+  const auto a = generateArchipelago(small(), 5);
+  const auto b = generateArchipelago(small(), 5);
+  const auto c = generateArchipelago(small(), 6);
+  ASSERT_TRUE(a && b && c);
+  EXPECT_EQ(a->world.cells, b->world.cells);
+  EXPECT_EQ(a->missions[0].start.position, b->missions[0].start.position);
+  EXPECT_NE(a->world.cells, c->world.cells);
+}
+
+TEST(Archipelago, RefusesWhatCantBeDrawn) {
+  ArchipelagoOptions options = small();
+  options.size_m = -1.0;
+  auto refused = generateArchipelago(options, 1);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message.find("size"), std::string::npos);
+  options = small();
+  options.islands = 2000.0;
+  refused = generateArchipelago(options, 1);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message.find("no local mission"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace otter_nav::mission

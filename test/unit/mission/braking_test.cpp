@@ -1,0 +1,150 @@
+#include "otter_nav/mission/braking.hpp"
+
+#include <gtest/gtest.h>
+
+#include "otter_nav/optimizer/verification.hpp"
+#include "waters.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+using test::block;
+using test::circle;
+using test::eastward;
+using test::fieldOf;
+using test::openWater;
+using trajectory::Trajectory;
+
+constexpr double kSpeed = 4.3;
+
+optimizer::CheckOptions limits() {
+  optimizer::CheckOptions check;
+  check.clearance_m = BrakingOptions{}.clearance_m;
+  check.thrust_share = BrakingOptions{}.thrust_share;
+  check.speed_max_mps = 10.0;
+  return check;
+}
+
+void expectRest(const Trajectory& stop) {
+  const vessel::FlatPoint end = stop.flat(stop.duration());
+  EXPECT_LT(end.velocity.norm(), 1e-6);
+}
+
+void expectContinues(const Trajectory& sailed, double at_s, const Trajectory& stop) {
+  const vessel::FlatPoint before = sailed.flat(at_s);
+  const vessel::FlatPoint after = stop.flat(0.0);
+  EXPECT_LT((before.position - after.position).norm(), 1e-9);
+  EXPECT_LT((before.velocity - after.velocity).norm(), 1e-9);
+  EXPECT_LT((before.acceleration - after.acceleration).norm(), 1e-9);
+  EXPECT_LT((before.jerk - after.jerk).norm(), 1e-8);
+}
+
+TEST(Braking, IsGentleWhereThereIsRoom) {
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  const map::DistanceField field = fieldOf(openWater());
+  const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel::Parameters{}, {});
+  ASSERT_TRUE(stop.clear);
+  EXPECT_GT(stop.trajectory.duration(), 10.0);
+  expectRest(stop.trajectory);
+  expectContinues(sailed, 6.0, stop.trajectory);
+}
+
+TEST(Braking, IsHardInFrontOfAWall) {
+  map::OccupancyGrid grid = openWater();
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  const Eigen::Vector2d here = sailed.flat(6.0).position;
+  block(grid, {here.x() + 9.0, -10.0}, {here.x() + 10.0, 10.0});
+  const map::DistanceField field = fieldOf(grid);
+  const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel::Parameters{}, {});
+  ASSERT_TRUE(stop.clear);
+  EXPECT_LT(stop.trajectory.flat(100.0).position.x(), here.x() + 9.0 - 0.8);
+  expectRest(stop.trajectory);
+  EXPECT_TRUE(optimizer::verify(stop.trajectory, field, vessel::Parameters{}, limits()).ok);
+}
+
+TEST(Braking, StraightensOutOfACurve) {
+  const Trajectory sailed = circle(12.0, 3.5, 20.0);
+  map::OccupancyGrid grid = openWater();
+  const Eigen::Vector2d ahead = sailed.flat(8.0).position;
+  block(grid, ahead.array() - 1.0, ahead.array() + 1.0);
+  const map::DistanceField field = fieldOf(grid);
+  const Braking stop = brakingTrajectory(sailed, 5.0, field, vessel::Parameters{}, {});
+  ASSERT_TRUE(stop.clear);
+  expectRest(stop.trajectory);
+  expectContinues(sailed, 5.0, stop.trajectory);
+  const auto verified = optimizer::verify(stop.trajectory, field, vessel::Parameters{}, limits());
+  EXPECT_TRUE(verified.ok) << verified.reason;
+}
+
+TEST(Braking, DoesWhatItCanWhenNothingIsClear) {
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  map::OccupancyGrid grid = openWater();
+  const Eigen::Vector2d here = sailed.flat(6.0).position;
+  block(grid, {here.x() + 2.5, -10.0}, {here.x() + 40.0, 10.0});
+  const Braking stop = brakingTrajectory(sailed, 6.0, fieldOf(grid), vessel::Parameters{}, {});
+  EXPECT_FALSE(stop.clear);
+  ASSERT_FALSE(stop.trajectory.empty());
+  // The hardest stop goes least far.
+  EXPECT_LT(stop.trajectory.flat(100.0).position.x(), here.x() + 5.0);
+}
+
+TEST(Braking, EndsASpinInPlace) {
+  std::vector<trajectory::Piece> pieces = {trajectory::spinPiece({0.0, 0.0}, 0.0, 2.0, 4.0)};
+  const Trajectory way = eastward({0.0, 0.0}, 40.0, kSpeed);
+  pieces.insert(pieces.end(), way.pieces().begin(), way.pieces().end());
+  const Trajectory sailed(std::move(pieces));
+  const Braking stop =
+      brakingTrajectory(sailed, 1.0, fieldOf(openWater()), vessel::Parameters{}, {});
+  ASSERT_EQ(stop.trajectory.pieces().size(), 1U);
+  EXPECT_NEAR(stop.trajectory.duration(), 3.0, 1e-12);
+  const trajectory::Sample a = stop.trajectory.sample(0.5, vessel::Parameters{});
+  const trajectory::Sample b = sailed.sample(1.5, vessel::Parameters{});
+  EXPECT_TRUE(a.state.isApprox(b.state, 1e-9));
+}
+
+TEST(FirstConflict, FindsAThinPostAndOnlyAhead) {
+  map::OccupancyGrid grid = openWater();
+  block(grid, {10.0, 1.0}, {10.2, 1.2});
+  const map::DistanceField field = fieldOf(grid);
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  const Conflict conflict = firstConflict(sailed, 0.0, field, 1.2);
+  ASSERT_TRUE(conflict.found);
+  EXPECT_NEAR(conflict.position.x(), 10.0, 0.9);
+  EXPECT_LT(conflict.clearance_m, 1.2);
+  EXPECT_FALSE(firstConflict(sailed, 0.0, field, 0.8).found);
+  EXPECT_FALSE(firstConflict(sailed, conflict.time_s + 1.0, field, 1.2).found);
+}
+
+TEST(Remainder, IsTheSameWay) {
+  const Trajectory sailed = circle(12.0, 3.0, 6.0);
+  const Trajectory rest = remainder(sailed, 2.4);
+  EXPECT_NEAR(rest.duration(), sailed.duration() - 2.4, 1e-12);
+  for (const double t : {0.0, 0.3, 0.6, 1.9, 3.6}) {
+    EXPECT_LT((rest.flat(t).position - sailed.flat(2.4 + t).position).norm(), 1e-9) << t;
+    EXPECT_LT((rest.flat(t).jerk - sailed.flat(2.4 + t).jerk).norm(), 1e-7) << t;
+  }
+}
+
+TEST(Splice, KeepsTheSailedWayUpToTheJoint) {
+  const Trajectory sailed = circle(12.0, 3.0, 6.0);
+  const Trajectory next = remainder(sailed, 3.5);
+  const Spliced spliced = splice(sailed, 2.4, 3.5, next);
+  EXPECT_NEAR(spliced.start_s, 2.0, 1e-12);
+  EXPECT_NEAR(spliced.trajectory.duration(), 4.0, 1e-9);
+  for (double t = 2.4; t < 6.0; t += 0.1) {
+    const Eigen::Vector2d there = spliced.trajectory.flat(t - spliced.start_s).position;
+    EXPECT_LT((there - sailed.flat(t).position).norm(), 1e-9) << t;
+  }
+}
+
+TEST(FlatFromState, GivesTheStateBack) {
+  const vessel::Parameters otter;
+  vessel::State state;
+  state << 3.0, -2.0, 0.7, 2.5, 0.3, 0.2;
+  const vessel::FlatPoint z = flatFromState(state, otter.paper);
+  const vessel::FlatState back = vessel::stateFromFlat(z, otter.paper, z.velocity);
+  EXPECT_TRUE(back.state.isApprox(state, 1e-9)) << back.state.transpose();
+}
+
+}  // namespace
+}  // namespace otter_nav::mission

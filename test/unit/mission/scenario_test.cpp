@@ -1,0 +1,94 @@
+#include "otter_nav/mission/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "waters.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ScenarioFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("otter_nav_scenario_") + info->name());
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "c.yaml") << "image: c.pgm\n";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& text) {
+    const fs::path path = folder_ / "test.yaml";
+    std::ofstream(path) << text;
+    return path.string();
+  }
+  // The message must name what is wrong.
+  void expectError(const std::string& text, const std::string& offender) {
+    const auto scenario = loadScenario(write(text));
+    ASSERT_FALSE(scenario.has_value()) << text;
+    EXPECT_NE(scenario.error().message.find(offender), std::string::npos)
+        << scenario.error().message;
+  }
+
+  fs::path folder_;
+};
+
+const char* const kHead = "chart: c.yaml\nworld: c.yaml\n";
+const char* const kMission =
+    "missions:\n  - {kind: local, start: [1, 2, 0.5], goal: [3.5, -4, -1]}\n";
+
+TEST_F(ScenarioFile, LoadsWhatItSays) {
+  const auto scenario = loadScenario(write(std::string(kHead) + kMission));
+  ASSERT_TRUE(scenario.has_value()) << scenario.error().message;
+  EXPECT_EQ(scenario->name, "test");
+  EXPECT_EQ(scenario->chart_path, (folder_ / "c.yaml").string());
+  ASSERT_EQ(scenario->missions.size(), 1U);
+  EXPECT_EQ(scenario->missions[0].kind, "local");
+  EXPECT_EQ(scenario->missions[0].goal.position, Eigen::Vector2d(3.5, -4.0));
+  EXPECT_EQ(scenario->missions[0].start.psi_rad, 0.5);
+  EXPECT_FALSE(missionOf(*scenario, 1).has_value());
+  EXPECT_FALSE(missionOf(*scenario, -1).has_value());
+  EXPECT_TRUE(missionOf(*scenario, 0).has_value());
+}
+
+TEST_F(ScenarioFile, NamesWhatIsWrong) {
+  const std::string head = kHead;
+  expectError("world: c.yaml\n" + std::string(kMission), "'chart'");
+  expectError("chart: none.yaml\nworld: c.yaml\n" + std::string(kMission), "none.yaml");
+  expectError(head, "'missions'");
+  expectError(head + "missions: []\n", "'missions'");
+  expectError(head + "missions: 3\n", "'missions'");
+  expectError(head + "extra: 1\n" + kMission, "'extra'");
+  expectError(head + "missions:\n  - {kind: far, start: [1, 2, 0], goal: [1, 2, 0]}\n", "far");
+  expectError(head + "missions:\n  - {kind: local, start: [1, 2], goal: [1, 2, 0]}\n", "'start'");
+  expectError(head + "missions:\n  - {kind: local, start: [1, 2, 0], goal: [1, .nan, 0]}\n",
+              "mission 0");
+  expectError(head + "missions:\n  - {kind: local, start: [1, 2, 0]}\n", "'goal'");
+  expectError(head + "missions:\n  - {kind: local, start: [1, 2, 0], goal: [1, 2, 0], via: 1}\n",
+              "'via'");
+  expectError("[1, 2", "test.yaml");
+  EXPECT_FALSE(loadScenario((folder_ / "absent.yaml").string()).has_value());
+}
+
+TEST_F(ScenarioFile, IsReadBackAsSaved) {
+  map::OccupancyGrid chart = test::openWater(20.0);
+  test::block(chart, {2.0, 3.0}, {4.0, 5.0});
+  const std::vector<Mission> missions = {{"cross", {{1.25, -2.5}, 0.125}, {{-3.0, 4.0}, -1.5}}};
+  ASSERT_TRUE(saveScenario(folder_.string(), "saved", chart, chart, missions).has_value());
+  const auto scenario = loadScenario((folder_ / "saved.yaml").string());
+  ASSERT_TRUE(scenario.has_value()) << scenario.error().message;
+  ASSERT_EQ(scenario->missions.size(), 1U);
+  EXPECT_EQ(scenario->missions[0].kind, "cross");
+  EXPECT_EQ(scenario->missions[0].start.position, missions[0].start.position);
+  EXPECT_NEAR(scenario->missions[0].goal.psi_rad, -1.5, 1e-12);
+  EXPECT_FALSE(saveScenario((folder_ / "c.yaml" / "x").string(), "saved", chart, chart, missions)
+                   .has_value());
+}
+
+}  // namespace
+}  // namespace otter_nav::mission

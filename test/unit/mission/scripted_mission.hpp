@@ -1,0 +1,66 @@
+// A supervisor with a perfect vessel: wherever the sailed trajectory says, or at rest.
+#pragma once
+
+#include <optional>
+
+#include "otter_nav/mission/supervisor.hpp"
+#include "waters.hpp"
+
+namespace otter_nav::mission::test {
+
+class ScriptedMission {
+ public:
+  explicit ScriptedMission(map::OccupancyGrid water = openWater(), SupervisorOptions o = {})
+      : grid(std::move(water)),
+        field(fieldOf(grid)),
+        options(std::move(o)),
+        supervisor(options, vessel::Parameters{}, 1) {}
+
+  // What the vessel reports at `now_s`.
+  [[nodiscard]] Situation situation() const {
+    Situation s;
+    s.odometry_stamp_s = now_s;
+    s.state = rest;
+    const SailOrder& sailed = supervisor.sailed();
+    if (!sailed.trajectory.empty()) {
+      s.state = sailed.trajectory.sample(now_s - sailed.start_time_s, vessel::Parameters{}).state;
+      if (now_s - sailed.start_time_s > sailed.trajectory.duration()) {
+        s.state.tail<3>().setZero();
+      }
+    }
+    return s;
+  }
+  Result<Orders> goTo(const Eigen::Vector2d& position, double psi_rad = 0.0) {
+    return supervisor.setGoal(now_s, {position, psi_rad}, situation(), field);
+  }
+  Orders update(double later_s) {
+    now_s += later_s;
+    return supervisor.update(now_s, situation(), field);
+  }
+  Orders answer(const PlanRequest& request, const trajectory::Trajectory& trajectory) {
+    return supervisor.planFinished(now_s, {request.id, true, {}, trajectory}, situation(), field);
+  }
+  Orders refuse(const PlanRequest& request, const std::string& why) {
+    return supervisor.planFinished(now_s, {request.id, false, why, {}}, situation(), field);
+  }
+  // To x = 40 m, 80 m east, and `after_s` under way.
+  void setOut(double after_s) {
+    rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    const auto orders = goTo({40.0, 0.0});
+    (void)answer(*orders->plan, eastward({-40.0, 0.0}, 80.0, 4.0));
+    (void)update(after_s);
+  }
+  void put(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+    block(grid, low, high);
+    field = fieldOf(grid);
+  }
+
+  map::OccupancyGrid grid;
+  map::DistanceField field;
+  SupervisorOptions options;
+  Supervisor supervisor;
+  vessel::State rest = vessel::State::Zero();
+  double now_s = 100.0;
+};
+
+}  // namespace otter_nav::mission::test

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "otter_nav/config/section.hpp"
+#include "scripted_mission.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+using test::ScriptedMission;
+
+void expectRefused(ScriptedMission& mission, const Eigen::Vector2d& goal, double psi_rad,
+                   const std::string& why) {
+  const auto orders = mission.goTo(goal, psi_rad);
+  ASSERT_FALSE(orders.has_value());
+  EXPECT_NE(orders.error().message.find(why), std::string::npos) << orders.error().message;
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kIdle);
+}
+
+TEST(Goal, IsRefusedWithTheReason) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ScriptedMission mission;
+  mission.put({10.0, 10.0}, {14.0, 14.0});
+  expectRefused(mission, {nan, 0.0}, 0.0, "not finite");
+  expectRefused(mission, {0.0, 0.0}, nan, "not finite");
+  expectRefused(mission, {70.0, 0.0}, 0.0, "outside the map, x in [-50.00, 50.00]");
+  expectRefused(mission, {12.0, 12.0}, 0.0, "inside an obstacle");
+  expectRefused(mission, {9.5, 12.0}, 0.0, "m from an obstacle");
+}
+
+TEST(Goal, AsksForAPlanFromRestAtTheWidestClearance) {
+  ScriptedMission mission;
+  mission.rest << -40.0, 3.0, 0.5, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({40.0, 0.0}, 1.0);
+  ASSERT_TRUE(orders.has_value() && orders->plan);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
+  const PlanRequest& request = *orders->plan;
+  EXPECT_FALSE(request.moving);
+  EXPECT_EQ(request.start.position, Eigen::Vector2d(-40.0, 3.0));
+  EXPECT_EQ(request.start.velocity, Eigen::Vector2d::Zero());
+  EXPECT_EQ(request.start_psi_rad, 0.5);
+  EXPECT_EQ(request.goal.psi_rad, 1.0);
+  EXPECT_EQ(request.clearance_m, mission.options.plan_clearances_m.front());
+}
+
+TEST(Goal, NarrowBerthsLowerTheClearance) {
+  ScriptedMission mission;
+  mission.put({41.5, -1.0}, {43.0, 1.0});
+  const auto orders = mission.goTo({40.0, 0.0});
+  ASSERT_TRUE(orders.has_value() && orders->plan);
+  EXPECT_EQ(orders->plan->clearance_m, mission.options.plan_clearances_m[1]);
+}
+
+TEST(Goal, RefusalLeavesTheMissionUntouched) {
+  ScriptedMission mission;
+  mission.setOut(5.0);
+  EXPECT_FALSE(mission.goTo({99.0, 0.0}).has_value());
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor.goal().position, Eigen::Vector2d(40.0, 0.0));
+}
+
+TEST(Goal, NewOneUnderWayIsPlannedInMotion) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  const auto orders = mission.goTo({0.0, 30.0});
+  ASSERT_TRUE(orders.has_value() && orders->plan);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
+  EXPECT_TRUE(orders->plan->moving);
+  EXPECT_NEAR(orders->plan->start.velocity.norm(), 4.0, 1e-6);
+  EXPECT_NEAR(orders->plan->start_time_s, mission.now_s + mission.options.planning_latency_s, 1e-9);
+}
+
+TEST(Goal, PlansThatFailAreTriedNarrowerThenGivenUpWithTheReason) {
+  ScriptedMission mission;
+  auto orders = mission.goTo({40.0, 0.0});
+  std::optional<PlanRequest> request = orders->plan;
+  std::vector<double> tried;
+  for (int k = 0; k < 100 && mission.supervisor.phase() != Phase::kFailed; ++k) {
+    if (request) {
+      tried.push_back(request->clearance_m);
+      (void)mission.refuse(*request, "no way at all");
+    }
+    request = mission.update(0.1).plan;
+  }
+  ASSERT_EQ(mission.supervisor.phase(), Phase::kFailed);
+  EXPECT_NE(mission.supervisor.reason().find("no way at all"), std::string::npos);
+  const std::vector<double>& rungs = mission.options.plan_clearances_m;
+  ASSERT_EQ(tried.size(), 3 * rungs.size());
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    EXPECT_EQ(tried[k], rungs[k % rungs.size()]);
+  }
+}
+
+TEST(Goal, RepliesToReplacedRequestsAreIgnored) {
+  ScriptedMission mission;
+  const auto first = mission.goTo({40.0, 0.0});
+  const auto second = mission.goTo({30.0, 0.0});
+  const Orders orders = mission.answer(*first->plan, test::eastward({0.0, 0.0}, 40.0, 4.0));
+  EXPECT_FALSE(orders.sail);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
+  EXPECT_TRUE(mission.answer(*second->plan, test::eastward({0.0, 0.0}, 30.0, 3.0)).sail);
+}
+
+TEST(Goal, PlannerThatStaysSilentCountsAsFailed) {
+  ScriptedMission mission;
+  const auto orders = mission.goTo({40.0, 0.0});
+  EXPECT_FALSE(mission.update(4.0).plan);
+  (void)mission.update(2.0);
+  const Orders again = mission.update(0.1);
+  ASSERT_TRUE(again.plan);
+  EXPECT_LT(again.plan->clearance_m, orders->plan->clearance_m);
+}
+
+TEST(Options, ShippedFileLoads) {
+  const std::string path = std::string(OTTER_NAV_SOURCE_DIR) + "/config/mission.yaml";
+  const auto root = config::loadFile(path);
+  ASSERT_TRUE(root.has_value());
+  config::Section section(*root, path);
+  const auto options = readSupervisorOptions(section.child("supervisor"));
+  ASSERT_TRUE(options.has_value()) << options.error().message;
+  EXPECT_TRUE(section.finish().has_value());
+  YAML::Node broken = YAML::Clone((*root)["supervisor"]);
+  broken["plan_clearances_m"] = std::vector<double>{0.8, 0.9, 1.2, 1.6};
+  EXPECT_FALSE(readSupervisorOptions(config::Section(broken, "broken")).has_value());
+}
+
+}  // namespace
+}  // namespace otter_nav::mission

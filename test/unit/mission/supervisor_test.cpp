@@ -1,0 +1,231 @@
+#include "otter_nav/mission/supervisor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scripted_mission.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+using test::eastward;
+using test::ScriptedMission;
+
+// The trajectory that goes on from a request as the sailed one did, bent to port by a meter.
+trajectory::Trajectory aroundIt(const PlanRequest& request) {
+  vessel::FlatPoint beside;
+  beside.position = request.start.position + Eigen::Vector2d(20.0, 5.0);
+  beside.velocity = {4.0, 0.0};
+  vessel::FlatPoint end;
+  end.position = request.goal.position;
+  return trajectory::Trajectory({trajectory::hermitePiece(request.start, beside, 5.2),
+                                 trajectory::hermitePiece(beside, end, 10.0)});
+}
+
+TEST(Supervisor, SailsAndArrives) {
+  ScriptedMission mission;
+  mission.setOut(5.0);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  while (mission.supervisor.phase() == Phase::kSailing && mission.now_s < 200.0) {
+    const Orders orders = mission.update(0.1);
+    EXPECT_FALSE(orders.plan || orders.sail || orders.stop);
+  }
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kArrived);
+  EXPECT_EQ(mission.supervisor.replans(), 0);
+}
+
+TEST(Supervisor, KeepsThePlanWhileTheWayIsClear) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  mission.put({0.0, 3.0}, {3.0, 6.0});
+  EXPECT_FALSE(mission.update(0.1).plan);
+  mission.put({-35.0, -1.0}, {-34.0, 1.0});  // astern already
+  EXPECT_FALSE(mission.update(0.1).plan);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+}
+
+TEST(Supervisor, ReplansInMotionWhenTheWayIsBlocked) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  const SailOrder before = mission.supervisor.sailed();
+  mission.put({5.0, -1.0}, {6.0, 1.0});
+  const Orders orders = mission.update(0.1);
+  ASSERT_TRUE(orders.plan);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
+  EXPECT_NE(mission.supervisor.reason().find("on the way"), std::string::npos);
+  const PlanRequest request = *orders.plan;
+  const double joint = request.start_time_s - before.start_time_s;
+  EXPECT_LT((request.start.position - before.trajectory.flat(joint).position).norm(), 1e-12);
+  EXPECT_NEAR(request.warm_start.duration(), before.trajectory.duration() - joint, 1e-9);
+
+  mission.now_s += 0.25;
+  const Orders answered = mission.answer(request, aroundIt(request));
+  ASSERT_TRUE(answered.sail);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor.replans(), 1);
+  // Up to the joint it is the old way, after it the new one, without a jump.
+  const SailOrder& sail = *answered.sail;
+  for (double t = mission.now_s; t < request.start_time_s; t += 0.01) {
+    EXPECT_LT((sail.trajectory.flat(t - sail.start_time_s).position -
+               before.trajectory.flat(t - before.start_time_s).position)
+                  .norm(),
+              1e-9);
+  }
+  const Eigen::Vector2d later =
+      sail.trajectory.flat(request.start_time_s + 5.2 - sail.start_time_s).position;
+  EXPECT_NEAR(later.y(), 5.0, 1e-6);
+}
+
+TEST(Supervisor, StopsInTimeWithoutAPlanAndGoesOnFromRest) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  mission.put({5.0, -40.0}, {6.0, 40.0});
+  bool stopping = false;
+  std::optional<PlanRequest> request;
+  for (int k = 0; k < 400 && mission.supervisor.phase() != Phase::kStopped; ++k) {
+    const Orders orders = mission.update(0.1);
+    stopping = stopping || (orders.sail && mission.supervisor.phase() == Phase::kStopping);
+    if (orders.plan) {
+      (void)mission.refuse(*orders.plan, "walled in");
+    }
+    EXPECT_GE(mission.field.clearance(mission.situation().state.head<2>()), 0.8);
+  }
+  EXPECT_TRUE(stopping);
+  ASSERT_EQ(mission.supervisor.phase(), Phase::kStopped);
+  EXPECT_EQ(mission.supervisor.stops(), 1);
+  const Orders orders = mission.update(0.1);
+  ASSERT_TRUE(orders.plan);
+  EXPECT_FALSE(orders.plan->moving);
+  const Eigen::Vector2d here = mission.situation().state.head<2>();
+  EXPECT_GT(here.x(), -5.0);  // no earlier than needed
+  const Orders sailing = mission.answer(*orders.plan, eastward(here, 20.0, 3.0));
+  EXPECT_TRUE(sailing.sail);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+}
+
+TEST(Supervisor, GivesUpSafelyWhenTheGoalIsWalledOff) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  mission.put({5.0, -49.9}, {6.0, 49.9});
+  for (int k = 0; k < 1000 && mission.supervisor.phase() != Phase::kFailed; ++k) {
+    const Orders orders = mission.update(0.1);
+    if (orders.plan) {
+      (void)mission.refuse(*orders.plan, "walled off");
+    }
+  }
+  ASSERT_EQ(mission.supervisor.phase(), Phase::kFailed);
+  EXPECT_NE(mission.supervisor.reason().find("walled off"), std::string::npos);
+  EXPECT_LT(mission.situation().state.tail<3>().norm(), 1e-6);
+}
+
+TEST(Supervisor, LatePlansAreAskedForAgainFurtherAhead) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  mission.put({25.0, -1.0}, {26.0, 1.0});
+  const Orders first = mission.update(0.1);
+  ASSERT_TRUE(first.plan);
+  mission.now_s += 1.5;
+  // Had it come in time, the vessel would be a meter abeam of where it is.
+  vessel::FlatPoint aside = first.plan->start;
+  aside.position += Eigen::Vector2d(4.0, 1.0);
+  const Orders second = mission.answer(
+      *first.plan,
+      trajectory::Trajectory({trajectory::hermitePiece(first.plan->start, aside, 1.2)}));
+  EXPECT_FALSE(second.sail);
+  ASSERT_TRUE(second.plan);
+  EXPECT_GT(second.plan->start_time_s - mission.now_s, 0.6);
+}
+
+TEST(Supervisor, GoesBackToSailingWithoutAPlanWhenTheWayClears) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  const map::OccupancyGrid clear = mission.grid;
+  mission.put({20.0, -1.0}, {21.0, 1.0});
+  ASSERT_TRUE(mission.update(0.1).plan);
+  mission.grid = clear;
+  mission.field = test::fieldOf(clear);
+  (void)mission.update(0.1);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+}
+
+TEST(Supervisor, StopsOnLostOdometryAndTrackerFaults) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  Situation silent = mission.situation();
+  mission.now_s += 1.5;
+  Orders orders = mission.supervisor.update(mission.now_s, silent, mission.field);
+  EXPECT_TRUE(orders.stop);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
+  EXPECT_NE(mission.supervisor.reason().find("odometry"), std::string::npos);
+
+  ScriptedMission other;
+  other.setOut(6.0);
+  Situation fault = other.situation();
+  fault.tracker_fault = true;
+  fault.tracker_reason = "solver";
+  orders = other.supervisor.update(other.now_s, fault, other.field);
+  EXPECT_TRUE(orders.stop);
+  EXPECT_NE(other.supervisor.reason().find("solver"), std::string::npos);
+}
+
+TEST(Supervisor, FarOffTheTrajectoryItPlansFromTheVessel) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  Situation astray = mission.situation();
+  astray.state[vessel::kY] += 4.0;
+  astray.tracking_error_m = 4.0;
+  mission.now_s += 0.1;
+  const Orders orders = mission.supervisor.update(mission.now_s, astray, mission.field);
+  ASSERT_TRUE(orders.plan);
+  EXPECT_NEAR(orders.plan->start.position.y(), 4.0, 1e-6);
+  EXPECT_NEAR(orders.plan->start.velocity.x(), 4.0, 0.1);
+}
+
+TEST(Supervisor, CancelBrakesAndIsIdleThen) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  const Orders orders =
+      mission.supervisor.cancel(mission.now_s, mission.situation(), mission.field);
+  EXPECT_TRUE(orders.sail);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
+  for (int k = 0; k < 400 && mission.supervisor.phase() == Phase::kStopping; ++k) {
+    (void)mission.update(0.1);
+  }
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kIdle);
+}
+
+TEST(Supervisor, PlansAnewWhenItDoesNotSettle) {
+  ScriptedMission mission;
+  mission.setOut(5.0);
+  mission.now_s += 60.0;
+  Situation off = mission.situation();
+  off.state[vessel::kPsi] = 1.0;
+  (void)mission.supervisor.update(mission.now_s, off, mission.field);
+  off.odometry_stamp_s = mission.now_s;
+  const Orders orders = mission.supervisor.update(mission.now_s, off, mission.field);
+  ASSERT_TRUE(orders.plan);
+  EXPECT_FALSE(orders.plan->moving);
+  EXPECT_EQ(orders.plan->start_psi_rad, 1.0);
+}
+
+TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
+  SupervisorOptions options;
+  options.improve_period_s = 2.0;
+  ScriptedMission mission(test::openWater(), options);
+  mission.setOut(6.0);
+  const Orders orders = mission.update(0.1);
+  ASSERT_TRUE(orders.plan);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  EXPECT_FALSE(mission.answer(*orders.plan, orders.plan->warm_start).sail);
+  const Orders again = mission.update(2.1);
+  ASSERT_TRUE(again.plan);
+  vessel::FlatPoint end;
+  end.position = again.plan->goal.position;
+  const double quick = 0.8 * again.plan->warm_start.duration();
+  EXPECT_TRUE(mission
+                  .answer(*again.plan, trajectory::Trajectory({trajectory::hermitePiece(
+                                           again.plan->start, end, quick)}))
+                  .sail);
+}
+
+}  // namespace
+}  // namespace otter_nav::mission
