@@ -6,7 +6,9 @@
 namespace otter_nav::planner {
 namespace {
 
-constexpr double kDirectionWindowM = 3.0;
+constexpr double kDirectionWindowM = 1.0;
+constexpr double kLargestPushM = 0.5;
+constexpr double kLeastGradient = 0.3;
 
 // The greatest speed at which thrust `force` holds a turn of curvature `curvature`:
 // (m1 k v^2)^2 + (d2 v)^2 = force^2 (vessel/flatness.hpp with constant speed).
@@ -25,6 +27,7 @@ double turningSpeed(const vessel::PaperModel& model, double force, double curvat
 void GuideLine::build(const std::vector<Eigen::Vector2d>& points, const map::DistanceField& field,
                       const vessel::Parameters& vessel, const GuideLineOptions& options) {
   resample(points, options.spacing_m);
+  relax(field, options);
   setDirections();
   setSpeeds(vessel, options);
   for (Point& point : held_) {
@@ -56,7 +59,34 @@ void GuideLine::resample(const std::vector<Eigen::Vector2d>& points, double spac
   }
 }
 
-// A chord over a window: the line has corners, what is sailed has none.
+// An elastic band: each point moves towards the middle of its neighbours, and off what is nearer
+// than the safe distance, so that curves between its points have room on the inner side.
+void GuideLine::relax(const map::DistanceField& field, const GuideLineOptions& options) {
+  moved_.resize(held_.size());
+  for (int round = 0; round < options.relaxations; ++round) {
+    for (std::size_t i = 1; i + 1 < held_.size(); ++i) {
+      Eigen::Vector2d p =
+          0.5 * held_[i].position + 0.25 * (held_[i - 1].position + held_[i + 1].position);
+      const map::DistanceField::Smooth d = field.smooth(p);
+      if (d.distance_m < options.safe_distance_m) {
+        const double steep = std::max(d.gradient.norm(), kLeastGradient);
+        const double push = std::min(options.safe_distance_m - d.distance_m, kLargestPushM);
+        p += push / (steep * steep) * d.gradient;
+      }
+      moved_[i] = p;
+    }
+    for (std::size_t i = 1; i + 1 < held_.size(); ++i) {
+      held_[i].position = moved_[i];
+    }
+  }
+  length_m_ = 0.0;
+  for (std::size_t i = 1; i < held_.size(); ++i) {
+    length_m_ += (held_[i].position - held_[i - 1].position).norm();
+  }
+  spacing_m_ = length_m_ / static_cast<double>(held_.size() - 1);
+}
+
+// Directions by chords over a window, curvature by their change.
 void GuideLine::setDirections() {
   const int window = std::max(1, static_cast<int>(kDirectionWindowM / std::max(spacing_m_, 1e-9)));
   const int last = static_cast<int>(held_.size()) - 1;
@@ -68,6 +98,12 @@ void GuideLine::setDirections() {
       held_[static_cast<std::size_t>(i)].direction = chord.normalized();
     }
   }
+  for (std::size_t i = 1; i + 1 < held_.size(); ++i) {
+    const Eigen::Vector2d& a = held_[i - 1].direction;
+    const Eigen::Vector2d& b = held_[i + 1].direction;
+    const double turn = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    held_[i].curvature_per_m = turn / (2.0 * spacing_m_);
+  }
 }
 
 // Bounded by the turn at each point, then by what the thrusters can gain or lose between points.
@@ -75,11 +111,9 @@ void GuideLine::setSpeeds(const vessel::Parameters& vessel, const GuideLineOptio
   const vessel::PaperModel& model = vessel.paper;
   const auto last = held_.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
-    const Eigen::Vector2d& before = held_[i > 2 ? i - 2 : 0].direction;
-    const Eigen::Vector2d& after = held_[std::min(last, i + 2)].direction;
-    const double turn = std::acos(std::clamp(before.dot(after), -1.0, 1.0));
-    held_[i].speed_mps = std::min(
-        options.speed_mps, turningSpeed(model, options.force_ahead_n, turn / (4.0 * spacing_m_)));
+    const double turning =
+        turningSpeed(model, options.force_ahead_n, std::abs(held_[i].curvature_per_m));
+    held_[i].speed_mps = std::min(options.speed_mps, turning);
   }
   const auto gained = [&](double speed, double force) {
     return std::sqrt(speed * speed + 2.0 * spacing_m_ * options.ramp_share * force / model.m1_kg);
@@ -109,6 +143,7 @@ GuideLine::Point GuideLine::at(double s_m) const {
   p.direction = a.direction + share * (b.direction - a.direction);
   const double norm = p.direction.norm();
   p.direction = norm > 1e-6 ? Eigen::Vector2d(p.direction / norm) : a.direction;
+  p.curvature_per_m = a.curvature_per_m + share * (b.curvature_per_m - a.curvature_per_m);
   p.speed_mps = a.speed_mps + share * (b.speed_mps - a.speed_mps);
   p.half_width_m = a.half_width_m + share * (b.half_width_m - a.half_width_m);
   return p;

@@ -11,6 +11,9 @@
 namespace otter_nav::planner {
 namespace {
 
+// Beyond the clearance, that the guide line is pushed out to.
+constexpr double kRoomM = 0.7;
+
 EdgeLimits edgeLimits(const Options& options, const vessel::Parameters& vessel) {
   EdgeLimits limits;
   limits.clearance_m = options.clearance_m;
@@ -156,6 +159,7 @@ void Planner::Pipeline::prepareSearch(Run& run) {
   line.speed_start_mps = run.query.start.velocity.norm();
   line.force_ahead_n = limits_.force_ahead_n;
   line.corridor_m = options_.corridor_m;
+  line.safe_distance_m = run.clearance_m + kRoomM;
   line_.build(guide_.points, run.field, vessel_, line);
   EdgeLimits limits = limits_;
   limits.clearance_m = run.clearance_m;

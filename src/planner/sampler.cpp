@@ -37,6 +37,8 @@ KinoState Sampler::keyState(int index) const {
   KinoState state;
   state.position = point.position;
   state.velocity = point.speed_mps * point.direction;
+  const Eigen::Vector2d port(-point.direction.y(), point.direction.x());
+  state.acceleration = point.speed_mps * point.speed_mps * point.curvature_per_m * port;
   return state;
 }
 

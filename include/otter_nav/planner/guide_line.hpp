@@ -1,5 +1,6 @@
-// The guide path as the sampler sees it: a line measured by its length, with a direction, a speed
-// the vessel could have there and the half width of the corridor around it (paper, section IV-A).
+// The guide path as the sampler sees it: pushed out to a safe distance, its corners rounded,
+// measured by its length, with a direction, a speed the vessel could have there and the half width
+// of the corridor around it (paper, section IV-A).
 #pragma once
 
 #include <Eigen/Core>
@@ -18,6 +19,8 @@ struct GuideLineOptions {
   double corridor_m = 6.0;        // half width at most
   double half_width_min_m = 0.5;  // and at least
   double ramp_share = 0.6;        // of the thrust free at a speed is used to speed up or slow down
+  double safe_distance_m = 1.5;   // the line is pushed out to this where there is room
+  int relaxations = 30;           // rounds of rounding the line's corners
 };
 
 class GuideLine {
@@ -25,6 +28,7 @@ class GuideLine {
   struct Point {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
     Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
+    double curvature_per_m = 0.0;  // positive to port
     double speed_mps = 0.0;
     double half_width_m = 0.0;
   };
@@ -33,18 +37,21 @@ class GuideLine {
   void build(const std::vector<Eigen::Vector2d>& points, const map::DistanceField& field,
              const vessel::Parameters& vessel, const GuideLineOptions& options);
 
+  // After rounding; the given points' length differs a little.
   [[nodiscard]] double length() const { return length_m_; }
   // Linear between the held points; `s_m` is clamped to the line.
   [[nodiscard]] Point at(double s_m) const;
 
  private:
   void resample(const std::vector<Eigen::Vector2d>& points, double spacing_m);
+  void relax(const map::DistanceField& field, const GuideLineOptions& options);
   void setDirections();
   void setSpeeds(const vessel::Parameters& vessel, const GuideLineOptions& options);
 
   double length_m_ = 0.0;
   double spacing_m_ = 1.0;
   std::vector<Point> held_;
+  std::vector<Eigen::Vector2d> moved_;
 };
 
 }  // namespace otter_nav::planner
