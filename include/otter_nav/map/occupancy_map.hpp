@@ -16,7 +16,7 @@ namespace otter_nav::map {
 
 struct OccupancyMapOptions {
   HeightBand band;                    // hits outside it are ignored: below is water, above is sky
-  double hit_probability = 0.75;      // of a voxel being occupied, seen one hit
+  double hit_probability = 0.85;      // of a voxel being occupied, seen one hit
   double miss_probability = 0.4;      // the same, seen one beam pass
   double occupied_probability = 0.7;  // from here on a voxel counts
   double min_probability = 0.12;      // beliefs are clamped, so that what moved away clears in time

@@ -1,0 +1,235 @@
+#include "otter_nav/map/occupancy_map.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "sensed_layers.hpp"
+
+namespace otter_nav::map {
+namespace {
+
+Eigen::Matrix3d rotationOf(const SensorPose& sensor) {
+  return (Eigen::AngleAxisd(sensor.yaw_rad, Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(sensor.pitch_rad, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(sensor.roll_rad, Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+// Why the scan cannot be used, or nothing.
+std::string whyRefused(const GridGeometry& grid, const SensorPose& sensor, const Scan& scan) {
+  if (!sensor.position.allFinite() || !std::isfinite(sensor.roll_rad) ||
+      !std::isfinite(sensor.pitch_rad) || !std::isfinite(sensor.yaw_rad)) {
+    return "the sensor's pose is not a number";
+  }
+  if (!grid.contains(sensor.position.head<2>())) {
+    return "the sensor is outside the map";
+  }
+  if (scan.ranges_m.empty()) {
+    return "no ranges";
+  }
+  if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad) ||
+      (scan.angle_increment_rad == 0.0 && scan.ranges_m.size() > 1)) {
+    return "angle_min or angle_increment is not a number, or the increment is 0";
+  }
+  const double turn =
+      std::abs(scan.angle_increment_rad) * (static_cast<double>(scan.ranges_m.size()) - 1.0);
+  if (turn > 2.0 * 3.15) {
+    return std::to_string(scan.ranges_m.size()) + " ranges go more than once round";
+  }
+  if (!std::isfinite(scan.range_max_m) || !(scan.range_min_m >= 0.0) ||
+      !(scan.range_max_m > scan.range_min_m) || scan.range_max_m > 1e4) {
+    return "range_min and range_max need 0 <= range_min < range_max <= 10000 m";
+  }
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (std::isfinite(scan.ranges_m[i]) && scan.ranges_m[i] < 0.0F) {
+      return "range " + std::to_string(i) + " is negative";
+    }
+  }
+  return "";
+}
+
+// Grows over changed cells.
+class Changed {
+ public:
+  void add(int column, int row) {
+    low_ = low_.cwiseMin(Eigen::Vector2i(column, row));
+    high_ = high_.cwiseMax(Eigen::Vector2i(column, row));
+  }
+  [[nodiscard]] CellRectangle rectangle() const {
+    if (low_.x() > high_.x()) {
+      return {};
+    }
+    return {low_.x(), low_.y(), high_.x() - low_.x() + 1, high_.y() - low_.y() + 1};
+  }
+
+ private:
+  Eigen::Vector2i low_ = Eigen::Vector2i::Constant(1 << 30);
+  Eigen::Vector2i high_ = Eigen::Vector2i::Constant(-1);
+};
+
+}  // namespace
+
+struct OccupancyMap::Sensed {
+  Sensed(OccupancyGrid the_chart, const OccupancyMapOptions& the_options)
+      : options(the_options),
+        chart(std::move(the_chart)),
+        projection(chart),
+        layers(chart.geometry, options) {}
+
+  // A column that changed: what it is now.
+  void project(std::size_t index, Changed& changed);
+  [[nodiscard]] bool onOwnHull(const SensorPose& sensor, const Eigen::Vector2d& p) const;
+  void clearOwnHull(const SensorPose& sensor, Changed& changed);
+  void insert(const SensorPose& sensor, const Scan& scan, Changed& changed);
+
+  OccupancyMapOptions options;
+  OccupancyGrid chart;
+  OccupancyGrid projection;
+  SensedLayers layers;
+};
+
+void OccupancyMap::Sensed::project(std::size_t index, Changed& changed) {
+  Cell cell = chart.cells[index];
+  if (layers.occupied(index)) {
+    cell = Cell::kOccupied;
+  } else if (cell == Cell::kUnknown && layers.seen(index)) {
+    cell = Cell::kFree;
+  }
+  if (cell != projection.cells[index]) {
+    projection.cells[index] = cell;
+    const auto width = static_cast<std::size_t>(chart.geometry.width);
+    changed.add(static_cast<int>(index % width), static_cast<int>(index / width));
+  }
+}
+
+bool OccupancyMap::Sensed::onOwnHull(const SensorPose& sensor, const Eigen::Vector2d& p) const {
+  const Eigen::Vector2d local =
+      Eigen::Rotation2Dd(-sensor.yaw_rad) * (p - sensor.position.head<2>());
+  return std::abs(local.x() + options.sensor_ahead_m) <=
+             0.5 * options.hull_length_m + options.hull_margin_m &&
+         std::abs(local.y()) <= 0.5 * options.hull_beam_m + options.hull_margin_m;
+}
+
+// Where the vessel is, nothing else is.
+void OccupancyMap::Sensed::clearOwnHull(const SensorPose& sensor, Changed& changed) {
+  const GridGeometry& g = chart.geometry;
+  const double reach = 0.5 * std::hypot(options.hull_length_m, options.hull_beam_m) +
+                       2.0 * options.hull_margin_m + std::abs(options.sensor_ahead_m);
+  const Eigen::Vector2d at = sensor.position.head<2>();
+  const Eigen::Vector2i low = g.cellAt(at - Eigen::Vector2d::Constant(reach));
+  const Eigen::Vector2i high = g.cellAt(at + Eigen::Vector2d::Constant(reach));
+  for (int row = std::max(0, low.y()); row <= std::min(g.height - 1, high.y()); ++row) {
+    for (int column = std::max(0, low.x()); column <= std::min(g.width - 1, high.x()); ++column) {
+      const std::size_t index = g.index(column, row);
+      if (layers.occupied(index) && onOwnHull(sensor, g.centreOf(column, row)) &&
+          layers.clear(index)) {
+        project(index, changed);
+      }
+    }
+  }
+}
+
+// Hits first, so that a beam passing close by an obstacle does not take from what another met.
+void OccupancyMap::Sensed::insert(const SensorPose& sensor, const Scan& scan, Changed& changed) {
+  const GridGeometry& g = chart.geometry;
+  const Eigen::Matrix3d rotation = rotationOf(sensor);
+  const auto direction = [&](std::size_t i) -> Eigen::Vector3d {
+    const double angle = scan.angle_min_rad + scan.angle_increment_rad * static_cast<double>(i);
+    return rotation * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+  };
+  const auto measured = [&](double range) {
+    return range >= scan.range_min_m && range <= scan.range_max_m;
+  };
+  layers.beginScan();
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double range = scan.ranges_m[i];
+    if (!measured(range)) {
+      continue;
+    }
+    const Eigen::Vector3d end = sensor.position + range * direction(i);
+    const int layer = layers.layers().at(end.z());
+    if (layer < 0 || !g.contains(end.head<2>()) || onOwnHull(sensor, end.head<2>())) {
+      continue;
+    }
+    const Eigen::Vector2i cell = g.cellAt(end.head<2>());
+    const std::size_t index = g.index(cell.x(), cell.y());
+    if (chart.cells[index] != Cell::kOccupied && layers.hit(index, layer)) {
+      project(index, changed);
+    }
+  }
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double range = scan.ranges_m[i];
+    const bool nothing_met = range > 0.0 && std::isinf(range);
+    if (!nothing_met && !measured(range)) {
+      continue;
+    }
+    walkBeam(g, layers.layers(), sensor.position, direction(i),
+             nothing_met ? scan.range_max_m : range, [&](std::size_t index, int layer) {
+               if (chart.cells[index] != Cell::kOccupied && layers.miss(index, layer)) {
+                 project(index, changed);
+               }
+             });
+  }
+}
+
+OccupancyMap::OccupancyMap(OccupancyGrid chart, const OccupancyMapOptions& options)
+    : sensed_(std::make_unique<Sensed>(std::move(chart), options)) {}
+OccupancyMap::~OccupancyMap() = default;
+OccupancyMap::OccupancyMap(OccupancyMap&&) noexcept = default;
+OccupancyMap& OccupancyMap::operator=(OccupancyMap&&) noexcept = default;
+
+const OccupancyGrid& OccupancyMap::projection() const {
+  return sensed_->projection;
+}
+const OccupancyGrid& OccupancyMap::chart() const {
+  return sensed_->chart;
+}
+
+Result<CellRectangle> OccupancyMap::insertScan(const SensorPose& sensor, const Scan& scan) {
+  if (const std::string why = whyRefused(sensed_->chart.geometry, sensor, scan); !why.empty()) {
+    return failure("scan refused: " + why);
+  }
+  Changed changed;
+  sensed_->insert(sensor, scan, changed);
+  sensed_->clearOwnHull(sensor, changed);
+  return changed.rectangle();
+}
+
+CellRectangle OccupancyMap::reset() {
+  Changed changed;
+  sensed_->layers.reset();
+  for (std::size_t i = 0; i < sensed_->projection.cells.size(); ++i) {
+    sensed_->project(i, changed);
+  }
+  return changed.rectangle();
+}
+
+// The tree that is saved also holds the chart, in its lowest layer, so that it stands alone.
+Status OccupancyMap::save(const std::string& path) const {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".yaml") {
+    return saveChart(sensed_->projection, path);
+  }
+  if (ending != ".bt" && ending != ".ot") {
+    return failure(path + ": maps are saved as .bt, .ot or .yaml");
+  }
+  const std::unique_ptr<octomap::OcTree> tree = sensed_->layers.copyTree();
+  for (std::size_t i = 0; i < sensed_->chart.cells.size(); ++i) {
+    const Cell cell = sensed_->chart.cells[i];
+    const octomap::OcTreeKey key = sensed_->layers.keyOf(i, 0);
+    if (cell == Cell::kOccupied) {
+      tree->setNodeValue(key, tree->getClampingThresMaxLog(), true);
+    } else if (cell == Cell::kFree && tree->search(key) == nullptr) {
+      tree->setNodeValue(key, tree->getClampingThresMinLog(), true);
+    }
+  }
+  tree->updateInnerOccupancy();
+  if (!(ending == ".bt" ? tree->writeBinary(path) : tree->write(path))) {
+    return failure(path + ": cannot be written");
+  }
+  return {};
+}
+
+}  // namespace otter_nav::map

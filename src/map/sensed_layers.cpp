@@ -1,0 +1,111 @@
+#include "sensed_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace otter_nav::map {
+namespace {
+
+constexpr int kMostLayers = 32;  // a bit each
+
+Layers layersOf(const HeightBand& band, double resolution_m) {
+  const double height = band.max_m - band.min_m;
+  const int count =
+      std::clamp(static_cast<int>(std::ceil(height / resolution_m - 1e-6)), 1, kMostLayers);
+  return {band.min_m, std::max(resolution_m, height / count), count};
+}
+
+}  // namespace
+
+SensedLayers::SensedLayers(const GridGeometry& grid, const OccupancyMapOptions& options)
+    : grid_(grid),
+      layers_(layersOf(options.band, grid.resolution_m)),
+      tree_(grid.resolution_m),
+      hit_log_odds_(octomap::logodds(options.hit_probability)),
+      miss_log_odds_(octomap::logodds(options.miss_probability)) {
+  tree_.setOccupancyThres(options.occupied_probability);
+  tree_.setClampingThresMin(options.min_probability);
+  tree_.setClampingThresMax(options.max_probability);
+  const Eigen::Vector2d corner = grid.centreOf(0, 0);
+  first_ = tree_.coordToKey(corner.x(), corner.y(), options.band.min_m + 0.5 * grid.resolution_m);
+  columns_.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+}
+
+octomap::OcTreeKey SensedLayers::keyOf(std::size_t column, int layer) const {
+  const auto width = static_cast<std::size_t>(grid_.width);
+  return {static_cast<octomap::key_type>(first_[0] + column % width),
+          static_cast<octomap::key_type>(first_[1] + column / width),
+          static_cast<octomap::key_type>(first_[2] + layer)};
+}
+
+void SensedLayers::beginScan() {
+  ++scan_;
+  if (scan_ == 0) {  // the counter came round
+    for (Column& column : columns_) {
+      column.scan = 0;
+    }
+    scan_ = 1;
+  }
+}
+
+bool SensedLayers::claim(Column& column, std::uint32_t bit) {
+  if (column.scan != scan_) {
+    column.scan = scan_;
+    column.touched = 0;
+  }
+  const bool first = (column.touched & bit) == 0;
+  column.touched |= bit;
+  return first;
+}
+
+bool SensedLayers::judge(Column& column, std::uint32_t bit, const octomap::OcTreeNode& node) {
+  const bool was_occupied = column.occupied != 0;
+  const bool was_seen = column.seen != 0;
+  column.seen |= bit;
+  column.occupied = tree_.isNodeOccupied(node) ? column.occupied | bit : column.occupied & ~bit;
+  const bool certain = node.getLogOdds() <= tree_.getClampingThresMinLog();
+  column.certainly_free = certain ? column.certainly_free | bit : column.certainly_free & ~bit;
+  return was_occupied != (column.occupied != 0) || !was_seen;
+}
+
+bool SensedLayers::hit(std::size_t index, int layer) {
+  Column& column = columns_[index];
+  const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
+  if (!claim(column, bit)) {
+    return false;
+  }
+  return judge(column, bit, *tree_.updateNode(keyOf(index, layer), hit_log_odds_, true));
+}
+
+bool SensedLayers::miss(std::size_t index, int layer) {
+  Column& column = columns_[index];
+  const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
+  if ((column.certainly_free & bit) != 0 || !claim(column, bit)) {
+    return false;
+  }
+  return judge(column, bit, *tree_.updateNode(keyOf(index, layer), miss_log_odds_, true));
+}
+
+bool SensedLayers::clear(std::size_t index) {
+  Column& column = columns_[index];
+  const bool changed = column.occupied != 0;
+  for (int layer = 0; column.occupied != 0; ++layer) {
+    const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
+    if ((column.occupied & bit) != 0) {
+      judge(column, bit,
+            *tree_.setNodeValue(keyOf(index, layer), tree_.getClampingThresMinLog(), true));
+    }
+  }
+  return changed;
+}
+
+void SensedLayers::reset() {
+  tree_.clear();
+  std::fill(columns_.begin(), columns_.end(), Column{});
+}
+
+std::unique_ptr<octomap::OcTree> SensedLayers::copyTree() const {
+  return std::make_unique<octomap::OcTree>(tree_);
+}
+
+}  // namespace otter_nav::map

@@ -1,0 +1,217 @@
+#include "otter_nav/map/occupancy_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "otter_nav/base/angles.hpp"
+
+namespace otter_nav::map {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+const OccupancyMapOptions kOptions;
+
+// 40 m by 40 m around the origin, land west of x = -15.
+OccupancyGrid coast() {
+  OccupancyGrid grid;
+  grid.geometry = {160, 160, 0.25, {-20.0, -20.0}};
+  grid.cells.assign(160UL * 160UL, Cell::kFree);
+  for (int row = 0; row < 160; ++row) {
+    for (int column = 0; column < 20; ++column) {
+      grid.cells[grid.geometry.index(column, row)] = Cell::kOccupied;
+    }
+  }
+  return grid;
+}
+
+Scan openWater(std::size_t beams = 720) {
+  return {-kPi, 2.0 * kPi / static_cast<double>(beams), 0.2, 15.0, std::vector<float>(beams, kInf)};
+}
+
+// One beam ahead.
+Scan aheadOnly(float range) {
+  return {0.0, 0.0, 0.2, 15.0, {range}};
+}
+
+SensorPose sensorAt(double x, double y, double yaw = 0.0) {
+  return {{x, y, 0.8}, 0.0, 0.0, yaw};
+}
+
+Cell cellAt(const OccupancyMap& map, double x, double y) {
+  const Eigen::Vector2i cell = map.projection().geometry.cellAt({x, y});
+  return map.projection().at(cell.x(), cell.y());
+}
+
+TEST(OccupancyMap, FloatingObstacleAppearsAndClears) {
+  OccupancyMap map(coast(), kOptions);
+  for (int i = 0; i < 10; ++i) {  // open water, certainly
+    ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), openWater()));
+  }
+  const auto first = map.insertScan(sensorAt(0.0, 0.0), aheadOnly(5.1F));
+  ASSERT_TRUE(first);
+  const auto second = map.insertScan(sensorAt(0.0, 0.0), aheadOnly(5.1F));
+  ASSERT_TRUE(second);
+  EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kOccupied);
+  EXPECT_EQ(second->width, 1);
+  EXPECT_EQ(second->height, 1);
+  EXPECT_EQ(map.projection().geometry.centreOf(second->column, second->row),
+            Eigen::Vector2d(5.125, 0.125));
+  int misses = 0;
+  while (cellAt(map, 5.1, 0.0) == Cell::kOccupied && misses < 50) {
+    ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), aheadOnly(kInf)));
+    ++misses;
+  }
+  EXPECT_GT(misses, 1);
+  EXPECT_LT(misses, 15);
+}
+
+TEST(OccupancyMap, ChartedLandStays) {
+  OccupancyMap map(coast(), kOptions);
+  for (int i = 0; i < 30; ++i) {
+    const auto changed = map.insertScan(sensorAt(-10.0, 0.0), openWater());
+    ASSERT_TRUE(changed);
+    EXPECT_TRUE(changed->empty());
+  }
+  EXPECT_EQ(map.projection().cells, coast().cells);
+}
+
+TEST(OccupancyMap, UnknownWaterBecomesFreeWhereBeamsPass) {
+  OccupancyGrid chart = coast();
+  std::fill(chart.cells.begin(), chart.cells.end(), Cell::kUnknown);
+  OccupancyMap map(chart, kOptions);
+  const auto changed = map.insertScan(sensorAt(0.0, 0.0), aheadOnly(kInf));
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(cellAt(map, 7.0, 0.1), Cell::kFree);
+  EXPECT_EQ(cellAt(map, 16.0, 0.1), Cell::kUnknown);  // beyond range_max
+  EXPECT_EQ(cellAt(map, -2.0, 0.1), Cell::kUnknown);
+  EXPECT_EQ(changed->height, 1);
+  EXPECT_NEAR(changed->width, 60, 1);
+}
+
+TEST(OccupancyMap, Rep117ValuesThatSayNothing) {
+  OccupancyGrid chart = coast();
+  std::fill(chart.cells.begin(), chart.cells.end(), Cell::kUnknown);
+  for (const float range : {-kInf, kNan, 0.1F, 16.0F}) {
+    OccupancyMap map(chart, kOptions);
+    const auto changed = map.insertScan(sensorAt(0.0, 0.0), aheadOnly(range));
+    ASSERT_TRUE(changed) << range;
+    EXPECT_TRUE(changed->empty()) << range;
+  }
+}
+
+TEST(OccupancyMap, TiltedBeamsMeetWaterOrSky) {
+  for (const double pitch : {0.2, -0.2}) {  // bow down: 5 m ahead the beam is under water
+    OccupancyMap map(coast(), kOptions);
+    SensorPose sensor = sensorAt(0.0, 0.0);
+    sensor.pitch_rad = pitch;
+    const float range = pitch > 0.0 ? 5.0F : 10.0F;
+    ASSERT_TRUE(map.insertScan(sensor, aheadOnly(range)));
+    EXPECT_EQ(map.projection().cells, coast().cells);
+    sensor.pitch_rad = 0.0;
+    ASSERT_TRUE(map.insertScan(sensor, aheadOnly(range)));
+    EXPECT_EQ(cellAt(map, range, 0.0), Cell::kOccupied);
+  }
+  OccupancyMap map(coast(), kOptions);  // roll turns a beam abeam down, and leaves one ahead
+  SensorPose rolled = sensorAt(0.0, 0.0);
+  rolled.roll_rad = -0.2;
+  ASSERT_TRUE(map.insertScan(rolled, {0.5 * kPi, 0.1, 0.2, 15.0, {6.0F}}));
+  EXPECT_EQ(map.projection().cells, coast().cells);
+}
+
+TEST(OccupancyMap, OwnHullIsNeitherMarkedNorStays) {
+  OccupancyMap map(coast(), kOptions);
+  ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), aheadOnly(0.9F)));
+  EXPECT_EQ(map.projection().cells, coast().cells);
+  ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), aheadOnly(3.1F)));
+  EXPECT_EQ(cellAt(map, 3.1, 0.0), Cell::kOccupied);
+  // Across the place, its bow north: the cell lies within the beam.
+  const auto changed = map.insertScan(sensorAt(3.0, 0.5, 0.5 * kPi), aheadOnly(-kInf));
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(changed->width, 1);
+  EXPECT_EQ(map.projection().cells, coast().cells);
+}
+
+TEST(OccupancyMap, MalformedScansAreRefusedWithAReason) {
+  OccupancyMap map(coast(), kOptions);
+  const auto reason = [&](const SensorPose& sensor, const Scan& scan) {
+    const auto result = map.insertScan(sensor, scan);
+    return result ? std::string() : result.error().message;
+  };
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  expect(reason(sensorAt(kNan, 0.0), openWater()), "pose");
+  expect(reason(sensorAt(500.0, 0.0), openWater()), "outside the map");
+  expect(reason(sensorAt(0.0, 0.0), openWater(0)), "no ranges");
+  expect(reason(sensorAt(0.0, 0.0), {0.0, kNan, 0.2, 15.0, {1.0F, 2.0F}}), "angle");
+  expect(reason(sensorAt(0.0, 0.0), {0.0, 1.0, 0.2, 15.0, std::vector<float>(9, 1.0F)}), "round");
+  expect(reason(sensorAt(0.0, 0.0), {0.0, 0.1, 5.0, 2.0, {1.0F}}), "range_min");
+  expect(reason(sensorAt(0.0, 0.0), {0.0, 0.1, 0.2, 15.0, {3.0F, -1.0F}}), "range 1 is negative");
+  EXPECT_EQ(map.projection().cells, coast().cells);
+}
+
+TEST(OccupancyMap, SavesAndResets) {
+  OccupancyMap map(coast(), kOptions);
+  ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), aheadOnly(5.1F)));
+  const std::vector<Cell> seen = map.projection().cells;
+  ASSERT_NE(seen, coast().cells);
+  for (const std::string ending : {".bt", ".ot", ".yaml"}) {
+    const std::string path = testing::TempDir() + "/occupancy_map_test" + ending;
+    const Status saved = map.save(path);
+    ASSERT_TRUE(saved) << saved.error().message;
+    const auto again = loadMap(path, kOptions.band);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->cells, seen) << ending;
+    EXPECT_LT((again->geometry.origin - coast().geometry.origin).norm(), 1e-9) << ending;
+    std::filesystem::remove(path);
+  }
+  EXPECT_FALSE(map.save("/nonexistent/map.bt"));
+  EXPECT_FALSE(map.save("map.jpg"));
+  const CellRectangle changed = map.reset();
+  EXPECT_EQ(changed.width, 1);
+  EXPECT_EQ(map.projection().cells, coast().cells);
+}
+
+TEST(LoadOctomap, BrokenFilesAreNamed) {
+  OccupancyMap map(coast(), kOptions);
+  for (const std::string ending : {".bt", ".ot"}) {
+    const std::string path = testing::TempDir() + "/broken_octomap" + ending;
+    ASSERT_TRUE(map.save(path));
+    const auto size = std::filesystem::file_size(path);
+    const auto message = [&] {
+      const auto loaded = loadMap(path, kOptions.band);
+      return loaded ? std::string() : loaded.error().message;
+    };
+    for (const auto cut : {size - 1, size / 2, std::uintmax_t{300}, std::uintmax_t{60}}) {
+      std::filesystem::resize_file(path, cut);
+      EXPECT_NE(message().find(path), std::string::npos) << cut;
+    }
+    std::ofstream(path) << "nonsense";
+    EXPECT_NE(message().find("not an OctoMap file"), std::string::npos);
+    std::filesystem::remove(path);
+    EXPECT_NE(message().find("no such file"), std::string::npos);
+  }
+  EXPECT_FALSE(loadMap("chart.jpg", kOptions.band));
+}
+
+TEST(OccupancyMapOptions, ShippedFileHoldsTheDefaults) {
+  const std::string path = std::string(OTTER_NAV_SOURCE_DIR) + "/config/map.yaml";
+  const auto node = config::loadFile(path);
+  ASSERT_TRUE(node) << node.error().message;
+  const auto options = readOccupancyMapOptions({*node, path});
+  ASSERT_TRUE(options) << options.error().message;
+  EXPECT_EQ(options->hit_probability, kOptions.hit_probability);
+  EXPECT_EQ(options->band.max_m, kOptions.band.max_m);
+  YAML::Node wrong = YAML::Clone(*node);
+  wrong["band_min_m"] = 3.0;
+  const auto refused = readOccupancyMapOptions({wrong, path});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("'band_min_m'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace otter_nav::map
