@@ -30,7 +30,7 @@ map::Cell toCell(std::int8_t value) {
 }
 
 // The window grown to hold the cell.
-void include(int column, int row, Window& window) {
+void include(int column, int row, map::CellRectangle& window) {
   if (window.empty()) {
     window = {column, row, 1, 1};
     return;
@@ -71,11 +71,11 @@ Status checkInfo(const nav_msgs::OccupancyGrid& message, const std::string& fram
 }  // namespace
 
 nav_msgs::OccupancyGrid toMessage(const map::OccupancyGrid& grid, const std::string& frame,
-                                  const ros::Time& stamp) {
+                                  const ros::Time& stamp, const ros::Time& load_time) {
   nav_msgs::OccupancyGrid message;
   message.header.frame_id = frame;
   message.header.stamp = stamp;
-  message.info.map_load_time = stamp;
+  message.info.map_load_time = load_time;
   message.info.resolution = static_cast<float>(grid.geometry.resolution_m);
   message.info.width = static_cast<std::uint32_t>(grid.geometry.width);
   message.info.height = static_cast<std::uint32_t>(grid.geometry.height);
@@ -87,7 +87,8 @@ nav_msgs::OccupancyGrid toMessage(const map::OccupancyGrid& grid, const std::str
   return message;
 }
 
-map_msgs::OccupancyGridUpdate updateMessage(const map::OccupancyGrid& grid, const Window& window,
+map_msgs::OccupancyGridUpdate updateMessage(const map::OccupancyGrid& grid,
+                                            const map::CellRectangle& window,
                                             const std::string& frame, const ros::Time& stamp) {
   map_msgs::OccupancyGridUpdate update;
   update.header.frame_id = frame;
@@ -121,8 +122,8 @@ Result<map::OccupancyGrid> toGrid(const nav_msgs::OccupancyGrid& message,
   return grid;
 }
 
-Result<Window> applyUpdate(const map_msgs::OccupancyGridUpdate& update, const std::string& frame,
-                           map::OccupancyGrid& grid) {
+Result<map::CellRectangle> applyUpdate(const map_msgs::OccupancyGridUpdate& update,
+                                       const std::string& frame, map::OccupancyGrid& grid) {
   if (update.header.frame_id != frame) {
     return failure("frame_id is '" + update.header.frame_id + "', expected '" + frame + "'");
   }
@@ -136,7 +137,7 @@ Result<Window> applyUpdate(const map_msgs::OccupancyGridUpdate& update, const st
     return failure("data holds " + std::to_string(update.data.size()) + " cells, expected " +
                    std::to_string(width * height));
   }
-  Window changed;
+  map::CellRectangle changed;
   std::size_t next = 0;
   for (int row = update.y; row < update.y + height; ++row) {
     for (int column = update.x; column < update.x + width; ++column) {

@@ -8,23 +8,16 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
+#include "otter_nav/map/occupancy_map.hpp"
 
 namespace otter_nav::ros_bridge {
 
-// A window of cells: columns [column, column + width), rows alike.
-struct Window {
-  int column = 0;
-  int row = 0;
-  int width = 0;
-  int height = 0;
-  [[nodiscard]] bool empty() const { return width <= 0 || height <= 0; }
-};
-
-// Free is 0, occupied 100, unknown -1.
+// Free is 0, occupied 100, unknown -1. The load time tells one map from the next.
 [[nodiscard]] nav_msgs::OccupancyGrid toMessage(const map::OccupancyGrid& grid,
-                                                const std::string& frame, const ros::Time& stamp);
+                                                const std::string& frame, const ros::Time& stamp,
+                                                const ros::Time& load_time);
 [[nodiscard]] map_msgs::OccupancyGridUpdate updateMessage(const map::OccupancyGrid& grid,
-                                                          const Window& window,
+                                                          const map::CellRectangle& window,
                                                           const std::string& frame,
                                                           const ros::Time& stamp);
 
@@ -35,7 +28,8 @@ struct Window {
 
 // Writes the update into `grid` and returns the window of cells it really changed. A refused
 // update leaves the grid as it was.
-[[nodiscard]] Result<Window> applyUpdate(const map_msgs::OccupancyGridUpdate& update,
-                                         const std::string& frame, map::OccupancyGrid& grid);
+[[nodiscard]] Result<map::CellRectangle> applyUpdate(const map_msgs::OccupancyGridUpdate& update,
+                                                     const std::string& frame,
+                                                     map::OccupancyGrid& grid);
 
 }  // namespace otter_nav::ros_bridge

@@ -1,0 +1,109 @@
+#include "goal_server.hpp"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "otter_nav/ros/frames.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+using Result = move_base_msgs::MoveBaseResult;
+
+}  // namespace
+
+GoalServer::GoalServer(ros::NodeHandle& node, OnGoal on_goal, OnCancel on_cancel)
+    : on_goal_(std::move(on_goal)),
+      on_cancel_(std::move(on_cancel)),
+      action_goal_(node.advertise<move_base_msgs::MoveBaseActionGoal>("move_base/goal", 1)),
+      server_(
+          node, "move_base", [this](Handle handle) { onActionGoal(std::move(handle)); },
+          [this](Handle handle) { onActionCancel(std::move(handle)); }, false) {
+  // rviz's goal takes the way of the action, so that there is one way only.
+  simple_goal_ = node.subscribe<geometry_msgs::PoseStamped>(
+      "move_base_simple/goal", 1, [this](const geometry_msgs::PoseStampedConstPtr& goal) {
+        move_base_msgs::MoveBaseActionGoal message;
+        message.header.stamp = ros::Time::now();
+        message.goal.target_pose = *goal;
+        action_goal_.publish(message);
+      });
+  server_.start();
+}
+
+void GoalServer::onActionGoal(Handle handle) {
+  if (!ready_) {
+    abortWaiting("replaced by another goal");
+    waiting_ = std::move(handle);
+    return;
+  }
+  take(std::move(handle));
+}
+
+void GoalServer::retryWaiting() {
+  if (ready_ && waiting_) {
+    Handle handle = *std::exchange(waiting_, std::nullopt);
+    take(std::move(handle));
+  }
+}
+
+void GoalServer::abortWaiting(const std::string& reason) {
+  if (waiting_) {
+    waiting_->setRejected(Result(), reason);
+    waiting_.reset();
+  }
+}
+
+void GoalServer::take(Handle handle) {
+  handle.setAccepted();
+  const Status taken =
+      ros_bridge::planarPose(handle.getGoal()->target_pose, ros_bridge::kMapFrame)
+          .and_then([&](const ros_bridge::PlanarPose& pose) { return on_goal_(pose); });
+  if (!taken) {
+    ROS_WARN_STREAM("Refused the goal: " << taken.error().message);
+    handle.setAborted(Result(), taken.error().message);
+    return;
+  }
+  if (under_way_) {
+    under_way_->setCanceled(Result(), "replaced by another goal");
+  }
+  under_way_ = std::move(handle);
+}
+
+void GoalServer::onActionCancel(Handle handle) {
+  if (waiting_ && *waiting_ == handle) {
+    waiting_->setCanceled(Result(), "cancelled");
+    waiting_.reset();
+  }
+  if (under_way_ && *under_way_ == handle) {
+    under_way_->setCanceled(Result(), "cancelled");
+    under_way_.reset();
+    on_cancel_();
+  }
+}
+
+void GoalServer::succeed(const std::string& text) {
+  if (under_way_) {
+    under_way_->setSucceeded(Result(), text);
+    under_way_.reset();
+  }
+}
+
+void GoalServer::abort(const std::string& reason) {
+  if (under_way_) {
+    under_way_->setAborted(Result(), reason);
+    under_way_.reset();
+  }
+}
+
+void GoalServer::feedback(const ros_bridge::PlanarPose& pose, const ros::Time& stamp) {
+  if (under_way_) {
+    move_base_msgs::MoveBaseFeedback message;
+    message.base_position.header.frame_id = ros_bridge::kMapFrame;
+    message.base_position.header.stamp = stamp;
+    message.base_position.pose = ros_bridge::toPose(pose.position, pose.psi_rad);
+    under_way_->publishFeedback(message);
+  }
+}
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,57 @@
+// Goals from the action `move_base` and from `move_base_simple/goal`, and what becomes of them.
+#pragma once
+
+#include <actionlib/server/action_server.h>
+#include <move_base_msgs/MoveBaseAction.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/ros/conversions.hpp"
+
+namespace otter_nav::nodes {
+
+// One goal at a time is under way; an accepted goal replaces the one before it, a refused one
+// leaves it be. Callbacks come in the node's thread.
+class GoalServer {
+ public:
+  // Takes the goal, or says why not.
+  using OnGoal = std::function<Status(const ros_bridge::PlanarPose&)>;
+  using OnCancel = std::function<void()>;
+
+  GoalServer(ros::NodeHandle& node, OnGoal on_goal, OnCancel on_cancel);
+
+  [[nodiscard]] bool active() const { return under_way_.has_value(); }
+  void succeed(const std::string& text);
+  void abort(const std::string& reason);
+  void feedback(const ros_bridge::PlanarPose& pose, const ros::Time& stamp);
+  // Looks again at a goal that came before the node was ready for it.
+  void retryWaiting();
+  // A goal that comes now waits until retryWaiting().
+  void setReady(bool ready) { ready_ = ready; }
+  // The goal that waits, if any, is aborted.
+  void abortWaiting(const std::string& reason);
+  [[nodiscard]] bool waiting() const { return waiting_.has_value(); }
+
+ private:
+  using Server = actionlib::ActionServer<move_base_msgs::MoveBaseAction>;
+  using Handle = Server::GoalHandle;
+
+  void onActionGoal(Handle handle);
+  void onActionCancel(Handle handle);
+  void take(Handle handle);
+
+  OnGoal on_goal_;
+  OnCancel on_cancel_;
+  bool ready_ = false;
+  std::optional<Handle> under_way_;
+  std::optional<Handle> waiting_;
+  ros::Publisher action_goal_;
+  ros::Subscriber simple_goal_;
+  Server server_;
+};
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,149 @@
+#include "map_node.hpp"
+
+#include "otter_nav/map/chart.hpp"
+#include "otter_nav/mission/scenario.hpp"
+#include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/grids.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+using ros_bridge::kMapFrame;
+using Level = ros_bridge::Diagnostics::Level;
+
+constexpr int kQueue = 50;
+
+map::Scan toScan(const sensor_msgs::LaserScan& message) {
+  map::Scan scan;
+  scan.angle_min_rad = static_cast<double>(message.angle_min);
+  scan.angle_increment_rad = static_cast<double>(message.angle_increment);
+  scan.range_min_m = static_cast<double>(message.range_min);
+  scan.range_max_m = static_cast<double>(message.range_max);
+  scan.ranges_m = message.ranges;
+  return scan;
+}
+
+// The chart's file: as given, or the scenario's.
+Result<std::string> chartPath(const std::string& chart, const std::string& scenario_path) {
+  if (scenario_path.empty()) {
+    return chart;
+  }
+  return mission::loadScenario(scenario_path).map([](const mission::Scenario& scenario) {
+    return scenario.chart_path;
+  });
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MapNode>> MapNode::create(config::Section section) {
+  std::string chart;
+  std::string scenario;
+  section.read("chart", chart);
+  section.read("scenario", scenario);
+  const Result<map::OccupancyMapOptions> options =
+      map::readOccupancyMapOptions(section.child("map"));
+  if (const Status status = section.finish(); !status) {
+    return failure(status.error().message);
+  }
+  if (!options) {
+    return failure(options.error().message);
+  }
+  if (chart.empty() == scenario.empty()) {
+    return failure(section.where() + ": give one of the parameters 'chart' and 'scenario'");
+  }
+  return chartPath(chart, scenario)
+      .and_then([&](const std::string& path) { return map::loadMap(path, options->band); })
+      .map([&](map::OccupancyGrid grid) {
+        return std::unique_ptr<MapNode>(new MapNode(map::OccupancyMap(std::move(grid), *options)));
+      });
+}
+
+MapNode::MapNode(map::OccupancyMap map)
+    : diagnostics_(node_, private_node_, "map"),
+      map_(std::move(map)),
+      load_time_(ros::WallTime::now().sec, ros::WallTime::now().nsec),
+      scan_subscriber_(node_, "scan", kQueue, ros::TransportHints().tcpNoDelay()),
+      scan_filter_(scan_subscriber_, transforms_, kMapFrame, kQueue, node_),
+      map_publisher_(node_.advertise<nav_msgs::OccupancyGrid>(
+          "map", 1,
+          [this](const ros::SingleSubscriberPublisher& subscriber) { publishMapTo(subscriber); },
+          ros::SubscriberStatusCallback(), ros::VoidConstPtr(), true)),
+      update_publisher_(node_.advertise<map_msgs::OccupancyGridUpdate>("map_updates", kQueue)),
+      save_service_(private_node_.advertiseService("save", &MapNode::onSave, this)),
+      reset_service_(private_node_.advertiseService("reset", &MapNode::onReset, this)) {
+  map_publisher_.publish(
+      ros_bridge::toMessage(map_.projection(), kMapFrame, ros::Time::now(), load_time_));
+  scan_filter_.registerCallback(
+      [this](const sensor_msgs::LaserScanConstPtr& message) { onScan(message); });
+  diagnostics_.setState(Level::kOk, "chart loaded");
+}
+
+// A late subscriber gets the map as it is now, not as it was when it was latched.
+void MapNode::publishMapTo(const ros::SingleSubscriberPublisher& subscriber) const {
+  if (!last_scan_.isZero()) {
+    subscriber.publish(ros_bridge::toMessage(map_.projection(), kMapFrame, last_scan_, load_time_));
+  }
+}
+
+Result<map::SensorPose> MapNode::sensorPose(const std_msgs::Header& header) const {
+  try {
+    const geometry_msgs::Transform transform =
+        transforms_.lookupTransform(kMapFrame, header.frame_id, header.stamp).transform;
+    const Eigen::Vector3d angles = ros_bridge::rollPitchYaw(
+        {transform.rotation.w, transform.rotation.x, transform.rotation.y, transform.rotation.z});
+    map::SensorPose pose;
+    pose.position = {transform.translation.x, transform.translation.y, transform.translation.z};
+    pose.roll_rad = angles.x();
+    pose.pitch_rad = angles.y();
+    pose.yaw_rad = angles.z();
+    return pose;
+  } catch (const tf2::TransformException& exception) {
+    return failure(exception.what());
+  }
+}
+
+void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
+  if (message->header.stamp <= last_scan_) {
+    if (message->header.stamp == last_scan_) {
+      publishUpdate({}, last_scan_);
+    } else {
+      diagnostics_.refuse("scan", "its stamp goes backwards");
+    }
+    return;
+  }
+  const Result<map::CellRectangle> changed =
+      sensorPose(message->header).and_then([&](const map::SensorPose& pose) {
+        return map_.insertScan(pose, toScan(*message));
+      });
+  if (!changed) {
+    diagnostics_.refuse("scan", changed.error().message);
+  }
+  last_scan_ = message->header.stamp;
+  publishUpdate(changed.value_or(map::CellRectangle{}), last_scan_);
+}
+
+void MapNode::publishUpdate(map::CellRectangle changed, const ros::Time& stamp) {
+  if (changed.empty()) {
+    changed = {0, 0, 1, 1};
+  }
+  update_publisher_.publish(
+      ros_bridge::updateMessage(map_.projection(), changed, kMapFrame, stamp));
+}
+
+bool MapNode::onSave(SaveMap::Request& request, SaveMap::Response& response) {
+  const Status status = map_.save(request.path);
+  response.success = static_cast<std::uint8_t>(status.has_value());
+  response.message = status ? "saved " + request.path : status.error().message;
+  return true;
+}
+
+bool MapNode::onReset(std_srvs::Trigger::Request& /*request*/,
+                      std_srvs::Trigger::Response& response) {
+  publishUpdate(map_.reset(), last_scan_.isZero() ? ros::Time::now() : last_scan_);
+  response.success = 1;
+  response.message = "what was sensed is forgotten; the chart stays";
+  return true;
+}
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,69 @@
+// Planning in a thread of its own, one request at a time, with the guide path asked of
+// topology_node. Results come back in the node's thread.
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/mission/supervisor.hpp"
+#include "otter_nav/planner/planner.hpp"
+
+namespace otter_nav::nodes {
+
+struct PlanTask {
+  mission::PlanRequest request;
+  map::DistanceField field;  // the worker's own copy
+  ros::Time map_stamp;
+};
+
+struct PlanDone {
+  mission::PlanRequest request;
+  planner::Plan plan;
+  double wall_ms = 0.0;
+};
+
+class PlanWorker {
+ public:
+  struct Options {
+    planner::Options planner;
+    // Without a wall-clock budget only the iterations bound a plan, and it is the same each time.
+    std::optional<double> budget_s;
+    int max_iterations = 20000;
+    bool use_topology_node = true;
+  };
+  using OnDone = std::function<void(const PlanDone&)>;
+
+  PlanWorker(const Options& options, const vessel::Parameters& vessel, OnDone on_done);
+  ~PlanWorker();
+  PlanWorker(const PlanWorker&) = delete;
+  PlanWorker& operator=(const PlanWorker&) = delete;
+
+  // Replaces a task that has not begun.
+  void start(PlanTask task);
+
+ private:
+  void run();
+  [[nodiscard]] PlanDone plan(const PlanTask& task);
+  [[nodiscard]] std::vector<Eigen::Vector2d> guidePath(const PlanTask& task);
+
+  Options options_;
+  planner::Planner planner_;
+  OnDone on_done_;
+  ros::NodeHandle node_;
+  ros::ServiceClient topology_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<PlanTask> next_;
+  bool running_ = true;
+  std::thread thread_;
+};
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,245 @@
+#include "planner_node.hpp"
+
+#include <std_msgs/Header.h>
+
+#include <algorithm>
+
+#include "map_options.hpp"
+#include "otter_nav/ros/frames.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+using ros_bridge::kBaseFrame;
+using Level = ros_bridge::Diagnostics::Level;
+using mission::Phase;
+
+constexpr int kQueue = 100;
+constexpr double kInputPeriodS = 0.5;
+
+PlanWorker::Options workerOptions(const PlannerNodeOptions& node, const planner::Options& planner) {
+  PlanWorker::Options options;
+  options.planner = planner;
+  options.planner.keep_trees = true;
+  if (node.lockstep) {
+    options.max_iterations = node.lockstep_iterations;
+  } else {
+    options.budget_s = node.planning_budget_s;
+  }
+  options.use_topology_node = node.use_topology_node;
+  return options;
+}
+
+}  // namespace
+
+PlannerNode::PlannerNode(const Setup& setup)
+    : setup_(setup),
+      diagnostics_(node_, private_node_, setup.vessel.name),
+      map_(setup.field),
+      supervisor_(setup.supervisor, setup.vessel, static_cast<std::uint64_t>(setup.node.seed)),
+      publisher_(node_, setup.vessel),
+      acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", kQueue)),
+      goals_(
+          node_, [this](const ros_bridge::PlanarPose& goal) { return onGoal(goal); },
+          [this] { onCancel(); }),
+      worker_(workerOptions(setup.node, setup.planner), setup.vessel,
+              [this](const PlanDone& done) { onPlanDone(done); }) {
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  map_subscriber_ = node_.subscribe("map", 1, &PlannerNode::onMap, this);
+  update_subscriber_ =
+      node_.subscribe("map_updates", kQueue, &PlannerNode::onUpdate, this, no_delay);
+  odometry_subscriber_ = node_.subscribe("odom", kQueue, &PlannerNode::onOdometry, this, no_delay);
+  tracker_subscriber_ =
+      node_.subscribe("tracker_status", kQueue, &PlannerNode::onTrackerStatus, this, no_delay);
+  if (!setup_.node.lockstep) {
+    decision_timer_ = node_.createWallTimer(ros::WallDuration(1.0 / setup_.node.decision_rate_hz),
+                                            [this](const ros::WallTimerEvent&) { decide(); });
+  }
+  input_timer_ = node_.createWallTimer(ros::WallDuration(kInputPeriodS),
+                                       [this](const ros::WallTimerEvent&) { checkInputs(); });
+}
+
+void PlannerNode::onMap(const nav_msgs::OccupancyGrid& message) {
+  if (const Status status = map_.take(message); !status) {
+    diagnostics_.refuse("map", status.error().message);
+  }
+  decideInTurn();
+}
+
+void PlannerNode::onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message) {
+  if (setup_.node.lockstep) {
+    updates_.push_back(message);
+    decideInTurn();
+  } else {
+    if (const auto changed = map_.take(*message); !changed) {
+      diagnostics_.refuse("map_updates", changed.error().message);
+    }
+    decide();
+  }
+}
+
+void PlannerNode::onOdometry(const nav_msgs::Odometry& message) {
+  const Result<ros_bridge::OdometrySample> sample =
+      ros_bridge::odometrySample(message, setup_.node.odometry_frame, kBaseFrame);
+  if (!sample) {
+    diagnostics_.refuse("odom", sample.error().message);
+  } else if (!odometry_.add(*sample)) {
+    diagnostics_.refuse("odom", "its stamp goes backwards");
+  }
+  decideInTurn();
+}
+
+void PlannerNode::onTrackerStatus(const TrackerStatus& message) {
+  tracker_.take(message);
+  settle();
+  decideInTurn();
+}
+
+void PlannerNode::decideInTurn() {
+  while (setup_.node.lockstep && !updates_.empty() && map_.ready() && !unacknowledged_) {
+    const ros::Time stamp = updates_.front()->header.stamp;
+    const auto vessel = odometry_.at(stamp.toSec());
+    if (!vessel) {
+      return;
+    }
+    if (const auto changed = map_.take(*updates_.front()); !changed) {
+      diagnostics_.refuse("map_updates", changed.error().message);
+    }
+    updates_.pop_front();
+    unacknowledged_ = stamp;
+    if (stamp > acknowledged_) {
+      vessel_ = *vessel;
+      now_s_ = stamp.toSec() + setup_.node.lockstep_lag_s;
+      execute(supervisor_.update(now_s_, situation(), map_.field()));
+    }
+    goals_.setReady(true);
+    goals_.retryWaiting();
+    settle();
+  }
+}
+
+void PlannerNode::decide() {
+  if (!map_.ready() || odometry_.empty()) {
+    return;
+  }
+  vessel_ = odometry_.latest();
+  now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
+  execute(supervisor_.update(now_s_, situation(), map_.field()));
+  goals_.setReady(true);
+  goals_.retryWaiting();
+  settle();
+}
+
+Status PlannerNode::onGoal(const ros_bridge::PlanarPose& goal) {
+  Result<mission::Orders> orders = supervisor_.setGoal(
+      now_s_, mission::Goal{goal.position, goal.psi_rad}, situation(), map_.field());
+  if (!orders) {
+    return failure(orders.error().message);
+  }
+  execute(*orders);
+  settle();
+  return {};
+}
+
+void PlannerNode::onCancel() {
+  execute(supervisor_.cancel(now_s_, situation(), map_.field()));
+  settle();
+}
+
+void PlannerNode::onPlanDone(const PlanDone& done) {
+  publisher_.publishPlan(done);
+  mission::PlanReply reply;
+  reply.id = done.request.id;
+  reply.solved = done.plan.outcome == planner::Outcome::kSolved;
+  reply.reason = done.plan.reason;
+  reply.trajectory = done.plan.trajectory;
+  if (!reply.solved) {
+    ROS_INFO_STREAM("No plan at clearance " << done.request.clearance_m
+                                            << " m: " << done.plan.reason);
+  }
+  if (plan_under_way_ == done.request.id) {
+    plan_under_way_ = 0;
+  }
+  if (!setup_.node.lockstep) {
+    vessel_ = odometry_.latest();
+    now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
+  }
+  execute(supervisor_.planFinished(now_s_, reply, situation(), map_.field()));
+  settle();
+  decideInTurn();
+}
+
+void PlannerNode::execute(const mission::Orders& orders) {
+  if (orders.plan) {
+    plan_under_way_ = orders.plan->id;
+    worker_.start({*orders.plan, map_.field(), map_.stamp()});
+  }
+  if (orders.sail) {
+    sent_id_ = publisher_.publish(*orders.sail, supervisor_.goal());
+    tracker_.expect(sent_id_, false);
+  } else if (orders.stop) {
+    sent_id_ = publisher_.publishStop(now_s_, supervisor_.goal());
+    tracker_.expect(sent_id_, true);
+  }
+}
+
+void PlannerNode::settle() {
+  const bool handed_over = sent_id_ == 0 || tracker_.answered(sent_id_);
+  if (setup_.node.lockstep && (plan_under_way_ != 0 || !handed_over)) {
+    return;
+  }
+  if (handed_over) {
+    confirmed_id_ = sent_id_;
+  }
+  const Phase phase = supervisor_.phase();
+  publisher_.publishStatus(supervisor_, now_s_, confirmed_id_);
+  goals_.feedback({vessel_.state.head<2>(), vessel_.state[vessel::kPsi]},
+                  ros_bridge::toRosTime(vessel_.stamp_s));
+  if (phase == Phase::kArrived) {
+    goals_.succeed("arrived");
+  } else if (phase == Phase::kFailed) {
+    goals_.abort(supervisor_.reason());
+  }
+  diagnostics_.setState(phase == Phase::kFailed ? Level::kError : Level::kOk,
+                        std::string(mission::name(phase)) +
+                            (supervisor_.reason().empty() ? "" : ": " + supervisor_.reason()));
+  if (unacknowledged_) {
+    acknowledged_ = std::max(acknowledged_, *unacknowledged_);
+    unacknowledged_.reset();
+    std_msgs::Header acknowledgement;
+    acknowledgement.stamp = acknowledged_;
+    acknowledgement.frame_id = "planner_node";
+    acknowledgement_.publish(acknowledgement);
+  }
+}
+
+// A goal that came before map and odometry waits for them, but not for ever.
+void PlannerNode::checkInputs() {
+  if (!goals_.waiting()) {
+    waiting_since_ = ros::WallTime::now();
+    return;
+  }
+  const ros::WallDuration patience(setup_.node.input_timeout_s);
+  if (ros::WallTime::now() - waiting_since_ > patience) {
+    goals_.abortWaiting(!map_.ready()       ? "there is no map"
+                        : odometry_.empty() ? "there is no odometry"
+                                            : "there are no map updates");
+  }
+}
+
+mission::Situation PlannerNode::situation() const {
+  mission::Situation situation;
+  situation.state = vessel_.state;
+  situation.odometry_stamp_s = vessel_.stamp_s;
+  const mission::SailOrder& sailed = supervisor_.sailed();
+  if (!sailed.trajectory.empty() && vessel_.stamp_s >= sailed.start_time_s) {
+    const vessel::FlatPoint reference =
+        sailed.trajectory.flat(vessel_.stamp_s - sailed.start_time_s);
+    situation.tracking_error_m = (reference.position - vessel_.state.head<2>()).norm();
+  }
+  situation.tracker_fault = tracker_.gaveUp();
+  situation.tracker_reason = tracker_.reason();
+  return situation;
+}
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,107 @@
+// planner_node: takes goals, plans, watches the way and plans anew when it must. The decisions are
+// mission::Supervisor's; this wires them. Parameters: config/planner_node.yaml, and the rooms' own
+// under ~planner (config/planner.yaml) and ~supervisor (config/mission.yaml).
+#pragma once
+
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+#include <otter_nav/TrackerStatus.h>
+#include <ros/node_handle.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "goal_server.hpp"
+#include "odometry_history.hpp"
+#include "otter_nav/config/section.hpp"
+#include "otter_nav/mission/supervisor.hpp"
+#include "otter_nav/ros/diagnostics.hpp"
+#include "otter_nav/ros/map_mirror.hpp"
+#include "plan_worker.hpp"
+#include "planner_publisher.hpp"
+#include "tracker_watch.hpp"
+
+namespace otter_nav::nodes {
+
+struct PlannerNodeOptions {
+  std::string vessel;          // a name of config/vessels, or a file
+  std::string odometry_frame;  // odom or map; both coincide (docs/frames.md)
+  int seed = 1;
+  bool lockstep = true;          // decide once each map update and acknowledge it
+  double lockstep_lag_s = 0.05;  // the plant's: decisions take effect this long after the scan
+  int lockstep_iterations = 20000;
+  double planning_budget_s = 0.1;  // of wall time, when not in lockstep
+  double decision_rate_hz = 20.0;  // when not in lockstep
+  double input_timeout_s = 20.0;   // of wall time a goal waits for map and odometry
+  bool use_topology_node = true;
+};
+
+class PlannerNode {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<PlannerNode>> create(config::Section section);
+  [[nodiscard]] static int exitCode() { return 0; }
+
+ private:
+  struct Setup {
+    PlannerNodeOptions node;
+    vessel::Parameters vessel;
+    map::DistanceFieldOptions field;
+    mission::SupervisorOptions supervisor;
+    planner::Options planner;
+  };
+  [[nodiscard]] static Result<Setup> readSetup(config::Section section);
+  explicit PlannerNode(const Setup& setup);
+
+  void onMap(const nav_msgs::OccupancyGrid& message);
+  void onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message);
+  void onOdometry(const nav_msgs::Odometry& message);
+  void onTrackerStatus(const TrackerStatus& message);
+  [[nodiscard]] Status onGoal(const ros_bridge::PlanarPose& goal);
+  void onCancel();
+  void onPlanDone(const PlanDone& done);
+
+  // Lockstep: map updates in turn, each with the odometry of its stamp, none while an order of the
+  // one before is still under way.
+  void decideInTurn();
+  void decide();
+  void execute(const mission::Orders& orders);
+  // What follows from the supervisor's phase: results of the goal, status, acknowledgement.
+  void settle();
+  void checkInputs();
+  [[nodiscard]] mission::Situation situation() const;
+
+  Setup setup_;
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_{"~"};
+  ros_bridge::Diagnostics diagnostics_;
+  ros_bridge::MapMirror map_;
+  OdometryHistory odometry_;
+  TrackerWatch tracker_;
+  mission::Supervisor supervisor_;
+  PlannerPublisher publisher_;
+
+  double now_s_ = 0.0;                                         // of the decision under way
+  ros_bridge::OdometrySample vessel_;                          // at that decision
+  std::deque<map_msgs::OccupancyGridUpdateConstPtr> updates_;  // waiting for their turn
+  std::optional<ros::Time> unacknowledged_;
+  ros::Time acknowledged_;
+  int plan_under_way_ = 0;     // id of the request; 0 for none
+  std::uint32_t sent_id_ = 0;  // of the last trajectory published
+  std::uint32_t confirmed_id_ = 0;  // of the last the tracker has
+  ros::WallTime waiting_since_;
+
+  ros::Publisher acknowledgement_;
+  ros::Subscriber map_subscriber_;
+  ros::Subscriber update_subscriber_;
+  ros::Subscriber odometry_subscriber_;
+  ros::Subscriber tracker_subscriber_;
+  ros::WallTimer decision_timer_;
+  ros::WallTimer input_timer_;
+  GoalServer goals_;
+  PlanWorker worker_;
+};
+
+}  // namespace otter_nav::nodes

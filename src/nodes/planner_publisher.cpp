@@ -1,0 +1,79 @@
+#include "planner_publisher.hpp"
+
+#include <nav_msgs/Path.h>
+#include <otter_nav/Trajectory.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "otter_nav/mission/recorder.hpp"
+#include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/plan_markers.hpp"
+#include "otter_nav/ros/trajectories.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+using ros_bridge::kMapFrame;
+
+constexpr int kQueue = 100;
+constexpr double kPathStepS = 0.25;
+
+}  // namespace
+
+PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel)
+    : vessel_(std::move(vessel)),
+      trajectory_(node.advertise<Trajectory>("trajectory", kQueue, true)),
+      path_(node.advertise<nav_msgs::Path>("path", 1, true)),
+      status_publisher_(node.advertise<PlannerStatus>("planner_status", kQueue)),
+      trajectory_markers_(
+          node.advertise<visualization_msgs::MarkerArray>("trajectory_markers", 1, true)),
+      tree_markers_(node.advertise<visualization_msgs::MarkerArray>("tree_markers", 1, true)) {
+  status_.header.frame_id = kMapFrame;
+}
+
+std::uint32_t PlannerPublisher::publish(const mission::SailOrder& order,
+                                        const mission::Goal& goal) {
+  const ros_bridge::PlanarPose pose{goal.position, goal.psi_rad};
+  trajectory_.publish(ros_bridge::toMessage(order.trajectory, order.start_time_s, ++last_id_, pose,
+                                            kMapFrame, vessel_));
+  path_.publish(
+      ros_bridge::toPath(order.trajectory, order.start_time_s, kPathStepS, kMapFrame, vessel_));
+  trajectory_markers_.publish(ros_bridge::trajectoryMarkers(order.trajectory, vessel_));
+  return last_id_;
+}
+
+std::uint32_t PlannerPublisher::publishStop(double now_s, const mission::Goal& goal) {
+  return publish({trajectory::Trajectory(), now_s}, goal);
+}
+
+void PlannerPublisher::publishPlan(const PlanDone& done) {
+  const planner::Figures& figures = done.plan.figures;
+  planning_ms_.push_back(done.wall_ms);
+  status_.outcome = planner::toString(done.plan.outcome);
+  status_.plans += 1;
+  status_.length = figures.length_m;
+  status_.duration = figures.duration_s;
+  status_.cost = figures.cost;
+  status_.node_utilization = figures.node_utilization;
+  status_.samples = static_cast<std::uint32_t>(figures.samples);
+  status_.nodes = static_cast<std::uint32_t>(figures.nodes);
+  status_.first_solution_ms = figures.first_solution_ms;
+  status_.planning_ms = done.wall_ms;
+  status_.planning_ms_median = mission::quantile(planning_ms_, 0.5);
+  status_.planning_ms_max = *std::max_element(planning_ms_.begin(), planning_ms_.end());
+  tree_markers_.publish(ros_bridge::treeMarkers(done.plan));
+}
+
+void PlannerPublisher::publishStatus(const mission::Supervisor& supervisor, double now_s,
+                                     std::uint32_t trajectory_id) {
+  status_.header.stamp = ros_bridge::toRosTime(now_s);
+  status_.state = mission::name(supervisor.phase());
+  status_.reason = supervisor.reason();
+  status_.replans = static_cast<std::uint32_t>(supervisor.replans());
+  status_.trajectory_id = trajectory_id;
+  status_publisher_.publish(status_);
+}
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,41 @@
+// What the planner tells the world: trajectories for the tracker, paths and trees for people, and
+// its status with the paper's figures.
+#pragma once
+
+#include <otter_nav/PlannerStatus.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <vector>
+
+#include "otter_nav/mission/supervisor.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+#include "plan_worker.hpp"
+
+namespace otter_nav::nodes {
+
+class PlannerPublisher {
+ public:
+  PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel);
+
+  // Publishes the order under a new id and returns that.
+  std::uint32_t publish(const mission::SailOrder& order, const mission::Goal& goal);
+  // Asks the tracker to stop by itself: an empty trajectory.
+  std::uint32_t publishStop(double now_s, const mission::Goal& goal);
+  void publishPlan(const PlanDone& done);
+  void publishStatus(const mission::Supervisor& supervisor, double now_s,
+                     std::uint32_t trajectory_id);
+
+ private:
+  vessel::Parameters vessel_;
+  std::uint32_t last_id_ = 0;
+  PlannerStatus status_;
+  std::vector<double> planning_ms_;
+  ros::Publisher trajectory_;
+  ros::Publisher path_;
+  ros::Publisher status_publisher_;
+  ros::Publisher trajectory_markers_;
+  ros::Publisher tree_markers_;
+};
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,243 @@
+#include "tracker_node.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/config/share.hpp"
+#include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/trajectories.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+using ros_bridge::kBaseFrame;
+using ros_bridge::kMapFrame;
+using Level = ros_bridge::Diagnostics::Level;
+
+constexpr int kQueue = 100;
+constexpr int kPredictionInterval = 10;  // steps
+
+Level levelOf(const tracker::Command& command) {
+  if (command.mode == tracker::Mode::kFault) {
+    return Level::kError;
+  }
+  return command.reason.empty() ? Level::kOk : Level::kWarning;
+}
+
+Result<TrackerNodeOptions> readNodeOptions(config::Section& section) {
+  TrackerNodeOptions options;
+  section.read("vessel", options.vessel);
+  section.read("odometry_frame", options.odometry_frame,
+               std::vector<std::string>{ros_bridge::kOdomFrame, kMapFrame});
+  section.read("lockstep", options.lockstep);
+  section.read("speed", options.speed, {0.0, 1000.0});
+  section.read("status_rate_hz", options.status_rate_hz, {0.1, 100.0});
+  if (!options.lockstep && options.speed <= 0.0) {
+    return failure(section.where() +
+                   ": parameter 'speed' = 0 is outside its allowed range (0, 1000] when 'lockstep' "
+                   "is false");
+  }
+  return options;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<TrackerNode>> TrackerNode::create(config::Section section) {
+  const Result<TrackerNodeOptions> options = readNodeOptions(section);
+  const Result<tracker::Options> tracker = tracker::readOptions(section.child("tracker"));
+  if (const Status status = section.finish(); !status) {
+    return failure(status.error().message);
+  }
+  if (!options) {
+    return failure(options.error().message);
+  }
+  if (!tracker) {
+    return failure(tracker.error().message);
+  }
+  return config::vesselFile(options->vessel)
+      .and_then([](const std::string& path) { return vessel::loadParameters(path); })
+      .map([&](const vessel::Parameters& vessel) {
+        return std::unique_ptr<TrackerNode>(new TrackerNode(*options, *tracker, vessel));
+      });
+}
+
+TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tracker,
+                         const vessel::Parameters& vessel)
+    : options_(std::move(options)),
+      diagnostics_(node_, private_node_, vessel.name),
+      tracker_(tracker, vessel),
+      period_s_(tracker.period_s),
+      command_publisher_(node_.advertise<ThrusterCommand>("thruster_command", kQueue)),
+      status_publisher_(node_.advertise<TrackerStatus>("tracker_status", kQueue)),
+      prediction_publisher_(node_.advertise<nav_msgs::Path>("predicted_path", kQueue)) {
+  command_message_.header.frame_id = kBaseFrame;
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  trajectory_subscriber_ =
+      node_.subscribe("trajectory", kQueue, &TrackerNode::onTrajectory, this, no_delay);
+  odometry_subscriber_ = node_.subscribe("odom", kQueue, &TrackerNode::onOdometry, this, no_delay);
+  status_timer_ = node_.createWallTimer(
+      ros::WallDuration(1.0 / (options_.status_rate_hz * std::max(1.0, options_.speed))),
+      [this](const ros::WallTimerEvent&) { publishStatus(); });
+  if (!options_.lockstep) {
+    loop_ = std::make_unique<ControlLoop>(
+        ControlLoop::Options{period_s_, options_.speed, kPredictionInterval}, tracker_, statistics_,
+        [] { return ros::Time::now().toSec(); },
+        [this](const ControlOutput& output) { publish(output); });
+  }
+}
+
+void TrackerNode::onTrajectory(const Trajectory& message) {
+  const double start_s = message.header.stamp.toSec();
+  Status taken = ros_bridge::toTrajectory(message, kMapFrame)
+                     .and_then([&](const trajectory::Trajectory& trajectory) -> Status {
+                       if (trajectory.empty()) {
+                         tracker_.requestStop("asked to stop");
+                         return {};
+                       }
+                       return tracker_.setTrajectory(trajectory, start_s);
+                     });
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (taken) {
+      accepted_id_ = message.id;
+      accepted_start_s_ = start_s;
+    } else {
+      refused_id_ = message.id;
+      refused_reason_ = taken.error().message;
+    }
+  }
+  if (!taken) {
+    diagnostics_.refuse("trajectory", taken.error().message);
+  }
+  publishStatus();
+}
+
+void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
+  const Result<ros_bridge::OdometrySample> sample =
+      ros_bridge::odometrySample(message, options_.odometry_frame, kBaseFrame);
+  const ros::Time stamp = message.header.stamp;
+  if (stamp < last_odometry_) {
+    diagnostics_.refuse("odom", "its stamp goes backwards");
+    return;
+  }
+  if (options_.lockstep && stamp == last_odometry_ && !stamp.isZero()) {
+    command_publisher_.publish(command_message_);  // asked again
+    return;
+  }
+  last_odometry_ = stamp;
+  if (sample) {
+    tracker_.addOdometry(sample->stamp_s, sample->state);
+  } else {
+    diagnostics_.refuse("odom", sample.error().message);
+  }
+  if (options_.lockstep) {
+    controlStep(stamp);
+  }
+}
+
+void TrackerNode::controlStep(const ros::Time& stamp) {
+  const ros::WallTime now = ros::WallTime::now();
+  ControlOutput output;
+  const double solver_ms = timedStep(tracker_, stamp.toSec(), output.command);
+  output.has_prediction = lockstep_steps_++ % kPredictionInterval == 0;
+  if (output.has_prediction) {
+    output.prediction = tracker_.prediction();
+  }
+  command_message_.header.stamp = stamp;
+  publish(output);
+  tracker_.prepare(stamp.toSec() + period_s_);
+  statistics_.add(solver_ms, latenessMs(now));
+}
+
+double TrackerNode::latenessMs(const ros::WallTime& now) {
+  if (options_.speed <= 0.0) {
+    return 0.0;
+  }
+  const ros::WallDuration period(period_s_ / options_.speed);
+  next_turn_ = next_turn_ + period;
+  const ros::WallDuration late = now - next_turn_;
+  if (late < ros::WallDuration(0.0) || late > period) {
+    next_turn_ = now;
+  }
+  return std::max(0.0, late.toSec() * 1e3);
+}
+
+void TrackerNode::publish(const ControlOutput& output) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_command_ = output.command;
+  if (output.command.stamp_s >= accepted_start_s_) {
+    in_force_id_ = accepted_id_;
+  }
+  if (!options_.lockstep) {
+    command_message_.header.stamp = ros_bridge::toRosTime(output.command.stamp_s);
+  }
+  command_message_.left = output.command.thrusts[vessel::kLeft];
+  command_message_.right = output.command.thrusts[vessel::kRight];
+  command_publisher_.publish(command_message_);
+  if (output.has_prediction) {
+    publishPrediction(output.prediction);
+  }
+}
+
+void TrackerNode::publishPrediction(const tracker::Prediction& prediction) {
+  if (prediction_publisher_.getNumSubscribers() == 0) {
+    return;
+  }
+  nav_msgs::Path path;
+  path.header.frame_id = kMapFrame;
+  path.header.stamp = ros_bridge::toRosTime(prediction.start_s);
+  for (int i = 0; i < prediction.size; ++i) {
+    const vessel::State& state = prediction.states[static_cast<std::size_t>(i)];
+    geometry_msgs::PoseStamped pose;
+    pose.header = path.header;
+    pose.header.stamp = ros_bridge::toRosTime(prediction.start_s + i * prediction.step_s);
+    pose.pose = ros_bridge::toPose(state.head<2>(), state[vessel::kPsi]);
+    path.poses.push_back(pose);
+  }
+  prediction_publisher_.publish(path);
+}
+
+void TrackerNode::publishStatus() {
+  const TrackerStatus message = status();
+  status_publisher_.publish(message);
+  diagnostics_.setState(levelOf(last_command_), message.reason.empty()
+                                                    ? message.state
+                                                    : message.state + ": " + message.reason);
+  diagnostics_.setValue("cycles on time", std::to_string(message.cycles_on_time));
+  diagnostics_.setValue("solver p99 ms", std::to_string(message.solver_ms_p99));
+}
+
+TrackerStatus TrackerNode::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const tracker::Command& command = last_command_;
+  const Eigen::Vector2d error = (command.estimate - command.reference).head<2>();
+  const double psi_rad = command.reference[vessel::kPsi];
+  const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
+  const CycleStatistics::Summary cycles = statistics_.summary();
+  TrackerStatus message;
+  message.header.frame_id = kMapFrame;
+  message.header.stamp = ros_bridge::toRosTime(command.stamp_s);
+  message.state = tracker::name(command.mode);
+  message.reason = command.reason;
+  message.trajectory_id = in_force_id_;
+  message.accepted_id = accepted_id_;
+  message.refused_id = refused_id_;
+  message.refused_reason = refused_reason_;
+  message.time_left = command.time_left_s;
+  message.at_goal = static_cast<std::uint8_t>(command.at_goal);
+  message.position_error = command.tracking_error_m;
+  message.along_error = error.dot(ahead);
+  message.cross_error = ahead.x() * error.y() - ahead.y() * error.x();
+  message.heading_error = wrapAngle(command.estimate[vessel::kPsi] - psi_rad);
+  message.speed_error = command.estimate[vessel::kSurge] - command.reference[vessel::kSurge];
+  message.solver_ms_median = cycles.solver_ms_median;
+  message.solver_ms_p99 = cycles.solver_ms_p99;
+  message.cycle_lateness_ms_max = cycles.lateness_ms_max;
+  message.cycles_on_time = cycles.on_time_share;
+  message.disturbance = {command.disturbance.force_n.x(), command.disturbance.force_n.y(),
+                         command.disturbance.moment_nm};
+  return message;
+}
+
+}  // namespace otter_nav::nodes

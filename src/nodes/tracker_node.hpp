@@ -1,0 +1,83 @@
+// tracker_node: keeps the vessel on the planner's trajectory. Parameters:
+// config/tracker_node.yaml, the tracker's own under ~tracker (config/tracker.yaml).
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
+#include <otter_nav/ThrusterCommand.h>
+#include <otter_nav/TrackerStatus.h>
+#include <otter_nav/Trajectory.h>
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "control_loop.hpp"
+#include "cycle_statistics.hpp"
+#include "otter_nav/config/section.hpp"
+#include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/ros/diagnostics.hpp"
+
+namespace otter_nav::nodes {
+
+struct TrackerNodeOptions {
+  std::string vessel;          // a name of config/vessels, or a file
+  std::string odometry_frame;  // odom or map; both coincide (docs/frames.md)
+  bool lockstep = true;        // each odometry is a control step; else a loop of its own
+  double speed = 1.0;          // of simulated time over real time; 0: unknown, in lockstep only
+  double status_rate_hz = 10.0;
+};
+
+class TrackerNode {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<TrackerNode>> create(config::Section section);
+  [[nodiscard]] static int exitCode() { return 0; }
+
+ private:
+  TrackerNode(TrackerNodeOptions options, const tracker::Options& tracker,
+              const vessel::Parameters& vessel);
+
+  void onTrajectory(const Trajectory& message);
+  void onOdometry(const nav_msgs::Odometry& message);
+  // Lockstep: the command for the odometry's stamp.
+  void controlStep(const ros::Time& stamp);
+  // How late a step that began `now` is on the beat of simulated time.
+  [[nodiscard]] double latenessMs(const ros::WallTime& now);
+  void publish(const ControlOutput& output);
+  void publishPrediction(const tracker::Prediction& prediction);
+  void publishStatus();
+  [[nodiscard]] TrackerStatus status() const;
+
+  TrackerNodeOptions options_;
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_{"~"};
+  ros_bridge::Diagnostics diagnostics_;
+  tracker::Tracker tracker_;
+  double period_s_;
+  CycleStatistics statistics_;
+
+  // What the status tells; `mutex_` guards it, the control loop stays away from it.
+  mutable std::mutex mutex_;
+  tracker::Command last_command_;
+  ThrusterCommand command_message_;
+  std::uint32_t in_force_id_ = 0;
+  std::uint32_t accepted_id_ = 0;
+  double accepted_start_s_ = 0.0;
+  std::uint32_t refused_id_ = 0;
+  std::string refused_reason_;
+
+  ros::Time last_odometry_;
+  int lockstep_steps_ = 0;
+  ros::WallTime next_turn_;
+
+  ros::Publisher command_publisher_;
+  ros::Publisher status_publisher_;
+  ros::Publisher prediction_publisher_;
+  ros::Subscriber trajectory_subscriber_;
+  ros::Subscriber odometry_subscriber_;
+  ros::WallTimer status_timer_;
+  std::unique_ptr<ControlLoop> loop_;  // absent in lockstep
+};
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,51 @@
+// What the planner needs to know of the tracker: which trajectory it has, and whether it gave up.
+#pragma once
+
+#include <otter_nav/TrackerStatus.h>
+
+#include <cstdint>
+#include <string>
+
+namespace otter_nav::nodes {
+
+class TrackerWatch {
+ public:
+  void take(const TrackerStatus& status) {
+    accepted_id_ = status.accepted_id;
+    refused_id_ = status.refused_id;
+    refused_reason_ = status.refused_reason;
+    const bool gave_up =
+        status.state == "fault" || status.state == "stopping" || status.state == "stopped";
+    faults_ = gave_up && status.trajectory_id == sailing_id_ ? faults_ + 1 : 0;
+    reason_ = status.reason;
+  }
+
+  // The trajectory to be sailed from now on; `stop` for an order to stop.
+  void expect(std::uint32_t id, bool stop) {
+    sailing_id_ = stop ? kNone : id;
+    faults_ = 0;
+  }
+
+  // Whether the tracker has said something about the trajectory.
+  [[nodiscard]] bool answered(std::uint32_t id) const {
+    return accepted_id_ >= id || refused_id_ >= id;
+  }
+  // Told several times in a row: one status may cross a new trajectory on its way.
+  [[nodiscard]] bool gaveUp() const { return faults_ >= kFaults || refused_id_ == sailing_id_; }
+  [[nodiscard]] const std::string& reason() const {
+    return refused_id_ == sailing_id_ ? refused_reason_ : reason_;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr int kFaults = 3;
+
+  std::uint32_t accepted_id_ = 0;
+  std::uint32_t refused_id_ = 0;
+  std::uint32_t sailing_id_ = kNone;
+  int faults_ = 0;
+  std::string reason_;
+  std::string refused_reason_;
+};
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,41 @@
+#include "otter_nav/ros/map_mirror.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/grids.hpp"
+
+namespace otter_nav::ros_bridge {
+
+Status MapMirror::take(const nav_msgs::OccupancyGrid& message) {
+  Result<map::OccupancyGrid> grid = toGrid(message, kMapFrame);
+  if (!grid) {
+    return failure(grid.error().message);
+  }
+  const bool same = ready() && message.info.map_load_time == load_time_ &&
+                    grid->geometry.width == grid_.geometry.width &&
+                    grid->geometry.height == grid_.geometry.height;
+  if (!same) {
+    grid_ = std::move(*grid);
+    field_ = map::DistanceField(grid_, options_);
+    load_time_ = message.info.map_load_time;
+  }
+  return {};
+}
+
+Result<map::CellRectangle> MapMirror::take(const map_msgs::OccupancyGridUpdate& update) {
+  if (!ready()) {
+    return failure("came before the map");
+  }
+  Result<map::CellRectangle> changed = applyUpdate(update, kMapFrame, grid_);
+  if (changed) {
+    stamp_ = std::max(stamp_, update.header.stamp);
+    if (!changed->empty()) {
+      field_.update(grid_, changed->column, changed->row, changed->width, changed->height);
+    }
+  }
+  return changed;
+}
+
+}  // namespace otter_nav::ros_bridge
