@@ -31,7 +31,9 @@ struct FlatState {
   double heading_force_n = 0.0;
 };
 
-constexpr double kSingularForceN = 1e-6;
+// Far above rounding, which where |w| passes through zero would turn into a yaw acceleration, and
+// far below what a turning way may have.
+constexpr double kSingularForceN = 0.05;
 
 // The branch of the heading is the one within 90 degrees of `ahead`, any vector that points
 // roughly to where the bow is (the velocity through the water when sailing ahead).
