@@ -32,6 +32,8 @@ struct Arguments {
   std::string name;
   std::string out;
   std::string report;
+  std::string origin;
+  std::vector<double> paper_speed_mps;
   bool current = false;
 };
 
@@ -51,6 +53,10 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--name", a.name, "name of the vessel; default the guess's");
   app.add_option("--out", a.out, "vessel file to write")->required();
   app.add_option("--report", a.report, "directory for report and plots")->required();
+  app.add_option("--paper-speed", a.paper_speed_mps,
+                 "fit the paper's model to windows of this mean surge speed only, m/s: MIN MAX")
+      ->expected(2);
+  app.add_option("--origin", a.origin, "what the vessel file says it was found from");
   app.add_flag("--current", a.current, "estimate a steady current beside the parameters");
 }
 
@@ -67,6 +73,10 @@ Result<identification::Options> loadOptions(const Arguments& a) {
       identification::readOptions(config::Section(*node, *path));
   if (options && a.current) {
     options->problem.estimate_current = true;
+  }
+  if (options && !a.paper_speed_mps.empty()) {
+    options->paper_speed_min_mps = a.paper_speed_mps[0];
+    options->paper_speed_max_mps = a.paper_speed_mps[1];
   }
   return options;
 }
@@ -106,7 +116,7 @@ Status run(const Arguments& a) {
   if (!result) {
     return failure(result.error().message);
   }
-  const std::string origin = a.bag.empty() ? a.csv : a.bag;
+  const std::string origin = !a.origin.empty() ? a.origin : a.bag.empty() ? a.csv : a.bag;
   const Status written = writeVessel(a.out, identification::vesselFileText(*result, origin));
   if (!written) {
     return written;

@@ -71,6 +71,20 @@ Eigen::VectorXd betterStart(const Problem& problem, const Eigen::VectorXd& a,
   return totalCost(problem, b) < totalCost(problem, a) ? b : a;
 }
 
+// Digits beyond the standard errors say nothing, and hide that two runs found the same.
+double rounded(double value) {
+  if (value == 0.0) {
+    return 0.0;
+  }
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 5.0);
+  return std::round(value / unit) * unit;
+}
+
+// The barrier keeps a solution a hair's breadth off a bound.
+double nearerBound(const Parameter& p, double value) {
+  return value - p.lower < p.upper - value ? p.lower : p.upper;
+}
+
 Result<Fit> fit(const Problem& problem, const Eigen::VectorXd& start,
                 const SolverOptions& options) {
   const Result<Solution> solution = solve(problem, start, options);
@@ -79,16 +93,18 @@ Result<Fit> fit(const Problem& problem, const Eigen::VectorXd& start,
   }
   const Uncertainty errors = uncertainty(problem, solution->variables);
   Fit result;
-  result.model = problem.modelAt(solution->variables);
   result.iterations = solution->iterations;
   result.residual_rms = std::sqrt(2.0 * (solution->cost - problem.priorCost(solution->variables)) /
                                   static_cast<double>(problem.residualCount()));
+  Eigen::VectorXd values = solution->variables;
   for (std::size_t i = 0; i < problem.shared().size(); ++i) {
     const Parameter& p = problem.shared()[i];
     const auto k = static_cast<Eigen::Index>(i);
+    values[k] = errors.at_bound[i] ? nearerBound(p, values[k]) : rounded(values[k]);
     result.estimates.push_back(
-        {p.name, solution->variables[k], errors.standard_error[k], p.guess, errors.at_bound[i]});
+        {p.name, values[k], errors.standard_error[k], p.guess, errors.at_bound[i]});
   }
+  result.model = problem.modelAt(values);
   return result;
 }
 
@@ -142,10 +158,8 @@ vessel::PaperModel paperFrom(const Fit& fit) {
   return paperOf(values);
 }
 
-}  // namespace
-
-Result<Identification> identify(const Recording& recording, const vessel::Parameters& guess,
-                                const Options& options) {
+Result<Identification> identifyWithLag(const Recording& recording, const vessel::Parameters& guess,
+                                       const Options& options) {
   Result<DataSet> data = assemble(recording, options.data, guess.thrusters.lag_s);
   if (!data) {
     return failure(data.error().message);
@@ -180,8 +194,28 @@ Result<Identification> identify(const Recording& recording, const vessel::Parame
     work.manoeuvring = *std::move(manoeuvring);
     work.vessel.manoeuvring = work.manoeuvring.model.coefficients;
   }
-  work.vessel.top_speed_mps = topSpeed(work.vessel.manoeuvring, guess.thrusters);
+  work.vessel.top_speed_mps = rounded(topSpeed(work.vessel.manoeuvring, guess.thrusters));
   return work;
+}
+
+// Root mean square of the richer fit's residuals.
+double residualOf(const Identification& result) {
+  return result.manoeuvring.estimates.empty() ? result.paper.residual_rms
+                                              : result.manoeuvring.residual_rms;
+}
+
+}  // namespace
+
+Result<Identification> identify(const Recording& recording, const vessel::Parameters& guess,
+                                const Options& options) {
+  Result<Identification> result = identifyWithLag(recording, guess, options);
+  if (!result || !options.try_without_lag || guess.thrusters.lag_s <= 0.0) {
+    return result;
+  }
+  vessel::Parameters prompt = guess;
+  prompt.thrusters.lag_s = 0.0;
+  Result<Identification> other = identifyWithLag(recording, prompt, options);
+  return other && residualOf(*other) < residualOf(*result) ? other : result;
 }
 
 }  // namespace otter_nav::identification

@@ -73,6 +73,7 @@ Status readManoeuvring(config::Section section, Options& o) {
 Result<Options> readOptions(config::Section section) {
   Options options;
   section.read("min_excitation", options.min_excitation, {0.0, 1.0});
+  section.read("try_without_lag", options.try_without_lag);
   Status status = readData(section.child("data"), options.data);
   if (status) {
     status = readSplit(section.child("split"), options.split);

@@ -109,6 +109,7 @@ std::string reportText(const Identification& r, const std::string& origin) {
       formatted("%zu samples over %.1f s, %zu windows fitted, %zu blocks for validation\n\n",
                 r.data.samples.size(), r.data.samples.back().time_s - r.data.samples.front().time_s,
                 r.split.fit_windows.size(), r.split.validation_blocks.size());
+  text += formatted("thruster lag %.3g s\n\n", r.vessel.thrusters.lag_s);
   text += estimateTable("paper_model", r.paper);
   if (!r.manoeuvring.estimates.empty()) {
     text += estimateTable("manoeuvring_model", r.manoeuvring);

@@ -24,8 +24,9 @@ struct Options {
   // can't hold the whole envelope of a real hull, so they are spent where it sails.
   double paper_speed_min_mps = -20.0;
   double paper_speed_max_mps = 20.0;
-  bool fit_manoeuvring = true;      // else the manoeuvring model is the paper's
-  double prior_relative = 1.0;      // width of the manoeuvring priors, in the guess's magnitudes
+  bool try_without_lag = true;  // fit with the guess's thruster lag and with none, keep the better
+  bool fit_manoeuvring = true;  // else the manoeuvring model is the paper's
+  double prior_relative = 1.0;  // width of the manoeuvring priors, in the guess's magnitudes
   double identifiable_limit = 0.5;  // largest relative standard error of h that passes
   double min_excitation = 0.02;     // least deviation of thrust, as a share of the thrust limit
 };

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Finds config/vessels/otter.yaml again: sails the excitation manoeuvres on the plant, without ROS,
+# and identifies the vessel: identify_otter.sh [BUILD] [OUT.yaml]
+# BUILD holds the built programs (default: install/, else build/core, which is built if missing).
+set -euo pipefail
+top=$(cd "$(dirname "$0")/.." && pwd)
+build=${1:-}
+out=${2:-$top/config/vessels/otter.yaml}
+
+if [ -z "$build" ]; then
+  build=$top/install
+  if ! find "$build" -name excitation_run -type f 2>/dev/null | grep -q .; then
+    build=$top/build/core
+    cmake -S "$top" -B "$build" -DOTTER_NAV_CORE_ONLY=ON -DBUILD_TESTING=OFF >/dev/null
+    cmake --build "$build" --target excitation_run identify
+  fi
+fi
+program() { find "$build" -name "$1" -type f -perm -u+x | head -n 1; }
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export OTTER_NAV_SHARE=$top
+cd "$work"
+"$(program excitation_run)" --vessel otter --out excitation.csv
+"$(program identify)" --csv excitation.csv --vessel-guess otter_textbook --name otter \
+  --paper-speed 1.0 2.7 --out otter.yaml --report "$top/build/identification_otter" \
+  --origin "the excitation manoeuvres on the plant otter (scripts/identify_otter.sh)"
+cp otter.yaml "$out"

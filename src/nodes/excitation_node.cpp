@@ -1,0 +1,80 @@
+#include "excitation_node.hpp"
+
+#include <utility>
+
+#include "otter_nav/config/share.hpp"
+#include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/ros/frames.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+constexpr int kQueue = 100;
+
+}  // namespace
+
+Result<std::unique_ptr<ExcitationNode>> ExcitationNode::create(config::Section section) {
+  ExcitationNodeOptions options;
+  section.read("vessel", options.vessel);
+  section.read("listeners", options.listeners, {1, 100});
+  auto manoeuvres = identification::readExcitation(section);
+  if (!manoeuvres) {
+    return failure(manoeuvres.error().message);
+  }
+  return config::vesselFile(options.vessel)
+      .and_then([](const std::string& path) { return vessel::loadParameters(path); })
+      .map([&](const vessel::Parameters& vessel) {
+        return std::unique_ptr<ExcitationNode>(
+            new ExcitationNode(options, *std::move(manoeuvres), vessel));
+      });
+}
+
+ExcitationNode::ExcitationNode(ExcitationNodeOptions options,
+                               std::vector<identification::ManoeuvreOptions> manoeuvres,
+                               const vessel::Parameters& vessel)
+    : options_(std::move(options)),
+      diagnostics_(node_, private_node_, vessel.name),
+      excitation_(std::move(manoeuvres), vessel.thrusters),
+      command_publisher_(node_.advertise<ThrusterCommand>("thruster_command", kQueue)) {
+  command_.header.frame_id = ros_bridge::kBaseFrame;
+  odometry_subscriber_ = node_.subscribe("odom", kQueue, &ExcitationNode::onOdometry, this,
+                                         ros::TransportHints().tcpNoDelay());
+}
+
+void ExcitationNode::onOdometry(const nav_msgs::Odometry& message) {
+  if (command_publisher_.getNumSubscribers() < static_cast<std::uint32_t>(options_.listeners)) {
+    return;
+  }
+  const Result<ros_bridge::OdometrySample> sample =
+      ros_bridge::odometrySample(message, message.header.frame_id, ros_bridge::kBaseFrame);
+  if (!sample) {
+    diagnostics_.refuse("odom", sample.error().message);
+    return;
+  }
+  if (message.header.stamp < command_.header.stamp) {
+    diagnostics_.refuse("odom", "its stamp goes backwards");
+    return;
+  }
+  // A message sent again gets the same answer: the manoeuvres depend on time and state alone.
+  const vessel::Thrusts thrusts = excitation_.step(sample->stamp_s, sample->state);
+  command_.header.stamp = message.header.stamp;
+  command_.left = thrusts[vessel::kLeft];
+  command_.right = thrusts[vessel::kRight];
+  command_publisher_.publish(command_);
+  reportProgress();
+}
+
+void ExcitationNode::reportProgress() {
+  const std::string progress = excitation_.progress();
+  if (progress == progress_) {
+    return;
+  }
+  progress_ = progress;
+  ROS_INFO_STREAM("Excitation: " << progress_);
+  diagnostics_.setState(ros_bridge::Diagnostics::Level::kOk, progress_);
+  if (excitation_.finished()) {
+    ros::shutdown();
+  }
+}
+
+}  // namespace otter_nav::nodes
