@@ -38,8 +38,7 @@ double InteriorPoint::gradient(double target) const {
   double sum = -curvature() * value;
   for (int side = 0; side < 2; ++side) {
     const double residual = kSign[side] * (value - bound[side]) - slack[side];
-    sum -= kSign[side] *
-           (target - correction[side] - multiplier[side] * residual) / slack[side];
+    sum -= kSign[side] * (target - correction[side] - multiplier[side] * residual) / slack[side];
   }
   return sum;
 }

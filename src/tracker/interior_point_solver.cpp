@@ -7,8 +7,8 @@
 namespace otter_nav::tracker {
 namespace {
 
-constexpr double kToBoundary = 0.995;     // of the way to where a slack or multiplier vanishes
-constexpr double kCrossOverGap = 1e-5;    // of the first gap: from here the active set is tried
+constexpr double kToBoundary = 0.995;   // of the way to where a slack or multiplier vanishes
+constexpr double kCrossOverGap = 1e-5;  // of the first gap: from here the active set is tried
 constexpr double kFinalGap = 1e-11;
 
 }  // namespace
@@ -69,8 +69,7 @@ void RtiSolver::correct(double target) {
   // One share for both: with different ones the curvature in the states' part of the dual
   // residual would not shrink.
   const double share = std::min(primal, dual);
-  forEachInterior(
-      [&](InteriorPoint& v, int k, int i) { v.move(du_[k][i], share, share); });
+  forEachInterior([&](InteriorPoint& v, int k, int i) { v.move(du_[k][i], share, share); });
 }
 
 SolverStatus RtiSolver::iterateInteriorPoint(const vessel::State& measured) {

@@ -99,10 +99,9 @@ void setGains(const Hold (&hold)[2], const double (&held)[2], Feedback& f) {
 // V = cost + projected Hessian - G'K; the gradient follows u = -k_0 at dx = 0.
 void setValue(const StateCost& cost, const Hessian& h, const Products& m, const Value& next,
               const Feedback& f, Value& value) {
-  const Pack weight_rows[4] = {Pack{cost.weight_q[0], 0.0, 0.0, 0.0},
-                               Pack{0.0, cost.weight_q[1], 0.0, 0.0},
-                               Pack{0.0, 0.0, cost.weight_q[2], 0.0},
-                               Pack{0.0, 0.0, 0.0, cost.weight_q[3]}};
+  const Pack weight_rows[4] = {
+      Pack{cost.weight_q[0], 0.0, 0.0, 0.0}, Pack{0.0, cost.weight_q[1], 0.0, 0.0},
+      Pack{0.0, 0.0, cost.weight_q[2], 0.0}, Pack{0.0, 0.0, 0.0, cost.weight_q[3]}};
   for (int i = 0; i < 4; ++i) {
     value.qq[i] = weight_rows[i] + h.qq[i] - f.g_q[0][i] * f.k_q[0] - f.g_q[1][i] * f.k_q[1];
   }
@@ -112,8 +111,8 @@ void setValue(const StateCost& cost, const Hessian& h, const Products& m, const 
       value.pp[i][j] = next.pp[i][j] - f.g_p[0][i] * f.k_p[0][j] - f.g_p[1][i] * f.k_p[1][j];
     }
     value.pp[i][i] += cost.weight_p[i];
-    value.p_p[i] = cost.gradient_p[i] + m.bc[i][2] - f.g_p[0][i] * f.k_0[0] -
-                   f.g_p[1][i] * f.k_0[1];
+    value.p_p[i] =
+        cost.gradient_p[i] + m.bc[i][2] - f.g_p[0][i] * f.k_0[0] - f.g_p[1][i] * f.k_0[1];
   }
   const Pack gradient = {h.q_bc[0][2], h.q_bc[1][2], h.q_bc[2][2], h.q_bc[3][2]};
   value.p_q = cost.gradient_q + gradient - f.k_0[0] * f.g_q[0] - f.k_0[1] * f.g_q[1];
@@ -174,8 +173,7 @@ void updateGradient(const Stage& s, const StateCost& state, const InputCost& inp
     f.k_0[i] = f.inverse[i][0] * f.h[0] + f.inverse[i][1] * f.h[1];
   }
   for (int i = 0; i < 2; ++i) {
-    value.p_p[i] =
-        state.gradient_p[i] + g[i] - f.g_p[0][i] * f.k_0[0] - f.g_p[1][i] * f.k_0[1];
+    value.p_p[i] = state.gradient_p[i] + g[i] - f.g_p[0][i] * f.k_0[0] - f.g_p[1][i] * f.k_0[1];
   }
   value.p_q = state.gradient_q + back - f.k_0[0] * f.g_q[0] - f.k_0[1] * f.g_q[1];
 }

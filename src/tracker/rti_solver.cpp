@@ -71,12 +71,12 @@ bool RtiSolver::factor(int from, const std::array<InputCost, kMaxStages>& costs)
     double held[2] = {0.0, 0.0};
     for (int i = 0; i < 2; ++i) {
       if (hold_[k][i] != Hold::kFree) {
-        held[i] = (hold_[k][i] == Hold::kLower ? options_.lower_n : options_.upper_n)[i] -
-                  thrusts_[k][i];
+        held[i] =
+            (hold_[k][i] == Hold::kLower ? options_.lower_n : options_.upper_n)[i] - thrusts_[k][i];
       }
     }
-    definite &= riccatiStep(linear_[k], state_costs_[k], costs[k], hold_[k], held,
-                            values_[k + 1], values_[k], feedbacks_[k]);
+    definite &= riccatiStep(linear_[k], state_costs_[k], costs[k], hold_[k], held, values_[k + 1],
+                            values_[k], feedbacks_[k]);
   }
   return definite;
 }

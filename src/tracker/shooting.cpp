@@ -80,13 +80,13 @@ void StageModel::differentiate(const Pack (&q)[4], Pack surge_acceleration, Pack
   d.u[kRowU] = -surge_drag_ - 2.0 * drag2_u;
   d.u[kRowV] = surge_centripetal_ * r;
   d.u[kRowR] = surge_centripetal_ * v + current_v;
-  d.u[kRowPsi] = d.u[kRowV] * current_u - d.u[kRowU] * current_v + force_v * surge_mobility_ -
-                 r * current_u;
+  d.u[kRowPsi] =
+      d.u[kRowV] * current_u - d.u[kRowU] * current_v + force_v * surge_mobility_ - r * current_u;
   d.v[kRowU] = -sway_centripetal_ * r;
   d.v[kRowV] = -sway_drag_ - 2.0 * drag2_v;
   d.v[kRowR] = -sway_centripetal_ * u - sway_from_yaw_ - current_u;
-  d.v[kRowPsi] = d.v[kRowV] * current_u - d.v[kRowU] * current_v - force_u * sway_mobility_ -
-                 r * current_v;
+  d.v[kRowPsi] =
+      d.v[kRowV] * current_u - d.v[kRowU] * current_v - force_u * sway_mobility_ - r * current_v;
   d.r[kRowU] = -munk_ * v;
   d.r[kRowV] = -munk_ * u - yaw_from_sway_;
   d.r[kRowR] = -yaw_drag_ - 2.0 * drag2_r;

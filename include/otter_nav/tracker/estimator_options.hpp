@@ -12,7 +12,7 @@ struct EstimatorOptions {
   double velocity_sigma_mps = 0.02;
   double yaw_rate_sigma_radps = 0.01;
   // What the model leaves open.
-  double surge_walk_mps = 0.02;
+  double velocity_walk_mps = 0.02;
   double yaw_rate_walk_radps = 0.02;
   // Force fixed in the earth frame, moment about the yaw axis, current.
   double force_walk_n = 5.0;

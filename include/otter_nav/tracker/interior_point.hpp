@@ -1,13 +1,14 @@
 // One bounded variable of the interior point method: its value, slacks and multipliers, and the
-// Newton direction of Mehrotra's predictor-corrector scheme (Nocedal and Wright 2006, chapter 16.6).
+// Newton direction of Mehrotra's predictor-corrector scheme (Nocedal and Wright 2006,
+// chapter 16.6).
 #pragma once
 
 namespace otter_nav::tracker {
 
 struct InteriorPoint {
   double value = 0.0;
-  double bound[2] = {0.0, 0.0};       // lower, upper
-  double slack[2] = {1.0, 1.0};       // not yet the distances to the bounds until a full step
+  double bound[2] = {0.0, 0.0};  // lower, upper
+  double slack[2] = {1.0, 1.0};  // not yet the distances to the bounds until a full step
   double multiplier[2] = {1.0, 1.0};
   double slack_step[2] = {0.0, 0.0};
   double multiplier_step[2] = {0.0, 0.0};

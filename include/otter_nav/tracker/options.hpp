@@ -33,6 +33,7 @@ struct OdometryOptions {
   double jump_m = 1.0;             // a step off the prediction that is not believed at once
   double jump_rad = 0.5;
   double believe_jump_after_s = 0.3;  // a jump that stays this long is the truth
+  double brake_blind_s = 5.0;         // braking by the model alone; then no thrust
   double latency_s = 0.0;             // age of the state at its stamp, known delays of the sensor
 };
 
@@ -44,6 +45,7 @@ struct HoldingOptions {
   double surge_damping_kgps = 30.0;   // N per m/s
   double yaw_gain_nm = 25.0;          // N m per rad
   double yaw_damping_nms = 20.0;      // N m per rad/s
+  double side_load_n = 15.0;          // abeam; below, the heading may be held again
   double thrust_share = 0.8;          // of the limits
 };
 
@@ -57,6 +59,7 @@ struct Options {
   double thrust_share = 1.0;  // of the thrusters' limits the tracker may use
   // Of either thrust's command, N/s; the plan may use whole limits, the command never jumps.
   double thrust_rate_nps = 1000.0;
+  double keep_plan_s = 0.3;  // how long the last good plan stands in for a failing solver
   // A reference further from the vessel than this is approached along a joining curve.
   double join_offset_m = 0.5;
   double join_speed_mps = 0.7;

@@ -12,8 +12,8 @@ namespace otter_nav::tracker {
 // x+ = A dx + B du + c about a stage's state and thrusts. The columns of A for x and y are the
 // identity's, so only those for psi, u, v, r are kept, row by row.
 struct alignas(32) Stage {
-  Pack a[6];    // columns psi, u, v, r
-  Pack bc[6];   // columns F_left, F_right, gap to the next stage's state, 0
+  Pack a[6];   // columns psi, u, v, r
+  Pack bc[6];  // columns F_left, F_right, gap to the next stage's state, 0
 };
 
 // The manoeuvring model divided by its inertias, with thrust levers and disturbance.

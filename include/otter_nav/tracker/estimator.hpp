@@ -1,0 +1,52 @@
+// Extended Kalman filter for the vessel's state and what pushes it: a force fixed in the earth
+// frame, a yaw moment and, if asked for, a current.
+//
+// Force and current are told apart only by how they change with heading and speed (a hull with the
+// same linear drag ahead and abeam shows no difference at all), so the current is off by default
+// and the force carries both: over a prediction of seconds they act alike (docs/tracker.md).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "otter_nav/tracker/estimator_options.hpp"
+#include "otter_nav/vessel/model.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::tracker {
+
+class Estimator {
+ public:
+  Estimator(const EstimatorOptions& options, const vessel::ManoeuvringModel& model,
+            const vessel::Thrusters& thrusters);
+
+  // Starts at a measured state; keeps what is known of the disturbance.
+  void reset(const vessel::State& measured);
+  // `dt_s` of motion under thrusts that act (not commands).
+  void predict(const vessel::Thrusts& thrusts, double dt_s);
+  // psi of `measured` is taken modulo a turn.
+  void update(const vessel::State& measured);
+
+  [[nodiscard]] const vessel::State& state() const { return state_; }
+  [[nodiscard]] const vessel::Disturbance& disturbance() const { return disturbance_; }
+  // measured minus estimate, heading in [-pi, pi].
+  [[nodiscard]] vessel::State innovation(const vessel::State& measured) const;
+
+ private:
+  // The state, then force x, y, moment, current x, y.
+  static constexpr int kForce = 6, kMoment = 8, kCurrent = 9, kSize = 11;
+  using Covariance = Eigen::Matrix<double, kSize, kSize>;
+
+  [[nodiscard]] Covariance transition(const vessel::Thrusts& thrusts, double dt_s) const;
+  void limit();
+
+  EstimatorOptions options_;
+  vessel::ManoeuvringModel model_;
+  vessel::Thrusters thrusters_;
+  vessel::State state_ = vessel::State::Zero();
+  vessel::Disturbance disturbance_;
+  Covariance covariance_ = Covariance::Zero();
+  vessel::State measurement_variance_;
+  Eigen::Matrix<double, kSize, 1> walk_variance_;
+};
+
+}  // namespace otter_nav::tracker

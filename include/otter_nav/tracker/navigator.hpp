@@ -1,0 +1,64 @@
+// Where the vessel is and what pushes it: takes odometry that may be late, lost, out of order or
+// wrong, and gives the state at any time near now.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "otter_nav/tracker/estimator.hpp"
+#include "otter_nav/tracker/options.hpp"
+
+namespace otter_nav::tracker {
+
+enum class Fix {
+  kNone,  // no odometry yet
+  kGood,
+  kBridging,  // the last one is some periods old: the model predicts
+  kLost,      // too old to steer by
+};
+
+class Navigator {
+ public:
+  Navigator(const Options& options, const vessel::Parameters& vessel);
+
+  // In order of arrival. The state of a refusal is in reason().
+  void addOdometry(double stamp_s, const vessel::State& state);
+  // What was sent to the thrusters at `stamp_s`.
+  void addCommand(double stamp_s, const vessel::Thrusts& thrusts);
+
+  [[nodiscard]] Fix fix(double now_s) const;
+  // The state at `time_s`, psi continuous, thrusts following the last command.
+  [[nodiscard]] vessel::State predict(double time_s) const;
+  [[nodiscard]] const vessel::Disturbance& disturbance() const { return estimator_.disturbance(); }
+  // Why odometry was refused last; empty once it is accepted again.
+  [[nodiscard]] std::string_view reason() const { return reason_; }
+  [[nodiscard]] double age(double now_s) const { return now_s - stamp_s_; }
+
+ private:
+  struct Sent {
+    double stamp_s;
+    vessel::Thrusts thrusts;
+  };
+  [[nodiscard]] const Sent* sentAt(double time_s) const;
+  // Calls `step(thrusts, dt)` for pieces of constant command from the last odometry to `until_s`;
+  // `acting` follows the commands with the propellers' lag.
+  template <typename Step>
+  void forEachPiece(double until_s, vessel::Thrusts& acting, Step step) const;
+  [[nodiscard]] bool believable(double stamp_s, const vessel::State& state);
+
+  OdometryOptions options_;
+  double period_s_;
+  vessel::Parameters vessel_;
+  Estimator estimator_;
+  vessel::Thrusts acting_ = vessel::Thrusts::Zero();
+  double stamp_s_ = 0.0;
+  bool started_ = false;
+  double jump_since_s_ = 0.0;
+  bool jumping_ = false;
+  std::string_view reason_;
+  static constexpr int kHistory = 256;
+  std::array<Sent, kHistory> sent_;
+  long sent_count_ = 0;
+};
+
+}  // namespace otter_nav::tracker

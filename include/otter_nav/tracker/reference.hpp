@@ -1,0 +1,65 @@
+// What the vessel should do along the horizon: states and thrusts that follow the trajectory's
+// position exactly with the tracker's own model, the disturbance estimate included.
+//
+// The trajectory gives z(t) and its derivatives. Surge, sway and thrusts follow from them and the
+// heading algebraically. The heading follows from the sway equation, in which no thrust acts: with
+// w = z' - c the velocity through the water and D = (sway_centripetal - sway_inertia) e.w +
+// sway_from_yaw,
+//   D psi' = n.f - Y(n.w) - sway_inertia n.z''             (e, n: ahead and to port)
+// The paper's model has D = 0, and the equation is its flatness (vessel/flatness.hpp). A hull with
+// more sway inertia than the turn feels has D < 0: the heading then relaxes to that solution, and
+// implicit Euler steps follow it whatever D is.
+#pragma once
+
+#include "otter_nav/tracker/options.hpp"
+#include "otter_nav/tracker/rti_solver.hpp"
+#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/model.hpp"
+
+namespace otter_nav::tracker {
+
+class ReferenceSource {
+ public:
+  ReferenceSource(const Options& options, const vessel::Parameters& vessel);
+
+  // A new trajectory, in force from `start_s`; the reference starts at psi of the trajectory.
+  void start(const trajectory::Trajectory* trajectory, double start_s, double now_s);
+  // From now on the reference is led from `offset` (position and velocity off the trajectory's,
+  // earth frame) to the trajectory within `duration_s`.
+  void join(double now_s, const Eigen::Vector2d& offset, const Eigen::Vector2d& velocity_offset,
+            double duration_s);
+
+  // Stages at `start_s` + k step_s; psi near `psi_near_rad`, continuous along the horizon.
+  void fill(double start_s, double step_s, int stages, double psi_near_rad,
+            const vessel::Disturbance& disturbance, OcpReference& reference);
+  // One state, for comparison and display.
+  [[nodiscard]] trajectory::Sample at(double time_s) const;
+  [[nodiscard]] vessel::FlatPoint flat(double time_s) const;
+  [[nodiscard]] double end() const;
+
+ private:
+  struct Course;
+  [[nodiscard]] Course course(double time_s) const;
+  // The heading a step of `dt_s` after `psi_rad`.
+  [[nodiscard]] double heading(const Course& course, double psi_rad, double dt_s,
+                               const vessel::Disturbance& disturbance) const;
+  void fillFlat(double start_s, double step_s, int stages, const vessel::Disturbance& disturbance,
+                OcpReference& reference);
+  void fillPlain(double start_s, double step_s, int stages, OcpReference& reference) const;
+  void setDynamics(const Course& course, double yaw_acceleration,
+                   const vessel::Disturbance& disturbance, vessel::State& state,
+                   vessel::Thrusts& thrusts) const;
+
+  Method method_;
+  vessel::Parameters vessel_;
+  const trajectory::Trajectory* trajectory_ = nullptr;
+  double start_s_ = 0.0;
+  trajectory::Piece joining_;
+  double joining_start_s_ = 0.0;
+  bool joins_ = false;
+  // The heading's own state, at a time.
+  double psi_rad_ = 0.0;
+  double psi_time_s_ = 0.0;
+};
+
+}  // namespace otter_nav::tracker

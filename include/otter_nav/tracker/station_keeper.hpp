@@ -1,0 +1,43 @@
+// Holding a spot with two fixed thrusters, and coming to rest there.
+//
+// The hull cannot be pushed sideways, so heading and position compete: while the spot is near, the
+// wanted heading is held and the surge thrust keeps the distance along the hull. When the vessel
+// drifts off, the heading is given up: bow or stern, whichever is nearer, turns into the force that
+// position needs (against the disturbance and back to the spot), which also is how a vessel at
+// anchor lies. Radii with hysteresis keep it from changing its mind.
+#pragma once
+
+#include "otter_nav/tracker/options.hpp"
+#include "otter_nav/vessel/model.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::tracker {
+
+class StationKeeper {
+ public:
+  StationKeeper(const HoldingOptions& options, const vessel::Parameters& vessel);
+
+  void start(const Eigen::Vector2d& position, double psi_rad);
+  [[nodiscard]] vessel::Thrusts step(const vessel::State& state,
+                                     const vessel::Disturbance& disturbance);
+  // Thrusts that slow the vessel down on the heading it has.
+  [[nodiscard]] vessel::Thrusts brake(const vessel::State& state,
+                                      const vessel::Disturbance& disturbance) const;
+  [[nodiscard]] const Eigen::Vector2d& position() const { return position_; }
+  [[nodiscard]] double heading() const { return psi_rad_; }
+  [[nodiscard]] bool weathervaning() const { return weathervanes_; }
+
+ private:
+  [[nodiscard]] vessel::Thrusts thrusts(double surge_n, double yaw_nm) const;
+  // Drag through the water and outside force, earth frame: what the thrust has to balance at rest.
+  [[nodiscard]] Eigen::Vector2d load(const vessel::State& state,
+                                     const vessel::Disturbance& disturbance) const;
+
+  HoldingOptions options_;
+  vessel::Parameters vessel_;
+  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
+  double psi_rad_ = 0.0;
+  bool weathervanes_ = false;
+};
+
+}  // namespace otter_nav::tracker

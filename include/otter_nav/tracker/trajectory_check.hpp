@@ -1,0 +1,13 @@
+// Whether a trajectory from outside can be followed at all.
+#pragma once
+
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/trajectory/trajectory.hpp"
+
+namespace otter_nav::tracker {
+
+// Errors name the piece: no pieces, a duration that is not positive, a coefficient that is not
+// finite, position or velocity that jump at a joint.
+[[nodiscard]] Status checkTrajectory(const trajectory::Trajectory& trajectory);
+
+}  // namespace otter_nav::tracker

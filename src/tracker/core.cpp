@@ -1,0 +1,312 @@
+#include "core.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/tracker/trajectory_check.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+
+namespace otter_nav::tracker {
+namespace {
+
+using Eigen::Vector2d;
+using vessel::kPsi;
+using vessel::kSurge;
+using vessel::kSway;
+using vessel::kYawRate;
+
+constexpr double kRestMps = 0.05;
+constexpr double kRestRadps = 0.05;
+
+OcpOptions ocpOptions(const Options& o, const vessel::Parameters& vessel) {
+  const Weights& w = o.method == Method::kPlain ? o.plain : o.flatness;
+  OcpOptions ocp;
+  ocp.stages = o.stages;
+  ocp.step_s = o.horizon_s / o.stages;
+  vessel::State q;
+  q << w.position, w.position, w.heading, w.surge, w.sway, w.yaw_rate;
+  ocp.weights.state = q * ocp.step_s;
+  ocp.weights.terminal = q * w.terminal_gain_s;
+  ocp.weights.thrusts = vessel::Thrusts::Constant(w.thrust * ocp.step_s);
+  ocp.lower_n.setConstant(-o.thrust_share * vessel.thrusters.astern_max_n);
+  ocp.upper_n.setConstant(o.thrust_share * vessel.thrusters.ahead_max_n);
+  return ocp;
+}
+
+Vector2d velocityOverGround(const vessel::State& x) {
+  const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
+  return x[kSurge] * e + x[kSway] * Vector2d(-e.y(), e.x());
+}
+
+}  // namespace
+
+Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
+    : options_(options),
+      vessel_(vessel),
+      navigator_(options, vessel),
+      reference_source_(options, vessel),
+      keeper_(options.holding, vessel),
+      solver_(ocpOptions(options, vessel), vessel.manoeuvring, vessel.thrusters) {
+  prediction_.step_s = options.horizon_s / options.stages;
+}
+
+Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double start_s) {
+  if (Status status = checkTrajectory(trajectory); !status) {
+    return status;
+  }
+  if (!std::isfinite(start_s)) {
+    return failure("trajectory start time is not finite");
+  }
+  const double over_for = last_now_s_.load() - (start_s + trajectory.duration());
+  if (over_for > 0.0) {
+    return failure("trajectory ended " + std::to_string(over_for) + " s ago");
+  }
+  auto assignment = std::make_unique<Assignment>();
+  assignment->trajectory = std::move(trajectory);
+  assignment->start_s = start_s;
+  incoming_.give(std::move(assignment));
+  return {};
+}
+
+void Tracker::Core::requestStop(std::string_view reason) {
+  auto assignment = std::make_unique<Assignment>();
+  assignment->reason = reason;
+  incoming_.give(std::move(assignment));
+}
+
+void Tracker::Core::addOdometry(double stamp_s, const vessel::State& state) {
+  odometry_.push({stamp_s, state});
+}
+
+void Tracker::Core::takeOdometry() {
+  Measurement m;
+  while (odometry_.pop(m)) {
+    navigator_.addOdometry(m.stamp_s, m.state);
+  }
+}
+
+void Tracker::Core::takeAssignment(double now_s, const vessel::State& state) {
+  if (incoming_.take(waiting_)) {
+    fresh_ = true;
+  }
+  if (!fresh_ || waiting_->start_s > now_s) {
+    return;
+  }
+  // The one that ends stays in waiting_ until the next is taken; then the giver frees it.
+  std::swap(waiting_, sailing_);
+  fresh_ = false;
+  if (sailing_->trajectory.empty()) {
+    beginStop(sailing_->reason);
+  } else {
+    beginTracking(now_s, state);
+  }
+}
+
+void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
+  mode_ = Mode::kTracking;
+  stop_reason_ = {};
+  reference_source_.start(&sailing_->trajectory, sailing_->start_s, now_s);
+  const vessel::FlatPoint z = reference_source_.flat(now_s);
+  const Vector2d offset = state.head<2>() - z.position;
+  if (offset.norm() > options_.join_offset_m) {
+    const Vector2d velocity_offset = velocityOverGround(state) - z.velocity;
+    reference_source_.join(now_s, offset, velocity_offset,
+                           std::max(4.0, offset.norm() / options_.join_speed_mps));
+  }
+  plan_valid_ = false;
+  prepared_ = false;
+}
+
+void Tracker::Core::beginStop(std::string_view reason) {
+  if (mode_ != Mode::kStopped) {
+    mode_ = Mode::kStopping;
+  }
+  stop_reason_ = reason;
+  plan_valid_ = false;
+}
+
+void Tracker::Core::beginHolding() {
+  mode_ = Mode::kHolding;
+  const trajectory::Sample goal = reference_source_.at(reference_source_.end());
+  keeper_.start(goal.state.head<2>(), goal.state[kPsi]);
+  plan_valid_ = false;
+}
+
+void Tracker::Core::prepareSolver(double start_s, double psi_rad) {
+  solver_.setDisturbance(navigator_.disturbance());
+  reference_source_.fill(start_s, prediction_.step_s, options_.stages, psi_rad,
+                         navigator_.disturbance(), reference_);
+  if (plan_valid_) {
+    solver_.shift((start_s - solved_for_s_) / prediction_.step_s);
+  } else {
+    solver_.initialize(reference_);
+  }
+  solved_for_s_ = start_s;
+  prepared_for_s_ = start_s;
+  prepared_ = true;
+  solver_.prepare(reference_);
+}
+
+void Tracker::Core::prepare(double next_s) {
+  if (mode_ == Mode::kTracking && plan_valid_) {
+    const double start_s = next_s + vessel_.thrusters.lag_s;
+    prepareSolver(start_s, solver_.states()[0][kPsi]);
+  }
+}
+
+vessel::Thrusts Tracker::Core::track(double now_s, const vessel::State& state, Command& command) {
+  // The thrusters follow with their lag, so the plan starts where the vessel will be by then.
+  const double start_s = now_s + vessel_.thrusters.lag_s;
+  const vessel::State start = vessel_.thrusters.lag_s > 0.0 ? navigator_.predict(start_s) : state;
+  if (!prepared_ || std::abs(prepared_for_s_ - start_s) > 0.5 * options_.period_s) {
+    prepareSolver(start_s, start[kPsi]);
+  }
+  prepared_ = false;
+  command.solver = solver_.feedback(start);
+  command.solver_iterations = solver_.iterations();
+  if (!usable(command.solver)) {
+    plan_valid_ = false;
+    return afterFailure(now_s, state, command);
+  }
+  plan_valid_ = true;
+  last_good_s_ = now_s;
+  keepPlan(start_s);
+  return solver_.thrusts()[0];
+}
+
+// The last good plan carries on for a while; then the vessel brakes.
+vessel::Thrusts Tracker::Core::afterFailure(double now_s, const vessel::State& state,
+                                            Command& command) {
+  command.reason = "no plan: the last one is kept";
+  const double since = now_s + vessel_.thrusters.lag_s - prediction_.start_s;
+  const int stage = static_cast<int>(since / prediction_.step_s);
+  if (prediction_.size == 0 || now_s - last_good_s_ > options_.keep_plan_s || stage < 0 ||
+      stage >= options_.stages) {
+    beginStop("no usable plan");
+    return keeper_.brake(state, navigator_.disturbance());
+  }
+  return plan_thrusts_[static_cast<std::size_t>(stage)];
+}
+
+void Tracker::Core::keepPlan(double start_s) {
+  prediction_.start_s = start_s;
+  prediction_.size = options_.stages + 1;
+  std::copy_n(solver_.states().begin(), prediction_.size, prediction_.states.begin());
+  plan_thrusts_ = solver_.thrusts();
+}
+
+vessel::Thrusts Tracker::Core::hold(const vessel::State& state, Command& command) {
+  if (keeper_.weathervaning()) {
+    command.reason = "the heading yields to the position";
+  }
+  return keeper_.step(state, navigator_.disturbance());
+}
+
+vessel::Thrusts Tracker::Core::stop(const vessel::State& state, Fix fix, Command& command) {
+  command.reason = stop_reason_;
+  const bool rests =
+      std::hypot(state[kSurge], state[kSway]) < kRestMps && std::abs(state[kYawRate]) < kRestRadps;
+  if (mode_ == Mode::kStopping && rests) {
+    mode_ = Mode::kStopped;
+    keeper_.start(state.head<2>(), state[kPsi]);
+  }
+  if (mode_ == Mode::kStopped) {
+    return fix == Fix::kLost ? vessel::Thrusts::Zero()
+                             : keeper_.step(state, navigator_.disturbance());
+  }
+  return keeper_.brake(state, navigator_.disturbance());
+}
+
+// Without odometry the model alone brakes the vessel; when that is too old to mean anything, the
+// thrusters rest until odometry comes back, and the vessel then holds the spot it is found at.
+void Tracker::Core::watchFix(Fix fix, double now_s, const vessel::State& state) {
+  if (fix != Fix::kLost) {
+    lost_since_s_ = now_s;
+    if (mode_ == Mode::kFault) {
+      mode_ = Mode::kStopped;
+      keeper_.start(state.head<2>(), state[kPsi]);
+    }
+    return;
+  }
+  if (mode_ == Mode::kTracking || mode_ == Mode::kHolding) {
+    beginStop("odometry lost");
+  }
+  if (mode_ != Mode::kIdle && now_s - lost_since_s_ > options_.odometry.brake_blind_s) {
+    mode_ = Mode::kFault;
+  }
+}
+
+vessel::Thrusts Tracker::Core::slew(const vessel::Thrusts& wanted) const {
+  const double most = options_.thrust_rate_nps * options_.period_s;
+  const vessel::Thrusts change = (wanted - last_thrusts_).cwiseMax(-most).cwiseMin(most);
+  return vessel::clampThrusts(last_thrusts_ + change, vessel_.thrusters);
+}
+
+Command Tracker::Core::step(double now_s) {
+  last_now_s_.store(now_s);
+  Command command;
+  command.stamp_s = now_s;
+  takeOdometry();
+  const Fix fix = navigator_.fix(now_s);
+  const vessel::State state = navigator_.predict(now_s);
+  if (fix != Fix::kNone) {
+    takeAssignment(now_s, state);
+  }
+  watchFix(fix, now_s, state);
+  if (mode_ == Mode::kTracking && now_s >= reference_source_.end()) {
+    beginHolding();
+  }
+  vessel::Thrusts wanted = vessel::Thrusts::Zero();
+  switch (mode_) {
+    case Mode::kTracking:
+      wanted = track(now_s, state, command);
+      break;
+    case Mode::kHolding:
+      wanted = hold(state, command);
+      break;
+    case Mode::kStopping:
+    case Mode::kStopped:
+      wanted = stop(state, fix, command);
+      break;
+    case Mode::kFault:
+      command.reason = "odometry lost";
+      break;
+    case Mode::kIdle:
+      break;
+  }
+  command.thrusts = slew(wanted);
+  finish(now_s, state, command);
+  return command;
+}
+
+void Tracker::Core::finish(double now_s, const vessel::State& state, Command& command) {
+  if (!command.thrusts.allFinite()) {
+    command.thrusts.setZero();
+    command.reason = "a thrust was not finite";
+  }
+  last_thrusts_ = command.thrusts;
+  navigator_.addCommand(now_s, command.thrusts);
+  command.mode = mode_;
+  command.estimate = state;
+  command.disturbance = navigator_.disturbance();
+  if (command.reason.empty()) {
+    command.reason = navigator_.reason();
+  }
+  if (mode_ == Mode::kTracking || mode_ == Mode::kHolding) {
+    command.reference = reference_source_.at(now_s).state;
+    const vessel::FlatPoint z = reference_source_.flat(now_s);
+    command.reference.head<2>() = z.position;
+    command.tracking_error_m = (state.head<2>() - z.position).norm();
+    command.time_left_s = std::max(0.0, reference_source_.end() - now_s);
+    const vessel::State goal = reference_source_.at(reference_source_.end()).state;
+    command.at_goal = mode_ == Mode::kHolding &&
+                      (state.head<2>() - goal.head<2>()).norm() < options_.arrival_radius_m &&
+                      std::abs(wrapAngle(state[kPsi] - goal[kPsi])) < options_.arrival_heading_rad;
+  } else {
+    command.reference = state;
+  }
+}
+
+}  // namespace otter_nav::tracker

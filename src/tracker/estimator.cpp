@@ -1,0 +1,111 @@
+#include "otter_nav/tracker/estimator.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/rk4.hpp"
+
+namespace otter_nav::tracker {
+
+using vessel::kPsi;
+using vessel::kSurge;
+using vessel::kSway;
+using vessel::kYawRate;
+
+Estimator::Estimator(const EstimatorOptions& options, const vessel::ManoeuvringModel& model,
+                     const vessel::Thrusters& thrusters)
+    : options_(options), model_(model), thrusters_(thrusters) {
+  const auto& o = options_;
+  measurement_variance_ << o.position_sigma_m, o.position_sigma_m, o.heading_sigma_rad,
+      o.velocity_sigma_mps, o.velocity_sigma_mps, o.yaw_rate_sigma_radps;
+  measurement_variance_ = measurement_variance_.cwiseAbs2();
+  walk_variance_ << 0.0, 0.0, 0.0, o.velocity_walk_mps, o.velocity_walk_mps, o.yaw_rate_walk_radps,
+      o.force_walk_n, o.force_walk_n, o.moment_walk_nm, o.current_walk_mps, o.current_walk_mps;
+  walk_variance_ = walk_variance_.cwiseAbs2().eval();
+  if (!o.enabled) {
+    walk_variance_.tail<5>().setZero();
+  }
+}
+
+void Estimator::reset(const vessel::State& measured) {
+  state_ = measured;
+  covariance_.topRows<6>().setZero();
+  covariance_.leftCols<6>().setZero();
+  covariance_.diagonal().head<6>() = measurement_variance_;
+}
+
+vessel::State Estimator::innovation(const vessel::State& measured) const {
+  vessel::State difference = measured - state_;
+  difference[kPsi] = wrapAngle(difference[kPsi]);
+  return difference;
+}
+
+// I + dt * Jacobian: over 10 ms the next order is below the noise.
+Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, double dt_s) const {
+  const vessel::StateJacobian a =
+      vessel::linearize(state_, thrusts, model_, thrusters_, disturbance_).state_jacobian;
+  Eigen::Matrix2d body_from_earth;
+  const double c = std::cos(state_[kPsi]);
+  const double s = std::sin(state_[kPsi]);
+  body_from_earth << c, s, -s, c;
+
+  Covariance f = Covariance::Identity();
+  f.topLeftCorner<6, 6>() += dt_s * a;
+  f.block<1, 2>(kSurge, kForce) = dt_s / model_.surge_inertia_kg * body_from_earth.row(0);
+  f.block<1, 2>(kSway, kForce) = dt_s / model_.sway_inertia_kg * body_from_earth.row(1);
+  f(kYawRate, kMoment) = dt_s / model_.yaw_inertia_kgm2;
+  // A current in the body frame takes from the relative velocities what it adds to the frame's
+  // turning.
+  Eigen::Matrix<double, 3, 2> from_current = -a.block<3, 2>(kSurge, kSurge);
+  from_current(0, 1) += state_[kYawRate];
+  from_current(1, 0) -= state_[kYawRate];
+  f.block<3, 2>(kSurge, kCurrent) = dt_s * from_current * body_from_earth;
+  return f;
+}
+
+void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
+  const Covariance f = transition(thrusts, dt_s);
+  const Covariance spread = f * covariance_;
+  covariance_.noalias() = spread * f.transpose();
+  covariance_.diagonal() += dt_s * walk_variance_;
+  state_ = rk4Step(
+      [&](double, const vessel::State& x) {
+        return vessel::stateDerivative(x, thrusts, model_, thrusters_, disturbance_);
+      },
+      0.0, state_, dt_s);
+}
+
+void Estimator::update(const vessel::State& measured) {
+  Eigen::Matrix<double, 6, 6> innovation_covariance = covariance_.topLeftCorner<6, 6>();
+  innovation_covariance.diagonal() += measurement_variance_;
+  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factor(innovation_covariance);
+  const Eigen::Matrix<double, 6, kSize> gain = factor.solve(covariance_.topRows<6>());
+  const Eigen::Matrix<double, kSize, 1> step = gain.transpose() * innovation(measured);
+  const Covariance explained = gain.transpose() * covariance_.topRows<6>();
+  covariance_ -= explained;
+  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  state_ += step.head<6>();
+  if (options_.enabled) {
+    disturbance_.force_n += step.segment<2>(kForce);
+    disturbance_.moment_nm += step[kMoment];
+    disturbance_.current_mps += step.segment<2>(kCurrent);
+    limit();
+  }
+}
+
+void Estimator::limit() {
+  const auto clampNorm = [](Eigen::Vector2d& v, double limit) {
+    const double norm = v.norm();
+    if (norm > limit) {
+      v *= limit / norm;
+    }
+  };
+  clampNorm(disturbance_.force_n, options_.force_max_n);
+  clampNorm(disturbance_.current_mps, options_.current_max_mps);
+  disturbance_.moment_nm =
+      std::clamp(disturbance_.moment_nm, -options_.moment_max_nm, options_.moment_max_nm);
+}
+
+}  // namespace otter_nav::tracker

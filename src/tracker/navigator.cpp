@@ -1,0 +1,134 @@
+#include "otter_nav/tracker/navigator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/base/rk4.hpp"
+
+namespace otter_nav::tracker {
+namespace {}  // namespace
+
+Navigator::Navigator(const Options& options, const vessel::Parameters& vessel)
+    : options_(options.odometry),
+      period_s_(options.period_s),
+      vessel_(vessel),
+      estimator_(options.estimator, vessel.manoeuvring, vessel.thrusters) {}
+
+void Navigator::addCommand(double stamp_s, const vessel::Thrusts& thrusts) {
+  sent_[static_cast<std::size_t>(sent_count_ % kHistory)] = {stamp_s, thrusts};
+  ++sent_count_;
+}
+
+// The command in force just after `time_s`; null when none was sent by then.
+const Navigator::Sent* Navigator::sentAt(double time_s) const {
+  const long oldest = std::max(0L, sent_count_ - kHistory);
+  for (long i = sent_count_ - 1; i >= oldest; --i) {
+    const Sent& sent = sent_[static_cast<std::size_t>(i % kHistory)];
+    if (sent.stamp_s <= time_s + 1e-9) {
+      return &sent;
+    }
+  }
+  return nullptr;
+}
+
+template <typename Step>
+void Navigator::forEachPiece(double until_s, vessel::Thrusts& acting, Step step) const {
+  double t = stamp_s_;
+  while (t < until_s - 1e-9) {
+    const double dt = std::min(period_s_, until_s - t);
+    const Sent* sent = sentAt(t);
+    const vessel::Thrusts command = sent != nullptr ? sent->thrusts : vessel::Thrusts::Zero();
+    const double lag = vessel_.thrusters.lag_s;
+    const vessel::Thrusts before = acting;
+    if (lag > 0.0) {
+      acting = command + std::exp(-dt / lag) * (acting - command);
+    } else {
+      acting = command;
+    }
+    step(lag > 0.0 ? vessel::Thrusts(0.5 * (before + acting)) : acting, dt);
+    t += dt;
+  }
+}
+
+bool Navigator::believable(double stamp_s, const vessel::State& state) {
+  const vessel::State jump = estimator_.innovation(state);
+  const bool jumps =
+      jump.head<2>().norm() > options_.jump_m || std::abs(jump[vessel::kPsi]) > options_.jump_rad;
+  if (!jumps) {
+    jumping_ = false;
+    return true;
+  }
+  if (!jumping_) {
+    jumping_ = true;
+    jump_since_s_ = stamp_s;
+  }
+  return stamp_s - jump_since_s_ >= options_.believe_jump_after_s;
+}
+
+void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
+  if (!std::isfinite(stamp_s) || !state.allFinite()) {
+    reason_ = "odometry is not finite";
+    return;
+  }
+  const double stamp = stamp_s - options_.latency_s;
+  if (!started_) {
+    started_ = true;
+    stamp_s_ = stamp;
+    estimator_.reset(state);
+    reason_ = {};
+    return;
+  }
+  if (stamp <= stamp_s_) {
+    reason_ = "odometry is out of order";
+    return;
+  }
+  const bool gap = stamp - stamp_s_ > options_.predict_through_s;
+  if (!gap) {
+    forEachPiece(stamp, acting_, [&](const vessel::Thrusts& thrusts, double dt) {
+      estimator_.predict(thrusts, dt);
+    });
+  }
+  stamp_s_ = stamp;
+  if (gap) {
+    jumping_ = false;
+    estimator_.reset(state);
+  } else if (believable(stamp, state)) {
+    if (jumping_) {
+      estimator_.reset(state);
+      jumping_ = false;
+    }
+    estimator_.update(state);
+  } else {
+    reason_ = "odometry jumps";
+    return;
+  }
+  reason_ = {};
+}
+
+Fix Navigator::fix(double now_s) const {
+  if (!started_) {
+    return Fix::kNone;
+  }
+  const double silent = jumping_ ? now_s - jump_since_s_ : now_s - stamp_s_;
+  if (silent > options_.predict_through_s) {
+    return Fix::kLost;
+  }
+  return silent > 3.0 * period_s_ ? Fix::kBridging : Fix::kGood;
+}
+
+vessel::State Navigator::predict(double time_s) const {
+  vessel::State x = estimator_.state();
+  vessel::Thrusts acting = acting_;
+  const double until = std::min(time_s, stamp_s_ + 5.0);
+  forEachPiece(until, acting, [&](const vessel::Thrusts& thrusts, double dt) {
+    x = rk4Step(
+        [&](double, const vessel::State& y) {
+          return vessel::stateDerivative(y, thrusts, vessel_.manoeuvring, vessel_.thrusters,
+                                         estimator_.disturbance());
+        },
+        0.0, x, dt);
+  });
+  return x;
+}
+
+}  // namespace otter_nav::tracker

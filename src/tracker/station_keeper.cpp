@@ -1,0 +1,86 @@
+#include "otter_nav/tracker/station_keeper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+
+namespace otter_nav::tracker {
+
+using Eigen::Vector2d;
+using vessel::kPsi;
+using vessel::kSurge;
+using vessel::kYawRate;
+
+StationKeeper::StationKeeper(const HoldingOptions& options, const vessel::Parameters& vessel)
+    : options_(options), vessel_(vessel) {}
+
+void StationKeeper::start(const Vector2d& position, double psi_rad) {
+  position_ = position;
+  psi_rad_ = psi_rad;
+  weathervanes_ = false;
+}
+
+// Within the diamond; the yaw moment has priority, since without it no surge force points right.
+vessel::Thrusts StationKeeper::thrusts(double surge_n, double yaw_nm) const {
+  const vessel::Thrusters& t = vessel_.thrusters;
+  const double ahead = options_.thrust_share * t.ahead_max_n;
+  const double astern = options_.thrust_share * t.astern_max_n;
+  const double half_range = 0.5 * (ahead + astern);
+  const double difference =
+      std::clamp(0.5 * yaw_nm / t.lever_arm_m, -0.6 * half_range, 0.6 * half_range);
+  const double mean =
+      std::clamp(0.5 * surge_n, -astern + std::abs(difference), ahead - std::abs(difference));
+  return {mean - difference, mean + difference};
+}
+
+Vector2d StationKeeper::load(const vessel::State& state,
+                             const vessel::Disturbance& disturbance) const {
+  const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
+  const Vector2d e(std::cos(state[kPsi]), std::sin(state[kPsi]));
+  const Vector2d n(-e.y(), e.x());
+  const double u = e.dot(disturbance.current_mps);
+  const double v = n.dot(disturbance.current_mps);
+  return disturbance.force_n +
+         (m.surge_drag_kgps + m.surge_drag_quadratic_kgpm * std::abs(u)) * u * e +
+         (m.sway_drag_kgps + m.sway_drag_quadratic_kgpm * std::abs(v)) * v * n;
+}
+
+vessel::Thrusts StationKeeper::step(const vessel::State& state,
+                                    const vessel::Disturbance& disturbance) {
+  const double psi = state[kPsi];
+  const Vector2d e(std::cos(psi), std::sin(psi));
+  const Vector2d error = position_ - state.head<2>();
+  const Vector2d velocity = state[kSurge] * e + state[vessel::kSway] * Vector2d(-e.y(), e.x());
+  const Vector2d wanted = options_.surge_gain_nspm * error -
+                          options_.surge_damping_kgps * velocity - load(state, disturbance);
+  const double distance = error.norm();
+  if (distance > options_.weathervane_radius_m) {
+    weathervanes_ = true;
+  } else if (distance < options_.heading_radius_m && weathervanes_) {
+    // Heading may be held again only where the load along the beam is light.
+    const Vector2d port(-std::sin(psi_rad_), std::cos(psi_rad_));
+    weathervanes_ = std::abs(port.dot(load(state, disturbance))) > options_.side_load_n;
+  }
+  double heading = psi_rad_;
+  if (weathervanes_ && wanted.norm() > 1.0) {
+    const bool ahead = e.dot(wanted) >= 0.0;
+    heading = std::atan2(wanted.y(), wanted.x()) + (ahead ? 0.0 : kPi);
+  } else if (weathervanes_) {
+    heading = psi;
+  }
+  const double turn = std::clamp(wrapAngle(heading - psi), -0.7, 0.7);
+  const double yaw = options_.yaw_gain_nm * turn - options_.yaw_damping_nms * state[kYawRate] -
+                     disturbance.moment_nm;
+  return thrusts(e.dot(wanted), yaw);
+}
+
+vessel::Thrusts StationKeeper::brake(const vessel::State& state,
+                                     const vessel::Disturbance& disturbance) const {
+  const double surge = -2.0 * options_.surge_damping_kgps * state[kSurge];
+  const double yaw = -options_.yaw_damping_nms * state[kYawRate] - disturbance.moment_nm;
+  return thrusts(surge, yaw);
+}
+
+}  // namespace otter_nav::tracker
