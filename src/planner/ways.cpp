@@ -22,6 +22,25 @@ FlatPoint reversed(const FlatPoint& z) {
   return r;
 }
 
+// A piece exactly along `direction`: its coefficients are numbers times that direction, so that
+// rounding does not turn the heading where |w| passes through zero.
+Piece straightPiece(const FlatPoint& from, const FlatPoint& to, const Eigen::Vector2d& direction,
+                    double duration_s) {
+  const auto along = [&](const FlatPoint& z) {
+    FlatPoint s;
+    s.position.x() = direction.dot(z.position - from.position);
+    s.velocity.x() = direction.dot(z.velocity);
+    s.acceleration.x() = direction.dot(z.acceleration);
+    s.jerk.x() = direction.dot(z.jerk);
+    return s;
+  };
+  Piece piece = trajectory::hermitePiece(along(from), along(to), duration_s);
+  const Eigen::Matrix<double, 1, trajectory::kCoefficients> numbers = piece.position.row(0);
+  piece.position = direction * numbers;
+  piece.position.col(0) = from.position;
+  return piece;
+}
+
 // z(t / slowdown): the same way, each derivative smaller by another power.
 Piece slowed(const Piece& piece, double slowdown) {
   Piece slow = piece;
@@ -34,25 +53,35 @@ Piece slowed(const Piece& piece, double slowdown) {
   return slow;
 }
 
+bool atRest(const FlatPoint& z) {
+  return z.velocity.norm() < 1e-6;
+}
+
 // Jerks on both sides of each joint averaged; next to launch and stop only their part along the
 // way is kept, so that these stay straight.
 std::vector<Piece> smoothed(const std::vector<Piece>& way) {
+  const std::size_t last = way.size() - 1;
   std::vector<FlatPoint> knots(way.size() + 1);
   knots.front() = way.front().flat(0.0);
   knots.back() = way.back().flat(way.back().duration_s);
-  for (std::size_t i = 1; i < way.size(); ++i) {
+  const bool launched = atRest(knots.front());
+  for (std::size_t i = 1; i <= last; ++i) {
     const FlatPoint before = way[i - 1].flat(way[i - 1].duration_s);
     knots[i] = way[i].flat(0.0);
     knots[i].jerk = 0.5 * (before.jerk + knots[i].jerk);
-    const bool at_launch = i == 1 && way.front().flat(0.0).velocity.norm() < 1e-6;
-    if (at_launch || i + 1 == way.size()) {
+    if ((launched && i == 1) || i == last) {
       const Eigen::Vector2d along = knots[i].velocity.normalized();
+      knots[i].acceleration.setZero();
       knots[i].jerk = along * along.dot(knots[i].jerk);
     }
   }
   std::vector<Piece> pieces;
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    pieces.push_back(trajectory::hermitePiece(knots[i], knots[i + 1], way[i].duration_s));
+  for (std::size_t i = 0; i <= last; ++i) {
+    const bool straight = (launched && i == 0) || i == last;
+    const Eigen::Vector2d& moving = i == 0 ? knots[1].velocity : knots[i].velocity;
+    pieces.push_back(
+        straight ? straightPiece(knots[i], knots[i + 1], moving.normalized(), way[i].duration_s)
+                 : trajectory::hermitePiece(knots[i], knots[i + 1], way[i].duration_s));
   }
   return pieces;
 }
