@@ -20,7 +20,6 @@ namespace {
 constexpr double kSquareCells = 0.7;
 constexpr double kHullMarginM = 0.03;
 constexpr double kLookAheadM = 8.0;  // how far the way's first direction is taken
-constexpr double kSpinAngleRad = 0.9;  // turns wider than this at an end are spun on the spot
 
 Eigen::Vector2d unit(double angle_rad) {
   return {std::cos(angle_rad), std::sin(angle_rad)};
@@ -67,7 +66,7 @@ class GlobalOptimizer::Solver {
         return std::move(result_);
       }
       if (outOfTime()) {
-        return failure("no time left to optimise: " + result_.verification.reason);
+        break;
       }
     }
     return lastResort(way);
@@ -127,7 +126,7 @@ class GlobalOptimizer::Solver {
     ends_.start = *start_;
     ends_.goal = *goal_;
     ends_.start_at_rest = atRest(*start_);
-    const double threshold = manner.spin_always ? 0.02 : kSpinAngleRad;
+    const double threshold = manner.spin_always ? 0.02 : options_.spin_angle_rad;
     const double leave = angleOf(pointAlong(way, kLookAheadM) - start_->flat.position);
     const double arrive = angleOf(goal_->flat.position - pointAlong(way, -kLookAheadM));
     start_turn_ = wrapAngle(leave - start_->psi_rad);
@@ -141,25 +140,102 @@ class GlobalOptimizer::Solver {
   bool attempt(const std::vector<Eigen::Vector2d>& way, const Manner& manner) {
     aim(manner);
     chooseEnds(way, manner);
+    solver_.restart();
     way_.build(*field_, way, ends_, spline_);
     SplineSolver::Stop stop;
     stop.max_iterations = options_.iterations_per_round;
     stop.out_of_time = [this] { return outOfTime(); };
+    smoothFirst(stop);
     for (int round = 0; round < options_.rounds; ++round) {
       result_.iterations += solver_.improve(problem_, stop, spline_);
-      result_.trajectory = assemble();
-      result_.verification =
-          verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
+      verifyDilated();
+      if (getenv("TRACE")) fprintf(stderr,"round %d: %s clr %.3f thr %.3f wf %.2f\n",round,result_.verification.reason.c_str(),result_.verification.clearance_m,result_.verification.thrust_share,result_.verification.heading_force_n);
       if (result_.verification.ok) {
         return true;
       }
       if (outOfTime()) {
         return false;
       }
+      tighten();
+    }
+    return false;
+  }
+
+  // The first shape: durations held, limits of thrust left out, near the way. Nearly quadratic.
+  void smoothFirst(SplineSolver::Stop stop) {
+    originals_.resize(spline_.spans.size());
+    for (std::size_t i = 0; i < spline_.spans.size(); ++i) {
+      spline_.spans[i].duration_free = false;
+      for (std::size_t k = 0; k < kQuadraturePoints; ++k) {
+        const BasisMatrix basis =
+            scaleBasis(hermiteBasis(quadraturePoints()[k]), spline_.spans[i].duration_s).value;
+        originals_[i][k] = spline_.knots[i].state * basis.row(0).head<4>().transpose() +
+                           spline_.knots[i + 1].state * basis.row(0).tail<4>().transpose();
+      }
+    }
+    const SplineWeights aimed = problem_.weights;
+    problem_.weights.dynamics = options_.weight_dynamics * 1e-3;
+    problem_.weights.original = options_.weight_original;
+    problem_.weights.smooth = options_.weight_smooth_first;
+    problem_.originals = &originals_;
+    stop.max_iterations = 4;
+    stop.relative_decrease = 0.05;
+    result_.iterations += solver_.improve(problem_, stop, spline_);
+    problem_.weights = aimed;
+    problem_.originals = nullptr;
+    for (Span& span : spline_.spans) {
+      span.duration_free = true;
+    }
+  }
+
+  // Verifies; from rest to rest, what asks for a little too much thrust is slowed down: time runs
+  // slower by a factor everywhere, which leaves the shape as it is.
+  void verifyDilated() {
+    constexpr int kTries = 5;
+    for (int i = 0;; ++i) {
+      result_.trajectory = assemble();
+      result_.verification =
+          verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
+      const double excess =
+          std::max(result_.verification.thrust_share / check_.thrust_share,
+                   result_.verification.speed_mps / check_.speed_max_mps) -
+          1.0;
+      if (i == kTries || !ends_.start_at_rest || excess <= 0.0 ||
+          excess > options_.dilation_max) {
+        return;
+      }
+      dilate(1.0 + 0.8 * excess + 0.001);
+    }
+  }
+
+  void dilate(double factor) {
+    double scale = 1.0;
+    for (int m = 1; m < 4; ++m) {
+      scale /= factor;
+      for (Knot& knot : spline_.knots) {
+        knot.state.col(m) *= scale;
+      }
+    }
+    for (Span& span : spline_.spans) {
+      span.duration_s *= factor;
+    }
+  }
+
+  // What failed is aimed at more strictly, and its weight raised.
+  void tighten() {
+    const Verification& v = result_.verification;
+    if (v.thrust_share > check_.thrust_share) {
+      const double excess = std::min(v.thrust_share - check_.thrust_share, 0.04);
+      problem_.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
+      problem_.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
+      problem_.weights.dynamics *= options_.weight_growth;
+    } else {
+      const double missing = check_.clearance_m - v.clearance_m;
+      problem_.limits.clearance_m += std::clamp(missing + 0.02, 0.02, 0.2);
+      problem_.limits.hull_clearance_m += 0.03;
       problem_.weights.clearance *= options_.weight_growth;
       problem_.weights.dynamics *= options_.weight_growth;
     }
-    return false;
   }
 
   // A straight piece exactly along the line: its coefficients are numbers times one direction.
@@ -251,6 +327,7 @@ class GlobalOptimizer::Solver {
   InitialWay way_;
   SplineSolver solver_;
   Spline spline_;
+  Originals originals_;
   WayEnds ends_;
   double start_turn_ = 0.0;
   double goal_turn_ = 0.0;

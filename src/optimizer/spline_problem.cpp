@@ -9,6 +9,9 @@ namespace otter_nav::optimizer {
 namespace {
 
 constexpr double kForceScaleN = 50.0;   // a thrust exceeded by this counts as one
+constexpr double kForceKnee = 0.3;       // exceeded by more than this share, it counts linearly
+constexpr double kMotionKnee = 1.0;      // of speed, m/s, and yaw rate, rad/s
+constexpr double kClearanceKneeM = 1.0;
 constexpr double kForceFloorN = 3.0;    // |w| below this is treated as this
 constexpr double kSlowMps = 0.5;        // below it the length's curvature is bounded
 constexpr double kEvenness = 0.02;      // pieces shall last about as long as their neighbours
@@ -64,15 +67,17 @@ struct SplineProblem::Local {
       hessian.col(c).noalias() += (curvature * j[c]) * j;
     }
   }
-  // weight * max(0, excess)^2, `rows` being the derivative of excess.
+  // weight * max(0, excess)^2, growing linearly from `knee` on (Huber), so that a bad first guess
+  // does not drown all else; `rows` is the derivative of excess.
   template <typename MakeRows>
-  void hinge(double weight, double excess, const MakeRows& rows) {
+  void hinge(double weight, double excess, double knee, const MakeRows& rows) {
     if (excess <= 0.0) {
       return;
     }
-    cost += weight * excess * excess;
+    const double held = std::min(excess, knee);
+    cost += weight * held * (2.0 * excess - held);
     if (model) {
-      addSquare(weight, excess, chain(rows()));
+      addSquare(weight * held / excess, excess, chain(rows()));
     }
   }
 };
@@ -102,12 +107,12 @@ void SplineProblem::addStraight(const Rows& z, const Eigen::Vector2d& along, Loc
     return rows;
   };
   const double weight = 2.0 * weights.dynamics;
-  local.hinge(weight, (0.5 * force - limits.thrust_ahead_n) / kForceScaleN,
+  local.hinge(weight, (0.5 * force - limits.thrust_ahead_n) / kForceScaleN, kForceKnee,
               [&] { return force_rows(1.0); });
-  local.hinge(weight, (-0.5 * force - limits.thrust_astern_n) / kForceScaleN,
+  local.hinge(weight, (-0.5 * force - limits.thrust_astern_n) / kForceScaleN, kForceKnee,
               [&] { return force_rows(-1.0); });
-  local.hinge(weight, speed - limits.speed_mps, [&] { return speed_rows(1.0); });
-  local.hinge(weight, -speed, [&] { return speed_rows(-1.0); });
+  local.hinge(weight, speed - limits.speed_mps, kMotionKnee, [&] { return speed_rows(1.0); });
+  local.hinge(weight, -speed, kMotionKnee, [&] { return speed_rows(-1.0); });
 }
 
 void SplineProblem::addFree(const Rows& z, Local& local) const {
@@ -126,15 +131,15 @@ void SplineProblem::addFree(const Rows& z, Local& local) const {
   for (const double side : {-1.0, 1.0}) {
     const double thrust = 0.5 * (g.surge_n + side * g.difference_n);
     const FlatRow row = 0.5 * (g.surge + side * g.difference);
-    local.hinge(weights.dynamics, (thrust - limits.thrust_ahead_n) / kForceScaleN,
+    local.hinge(weights.dynamics, (thrust - limits.thrust_ahead_n) / kForceScaleN, kForceKnee,
                 [&] { return widen(row, 1.0 / kForceScaleN); });
-    local.hinge(weights.dynamics, (-thrust - limits.thrust_astern_n) / kForceScaleN,
+    local.hinge(weights.dynamics, (-thrust - limits.thrust_astern_n) / kForceScaleN, kForceKnee,
                 [&] { return widen(row, -1.0 / kForceScaleN); });
   }
-  local.hinge(weights.dynamics, std::abs(g.yaw_rate_radps) - limits.yaw_rate_radps,
+  local.hinge(weights.dynamics, std::abs(g.yaw_rate_radps) - limits.yaw_rate_radps, kMotionKnee,
               [&] { return widen(g.yaw_rate, g.yaw_rate_radps < 0.0 ? -1.0 : 1.0); });
   const double speed = flat.velocity.norm();
-  local.hinge(weights.dynamics, speed - limits.speed_mps, [&] {
+  local.hinge(weights.dynamics, speed - limits.speed_mps, kMotionKnee, [&] {
     Rows rows = Rows::Zero();
     rows.col(1) = flat.velocity / speed;
     return rows;
@@ -144,7 +149,7 @@ void SplineProblem::addFree(const Rows& z, Local& local) const {
     const Eigen::Vector2d course = flat.velocity / speed;
     const vessel::PaperModel& m = vessel_.paper;
     const double ahead = m.m1_kg * course.dot(flat.acceleration) + m.d2_kgps * speed;
-    local.hinge(weights.dynamics, (limits.heading_force_n - ahead) / kForceScaleN, [&] {
+    local.hinge(weights.dynamics, (limits.heading_force_n - ahead) / kForceScaleN, kForceKnee, [&] {
       Rows rows = Rows::Zero();
       const Eigen::Vector2d turn = across(course);
       rows.col(1) = -(m.d2_kgps * course +
@@ -219,7 +224,7 @@ void SplineProblem::addClearance(int point, bool straight, const Eigen::Vector2d
     return;
   }
   const Rows z = local.at(unit);
-  local.hinge(weights.clearance, limits.clearance_m - centre.distance_m, [&] {
+  local.hinge(weights.clearance, limits.clearance_m - centre.distance_m, kClearanceKneeM, [&] {
     Rows rows = Rows::Zero();
     rows.col(0) = -centre.gradient;
     return rows;
@@ -233,7 +238,7 @@ void SplineProblem::addClearance(int point, bool straight, const Eigen::Vector2d
   const Eigen::Vector2d bow = straight ? along : Eigen::Vector2d(w / norm);
   for (const double offset : {-limits.hull_offset_m, limits.hull_offset_m}) {
     const map::DistanceField::Smooth end = field->smooth(p + offset * bow);
-    local.hinge(weights.clearance, limits.hull_clearance_m - end.distance_m, [&] {
+    local.hinge(weights.clearance, limits.hull_clearance_m - end.distance_m, kClearanceKneeM, [&] {
       Rows rows = Rows::Zero();
       rows.col(0) = -end.gradient;
       if (!straight) {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr double kFirstDamping = 1e-3;
+constexpr double kMostKeptDamping = 1.0;
 constexpr double kLeastDamping = 1e-8;
 constexpr double kMostDamping = 1e6;
 constexpr double kFloor = 1e-9;
@@ -15,7 +17,8 @@ constexpr double kFloor = 1e-9;
 }  // namespace
 
 int SplineSolver::improve(const SplineProblem& problem, const Stop& stop, Spline& spline) {
-  double damping = kFirstDamping;
+  double& damping = damping_;
+  damping = std::min(damping, kMostKeptDamping);
   cost_ = problem.evaluate(spline, &system_);
   int iterations = 0;
   int small_steps = 0;
@@ -31,6 +34,7 @@ int SplineSolver::improve(const SplineProblem& problem, const Stop& stop, Spline
     trial_ = spline;
     SplineProblem::apply(system_.solution(), 1.0, trial_);
     const double cost = problem.evaluate(trial_, &trial_system_);
+    if (getenv("TRACE")) { double T=0; for (auto& s: trial_.spans) T+=s.duration_s; fprintf(stderr,"it %d damping %.1e cost %.5f -> %.5f T %.3f\n",iterations,damping,cost_,cost,T);}
     if (!(cost < cost_)) {
       damping *= 6.0;
       continue;

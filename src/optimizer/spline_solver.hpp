@@ -16,14 +16,19 @@ class SplineSolver {
     std::function<bool()> out_of_time;
   };
 
+  // The damping found is kept for the next call; this forgets it.
+  void restart() { damping_ = kFirstDamping; }
   // Improves `spline` in place; returns the number of closed-form solutions made.
   int improve(const SplineProblem& problem, const Stop& stop, Spline& spline);
   [[nodiscard]] double cost() const { return cost_; }
 
  private:
+  static constexpr double kFirstDamping = 1e-2;
+
   Spline trial_;
   System system_;
   System trial_system_;
+  double damping_ = kFirstDamping;
   double cost_ = 0.0;
 };
 

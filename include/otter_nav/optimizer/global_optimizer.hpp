@@ -33,11 +33,14 @@ struct GlobalOptions {
   double clearance_margin_m = 0.1;  // beyond it, aimed at
   bool keep_hull_clear = true;
   double thrust_share = 0.96;   // of each thruster's limits, verified; the rest is for control
-  double thrust_margin = 0.03;  // of the limits, below that share: aimed at
+  double thrust_margin = 0.04;  // of the limits, below that share: aimed at
   double speed_max_mps = 4.8;
   double yaw_rate_max_radps = 1.2;   // under way; a spin is limited by its thrust alone
   double heading_force_min_n = 8.0;  // |w| while turning
   double spin_thrust_share = 0.9;
+  double spin_angle_rad = 0.9;  // turns wider than this at an end at rest are spun on the spot
+  // A trajectory that asks for this share too much of a thruster is slowed down to suit.
+  double dilation_max = 0.06;
   double piece_length_m = 6.0;
   // Weights: of a second, of a metre of way, and the paper's.
   double weight_time = 1.0;
@@ -45,8 +48,9 @@ struct GlobalOptions {
   double weight_smooth = 0.01;     // ls, on the integral of squared jerk
   double weight_clearance = 20.0;  // lc
   double weight_dynamics = 20.0;   // ld
-  double weight_original = 0.02;   // lo, while the first shape is found
-  double weight_growth = 3.0;      // of lc and ld from round to round where they fail
+  double weight_original = 0.3;    // lo, while the first shape is found
+  double weight_smooth_first = 0.1;  // ls then
+  double weight_growth = 1.5;      // of lc and ld from round to round where they fail
   int rounds = 6;
   int iterations_per_round = 12;
 };
