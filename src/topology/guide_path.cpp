@@ -59,7 +59,9 @@ LatticeQuery wholeMap(const map::DistanceField& field, const Options& options, d
   query.start = start.position;
   query.goal = goal.position;
   query.clearance_m = clearance_m;
-  query.block = blockCells(options, g);
+  const bool long_way = (goal.position - start.position).norm() >= options.long_way_m;
+  query.block = blockCells(options, g) * (long_way ? 2 : 1);
+  query.greed = options.greed;
   query.low = g.origin;
   query.high = g.origin + g.resolution_m * Eigen::Vector2d(g.width, g.height);
   query.max_expansions = options.max_expansions;

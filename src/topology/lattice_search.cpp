@@ -117,18 +117,18 @@ void LatticeSearch::forEachNeighbour(std::int32_t id, const Visit& visit) {
 }
 
 float LatticeSearch::totalOf(const Node& node) const {
-  return node.length + static_cast<float>((query_.goal - node.position).norm());
+  return node.length +
+         static_cast<float>(query_.greed * (query_.goal - node.position).norm());
 }
 
 void LatticeSearch::push(std::int32_t id) {
   Node& node = nodes_[static_cast<std::size_t>(id)];
-  const float total = totalOf(node);
-  if (total >= query_.longest_m) {
+  if (node.length + (query_.goal - node.position).norm() >= query_.longest_m) {
     node.state = State::kUnseen;
     return;
   }
   node.state = State::kOpen;
-  open_.push_back({total, id});
+  open_.push_back({totalOf(node), id});
   std::push_heap(open_.begin(), open_.end(), Farther{});
 }
 

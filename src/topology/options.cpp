@@ -10,6 +10,8 @@ Result<Options> readOptions(config::Section section) {
   section.read("safe_distance_m", options.safe_distance_m, {0.0, 20.0});
   section.read("corridor_max_m", options.corridor_max_m, {0.1, 100.0});
   section.read("lattice_m", options.lattice_m, {0.01, 20.0});
+  section.read("long_way_m", options.long_way_m, {0.0, 1e6});
+  section.read("greed", options.greed, {1.0, 2.0});
   section.read("local_window_m", options.local_window_m, {1.0, 1000.0});
   section.read("max_repairs", options.max_repairs, {0.0, 1000.0});
   section.read("good_ratio", options.good_ratio, {1.0, 10.0});

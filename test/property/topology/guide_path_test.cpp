@@ -90,7 +90,7 @@ TEST(GuidePathProperty, ClearNearShortestAndFoundWheneverThereIsAWay) {
   int ways = 0;
   int none = 0;
   for (int round = 0; round < 60; ++round) {
-    const OccupancyGrid grid = map::randomGrid(random, kSide, kSide, 20 + 2 * (round % 40));
+    const OccupancyGrid grid = map::randomGrid(random, kSide, kSide, 20 + 5 * (round % 40));
     const DistanceField field(grid, {});
     const Task task = randomTask(random, field);
     const double strict = latticeLength(field, task.start_corner, task.goal_corner, 0.82);
