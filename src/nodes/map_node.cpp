@@ -69,11 +69,14 @@ MapNode::MapNode(map::OccupancyMap map)
           "map", 1,
           [this](const ros::SingleSubscriberPublisher& subscriber) { publishMapTo(subscriber); },
           ros::SubscriberStatusCallback(), ros::VoidConstPtr(), true)),
+      chart_publisher_(node_.advertise<nav_msgs::OccupancyGrid>("chart", 1, true)),
       update_publisher_(node_.advertise<map_msgs::OccupancyGridUpdate>("map_updates", kQueue)),
       save_service_(private_node_.advertiseService("save", &MapNode::onSave, this)),
       reset_service_(private_node_.advertiseService("reset", &MapNode::onReset, this)) {
   map_publisher_.publish(
       ros_bridge::toMessage(map_.projection(), kMapFrame, ros::Time::now(), load_time_));
+  chart_publisher_.publish(
+      ros_bridge::toMessage(map_.chart(), kMapFrame, ros::Time::now(), load_time_));
   scan_filter_.registerCallback(
       [this](const sensor_msgs::LaserScanConstPtr& message) { onScan(message); });
   diagnostics_.setState(Level::kOk, "chart loaded");

@@ -49,6 +49,7 @@ class MapNode {
   message_filters::Subscriber<sensor_msgs::LaserScan> scan_subscriber_;
   tf2_ros::MessageFilter<sensor_msgs::LaserScan> scan_filter_;
   ros::Publisher map_publisher_;
+  ros::Publisher chart_publisher_;
   ros::Publisher update_publisher_;
   ros::ServiceServer save_service_;
   ros::ServiceServer reset_service_;

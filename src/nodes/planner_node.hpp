@@ -88,8 +88,8 @@ class PlannerNode {
   std::deque<map_msgs::OccupancyGridUpdateConstPtr> updates_;  // waiting for their turn
   std::optional<ros::Time> unacknowledged_;
   ros::Time acknowledged_;
-  int plan_under_way_ = 0;     // id of the request; 0 for none
-  std::uint32_t sent_id_ = 0;  // of the last trajectory published
+  int plan_under_way_ = 0;          // id of the request; 0 for none
+  std::uint32_t sent_id_ = 0;       // of the last trajectory published
   std::uint32_t confirmed_id_ = 0;  // of the last the tracker has
   ros::WallTime waiting_since_;
 

@@ -30,6 +30,7 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   const auto field = readDistanceFieldOptions(section.child("distance_field"));
   const auto supervisor = mission::readSupervisorOptions(section.child("supervisor"));
   const auto planner = planner::readOptions(section.child("planner"));
+  const auto topology = topology::readOptions(section.child("topology"));
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);
   }
@@ -42,9 +43,13 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   if (!planner) {
     return failure(planner.error().message);
   }
+  if (!topology) {
+    return failure(topology.error().message);
+  }
   setup.field = *field;
   setup.supervisor = *supervisor;
   setup.planner = *planner;
+  setup.planner.topology = *topology;
   return config::vesselFile(setup.node.vessel)
       .and_then([](const std::string& path) { return vessel::loadParameters(path); })
       .map([&](const vessel::Parameters& vessel) {

@@ -53,7 +53,8 @@ PlantPublisher::PlantPublisher(ros::NodeHandle& node, const plant::LidarOptions&
       scan_(node.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
       contact_(node.advertise<ContactEvent>("contact", kQueue, true)),
       wind_(node.advertise<geometry_msgs::Vector3Stamped>("wind", kQueue)),
-      current_(node.advertise<geometry_msgs::Vector3Stamped>("current", kQueue)) {
+      current_(node.advertise<geometry_msgs::Vector3Stamped>("current", kQueue)),
+      trail_(node, "trail") {
   // A GNSS-aided navigation system is simulated, so odom and map coincide.
   static_transforms_.sendTransform(
       {transform(kMapFrame, kOdomFrame, Eigen::Vector3d::Zero(), ros::Time()),
@@ -118,8 +119,9 @@ void PlantPublisher::publishTruth(const plant::Simulator& simulator, const ros::
   set(truth.velocity_in_body, pose.twist.twist.linear);
   set(truth.angular_velocity_in_body, pose.twist.twist.angular);
   ground_truth_.publish(pose);
+  trail_.add(pose.pose.pose, kMapFrame, stamp);
 
-  PlantState state;
+  PlantState& state = last_state_;
   state.header = pose.header;
   state.x = truth.position.x();
   state.y = truth.position.y();
@@ -177,6 +179,7 @@ void PlantPublisher::repeat() {
   clock.clock = last_odometry_.header.stamp;
   clock_.publish(clock);
   transforms_.sendTransform(last_transform_);
+  state_.publish(last_state_);
   odometry_.publish(last_odometry_);
   if (!last_scan_.header.frame_id.empty()) {
     scan_.publish(last_scan_);

@@ -10,6 +10,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "otter_nav/plant/simulator.hpp"
+#include "otter_nav/ros/trail.hpp"
 
 namespace otter_nav::nodes {
 
@@ -20,7 +21,8 @@ class PlantPublisher {
   // Clock, transform, odometry and truth at `stamp`; contact when it begins and ends.
   void publish(const plant::Simulator& simulator, const ros::Time& stamp);
   void publishScan(const plant::Scan& scan, const ros::Time& stamp);
-  // The last clock, transform, odometry and scan once more, for whoever was not there yet.
+  // The last of clock, transform, odometry, state and scan once more, for whoever was not there
+  // yet.
   void repeat();
 
  private:
@@ -37,12 +39,14 @@ class PlantPublisher {
   ros::Publisher contact_;
   ros::Publisher wind_;
   ros::Publisher current_;
+  ros_bridge::Trail trail_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
 
   nav_msgs::Odometry last_odometry_;
   geometry_msgs::TransformStamped last_transform_;
   sensor_msgs::LaserScan last_scan_;
+  PlantState last_state_;
   bool in_contact_ = false;
   ros::Time next_weather_;
 };

@@ -1,0 +1,299 @@
+#include "mission_node.hpp"
+
+#include <std_msgs/Header.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/config/share.hpp"
+#include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/trajectories.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+using mission::Outcome;
+
+constexpr int kQueue = 1000;
+constexpr double kTimerPeriodS = 0.1;
+constexpr double kShowPeriodS = 0.2;  // of wall time
+// What counts as arrived, of the true pose.
+constexpr double kArrivalDistanceM = 1.0;
+constexpr double kArrivalHeadingRad = 10.0 * kPi / 180.0;
+
+std::string trackPath(const std::string& result) {
+  const std::size_t dot = result.rfind('.');
+  const std::size_t slash = result.rfind('/');
+  const bool has_ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  return (has_ending ? result.substr(0, dot) : result) + ".csv";
+}
+
+MissionNodeOptions readNodeOptions(config::Section& section) {
+  MissionNodeOptions options;
+  int seed = 0;
+  section.read("scenario", options.label.scenario);
+  section.read("mission", options.label.mission, {0.0, 1e6});
+  section.read("vessel", options.label.vessel);
+  section.read("disturbance", options.label.disturbance);
+  section.read("seed", seed, {0.0, 2147483647.0});
+  section.read("result", options.result);
+  section.read("timeout_s", options.timeout_s, {1.0, 1e6});
+  section.read("silence_s", options.silence_s, {1.0, 3600.0});
+  section.read("track_rate_hz", options.track_rate_hz, {0.1, 100.0});
+  options.label.seed = static_cast<std::uint64_t>(seed);
+  return options;
+}
+
+vessel::State stateOf(const PlantState& message) {
+  vessel::State state;
+  state << message.x, message.y, message.yaw, message.u, message.v, message.r;
+  return state;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section) {
+  MissionNodeOptions options = readNodeOptions(section);
+  if (const Status status = section.finish(); !status) {
+    return failure(status.error().message);
+  }
+  const Result<mission::Scenario> scenario = mission::loadScenario(options.label.scenario);
+  if (!scenario) {
+    return failure(scenario.error().message);
+  }
+  const Result<mission::Mission> mission = mission::missionOf(*scenario, options.label.mission);
+  if (!mission) {
+    return failure(mission.error().message);
+  }
+  const Result<vessel::Parameters> vessel =
+      config::vesselFile(options.label.vessel).and_then([](const std::string& path) {
+        return vessel::loadParameters(path);
+      });
+  if (!vessel) {
+    return failure(vessel.error().message);
+  }
+  std::optional<mission::TrackWriter> track;
+  if (!options.result.empty()) {
+    Result<mission::TrackWriter> opened = mission::TrackWriter::open(trackPath(options.result));
+    if (!opened) {
+      return failure(opened.error().message);
+    }
+    track.emplace(std::move(*opened));
+  }
+  return std::unique_ptr<MissionNode>(
+      new MissionNode(std::move(options), *scenario, *mission, *vessel, std::move(track)));
+}
+
+MissionNode::MissionNode(MissionNodeOptions options, const mission::Scenario& scenario,
+                         const mission::Mission& mission, const vessel::Parameters& vessel,
+                         std::optional<mission::TrackWriter> track)
+    : options_(std::move(options)),
+      mission_(mission),
+      references_(vessel),
+      progress_(std::cout, isatty(STDOUT_FILENO) != 0),
+      track_(std::move(track)),
+      last_sign_(ros::WallTime::now()),
+      acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", 1, true)) {
+  options_.label.scenario = scenario.name;
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  state_subscriber_ = node_.subscribe("plant_state", kQueue, &MissionNode::onState, this, no_delay);
+  trajectory_subscriber_ =
+      node_.subscribe("trajectory", kQueue, &MissionNode::onTrajectory, this, no_delay);
+  planner_subscriber_ =
+      node_.subscribe("planner_status", kQueue, &MissionNode::onPlannerStatus, this, no_delay);
+  tracker_subscriber_ = node_.subscribe<TrackerStatus>(
+      "tracker_status", kQueue,
+      [this](const TrackerStatusConstPtr& message) { tracker_ = *message; });
+  timer_ = node_.createWallTimer(ros::WallDuration(kTimerPeriodS),
+                                 [this](const ros::WallTimerEvent&) { onTimer(); });
+}
+
+MissionNode::~MissionNode() {
+  finish(Outcome::kError, "interrupted before the end");
+}
+
+void MissionNode::onState(const PlantState& message) {
+  const bool repeated = !states_.empty() ? message.header.stamp <= states_.back().header.stamp
+                                         : last_state_.has_value() &&
+                                               message.header.stamp <= last_state_->header.stamp;
+  if (!repeated) {
+    states_.push_back(message);
+    last_sign_ = ros::WallTime::now();
+  }
+}
+
+void MissionNode::onTrajectory(const Trajectory& message) {
+  Result<trajectory::Trajectory> trajectory =
+      ros_bridge::toTrajectory(message, ros_bridge::kMapFrame);
+  if (trajectory) {
+    references_.add(message.id, message.header.stamp.toSec(), std::move(*trajectory));
+  }
+}
+
+void MissionNode::onPlannerStatus(const PlannerStatus& message) {
+  planner_ = message;
+  if (!goal_sent_ || message.state == "idle") {
+    return;  // the goal is not there yet
+  }
+  openGate();
+  if (references_.latestId() >= message.trajectory_id) {
+    recordUntil(message.header.stamp.toSec());
+    judge();
+  }
+}
+
+void MissionNode::onTimer() {
+  if (!goal_sent_ && action_.isServerConnected() && !states_.empty()) {
+    sendGoal();
+  }
+  const double silent_s = (ros::WallTime::now() - last_sign_).toSec();
+  if (silent_s > options_.silence_s) {
+    finish(Outcome::kError, goal_sent_ ? "the plant fell silent while " + planner_.state
+                                       : "the plant or the planner did not come up");
+  }
+}
+
+void MissionNode::sendGoal() {
+  goal_sent_ = true;
+  move_base_msgs::MoveBaseGoal goal;
+  goal.target_pose.header.frame_id = ros_bridge::kMapFrame;
+  goal.target_pose.header.stamp = states_.front().header.stamp;
+  goal.target_pose.pose = ros_bridge::toPose(mission_.goal.position, mission_.goal.psi_rad);
+  action_.sendGoal(goal,
+                   [this](const actionlib::SimpleClientGoalState& state,
+                          const move_base_msgs::MoveBaseResultConstPtr&) { onGoalDone(state); });
+}
+
+// The planner's status tells of arrival and failure; what is left is a goal it never took on.
+void MissionNode::onGoalDone(const actionlib::SimpleClientGoalState& state) {
+  if (!gate_open_) {
+    finish(Outcome::kError, state.getText());
+  } else if (state != actionlib::SimpleClientGoalState::SUCCEEDED &&
+             state != actionlib::SimpleClientGoalState::ABORTED) {
+    finish(Outcome::kError, "the goal was " + state.toString() + ": " + state.getText());
+  }
+}
+
+void MissionNode::openGate() {
+  if (gate_open_) {
+    return;
+  }
+  gate_open_ = true;
+  std_msgs::Header acknowledgement;
+  acknowledgement.stamp = ros::TIME_MAX;
+  acknowledgement.frame_id = "mission_node";
+  acknowledgement_.publish(acknowledgement);
+}
+
+void MissionNode::recordUntil(double time_s) {
+  while (!finished_ && !states_.empty() && states_.front().header.stamp.toSec() <= time_s) {
+    last_state_ = states_.front();
+    states_.pop_front();
+    record(*last_state_);
+    if (last_state_->in_contact != 0) {
+      finish(Outcome::kCollided, "the hull touched something while " + planner_.state);
+    }
+  }
+  if (last_state_ && !finished_) {
+    show(*last_state_);
+  }
+}
+
+void MissionNode::record(const PlantState& state) {
+  const double time_s = state.header.stamp.toSec();
+  if (first_time_s_ < 0.0) {
+    first_time_s_ = time_s;
+  }
+  mission::MotionSample sample;
+  sample.t_s = time_s - first_time_s_;
+  sample.state = stateOf(state);
+  sample.roll_rad = state.roll;
+  sample.pitch_rad = state.pitch;
+  sample.thrusts_n = {state.thrust_left, state.thrust_right};
+  sample.reference = references_.pose(time_s);
+  sample.clearance_m = state.clearance;
+  recorder_.addMotion(sample);
+  constexpr double kRounding = 1e-6;
+  if (track_ && sample.t_s >= next_track_s_ - kRounding) {
+    track_->write(sample);
+    next_track_s_ += 1.0 / options_.track_rate_hz;
+  }
+}
+
+void MissionNode::judge() {
+  if (finished_ || !last_state_) {
+    return;
+  }
+  const double time_s = last_state_->header.stamp.toSec() - first_time_s_;
+  if (planner_.state == "arrived") {
+    const std::string miss = missWhenArrived();
+    finish(miss.empty() ? Outcome::kArrived : Outcome::kStopped, miss);
+  } else if (planner_.state == "failed") {
+    finish(Outcome::kStopped, planner_.reason);
+  } else if (time_s > options_.timeout_s) {
+    finish(Outcome::kTimeout, planner_.state + ": " + planner_.reason);
+  }
+}
+
+std::string MissionNode::missWhenArrived() const {
+  const vessel::State state = stateOf(*last_state_);
+  const double distance_m = (state.head<2>() - mission_.goal.position).norm();
+  const double heading_rad = std::abs(wrapAngle(state[vessel::kPsi] - mission_.goal.psi_rad));
+  if (distance_m <= kArrivalDistanceM && heading_rad <= kArrivalHeadingRad) {
+    return {};
+  }
+  return "the planner takes the goal for reached, " + std::to_string(distance_m) + " m and " +
+         std::to_string(heading_rad) + " rad off";
+}
+
+void MissionNode::show(const PlantState& state) {
+  if ((ros::WallTime::now() - last_shown_).toSec() < kShowPeriodS) {
+    return;
+  }
+  last_shown_ = ros::WallTime::now();
+  const double time_s = state.header.stamp.toSec();
+  const Eigen::Vector2d position(state.x, state.y);
+  const auto reference = references_.pose(time_s);
+  mission::Progress progress;
+  progress.t_s = time_s - first_time_s_;
+  progress.distance_left_m =
+      references_.distanceLeft(time_s).value_or((mission_.goal.position - position).norm());
+  progress.speed_mps = std::hypot(state.u, state.v);
+  progress.clearance_m = state.clearance;
+  progress.tracking_error_m = reference ? (reference->head<2>() - position).norm() : 0.0;
+  progress.state = planner_.state;
+  progress.detail = planner_.reason;
+  progress_.show(progress);
+}
+
+void MissionNode::finish(Outcome outcome, const std::string& reason) {
+  if (finished_) {
+    return;
+  }
+  finished_ = true;
+  progress_.finish();
+  mission::MissionResult result =
+      recorder_.result(options_.label, outcome, reason, static_cast<int>(planner_.replans));
+  result.planning_ms_median = planner_.planning_ms_median;
+  result.planning_ms_max = planner_.planning_ms_max;
+  result.tracker_ms_p99 = tracker_.solver_ms_p99;
+  if (track_) {
+    result.track = trackPath(options_.result);
+    if (const Status status = track_->close(); !status) {
+      std::cerr << status.error().message << '\n';
+    }
+  }
+  if (!options_.result.empty()) {
+    if (const Status status = mission::saveJson(options_.result, {result}); !status) {
+      std::cerr << status.error().message << '\n';
+    }
+  }
+  std::cout << mission::summaryText(result) << std::flush;
+  exit_code_ = outcome == Outcome::kArrived ? 0 : 1;
+  ros::requestShutdown();
+}
+
+}  // namespace otter_nav::nodes

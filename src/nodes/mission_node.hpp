@@ -1,0 +1,94 @@
+// mission_node: sails one mission of a scenario. Sends the goal once everybody is there, watches
+// the truth, shows the progress, writes result and track, and ends. Parameters:
+// config/mission_node.yaml.
+#pragma once
+
+#include <actionlib/client/simple_action_client.h>
+#include <move_base_msgs/MoveBaseAction.h>
+#include <otter_nav/PlannerStatus.h>
+#include <otter_nav/PlantState.h>
+#include <otter_nav/TrackerStatus.h>
+#include <otter_nav/Trajectory.h>
+#include <ros/node_handle.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "otter_nav/config/section.hpp"
+#include "otter_nav/mission/recorder.hpp"
+#include "otter_nav/mission/report.hpp"
+#include "otter_nav/mission/scenario.hpp"
+#include "reference_log.hpp"
+
+namespace otter_nav::nodes {
+
+struct MissionNodeOptions {
+  mission::MissionLabel label;  // its scenario is the file here
+  std::string result;           // JSON file; empty: none is written
+  double timeout_s = 900.0;     // of simulated time
+  double silence_s = 60.0;      // of wall time without a sign of life, then it is an error
+  double track_rate_hz = 20.0;
+};
+
+class MissionNode {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<MissionNode>> create(config::Section section);
+  ~MissionNode();
+  MissionNode(const MissionNode&) = delete;
+  MissionNode& operator=(const MissionNode&) = delete;
+  // 0 only if the vessel arrived.
+  [[nodiscard]] int exitCode() const { return exit_code_; }
+
+ private:
+  MissionNode(MissionNodeOptions options, const mission::Scenario& scenario,
+              const mission::Mission& mission, const vessel::Parameters& vessel,
+              std::optional<mission::TrackWriter> track);
+
+  void onState(const PlantState& message);
+  void onTrajectory(const Trajectory& message);
+  void onPlannerStatus(const PlannerStatus& message);
+  void onGoalDone(const actionlib::SimpleClientGoalState& state);
+  void onTimer();
+  void sendGoal();
+  // Time may go on: the first plan stands, or there will be none.
+  void openGate();
+  // The motion up to a time at which all that was decided is known here.
+  void recordUntil(double time_s);
+  void record(const PlantState& state);
+  void judge();
+  void show(const PlantState& state);
+  [[nodiscard]] std::string missWhenArrived() const;
+  void finish(mission::Outcome outcome, const std::string& reason);
+
+  MissionNodeOptions options_;
+  mission::Mission mission_;
+  ros::NodeHandle node_;
+  ReferenceLog references_;
+  mission::Recorder recorder_;
+  mission::ProgressLine progress_;
+  std::optional<mission::TrackWriter> track_;
+  std::deque<PlantState> states_;  // not recorded yet
+  std::optional<PlantState> last_state_;
+  double first_time_s_ = -1.0;
+  double next_track_s_ = 0.0;
+  PlannerStatus planner_;
+  TrackerStatus tracker_;
+  bool goal_sent_ = false;
+  bool gate_open_ = false;
+  bool finished_ = false;
+  int exit_code_ = 1;
+  ros::WallTime last_sign_;
+  ros::WallTime last_shown_;
+
+  actionlib::SimpleActionClient<move_base_msgs::MoveBaseAction> action_{"move_base", false};
+  ros::Publisher acknowledgement_;
+  ros::Subscriber state_subscriber_;
+  ros::Subscriber trajectory_subscriber_;
+  ros::Subscriber planner_subscriber_;
+  ros::Subscriber tracker_subscriber_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace otter_nav::nodes

@@ -1,0 +1,127 @@
+// map_node alone: chart in, map out; a scan adds to it, save and reset work.
+#include <gtest/gtest.h>
+#include <map_msgs/OccupancyGridUpdate.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <otter_nav/SaveMap.h>
+#include <sensor_msgs/LaserScan.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <cmath>
+#include <limits>
+
+#include "otter_nav/map/chart.hpp"
+#include "otter_nav/ros/grids.hpp"
+#include "support.hpp"
+
+namespace otter_nav::rostest {
+namespace {
+
+constexpr double kEast = 20.0;  // m, of the vessel in free water; the echo is 5 m ahead
+
+class MapNode : public testing::Test {
+ protected:
+  MapNode() {
+    geometry_msgs::TransformStamped lidar;
+    lidar.header.frame_id = ros_bridge::kMapFrame;
+    lidar.child_frame_id = ros_bridge::kLidarFrame;
+    lidar.transform.translation.x = kEast;
+    lidar.transform.translation.z = 0.8;
+    lidar.transform.rotation.w = 1.0;
+    transforms_.sendTransform(lidar);
+  }
+
+  // Ten beams ahead with an echo at 5 m.
+  sensor_msgs::LaserScan scan() {
+    sensor_msgs::LaserScan message;
+    message.header.frame_id = ros_bridge::kLidarFrame;
+    message.header.stamp = ros::Time::now();
+    message.angle_min = -0.02F;
+    message.angle_increment = 0.004F;
+    message.angle_max = 0.016F;
+    message.range_min = 0.2F;
+    message.range_max = 25.0F;
+    message.ranges.assign(10, 5.0F);
+    return message;
+  }
+
+  map::Cell cellAhead(const map::OccupancyGrid& grid) {
+    const Eigen::Vector2i cell = grid.geometry.cellAt({kEast + 5.0, 0.0});
+    return grid.at(cell.x(), cell.y());
+  }
+
+  // The map after scans until the echo's cell shows as `wanted`.
+  bool scanUntil(map::OccupancyGrid& grid, map::Cell wanted) {
+    return waitUntil([&] {
+      scans_.publish(scan());
+      ros::WallDuration(0.05).sleep();
+      ros::spinOnce();
+      for (const auto& update : updates_.messages) {
+        EXPECT_TRUE(ros_bridge::applyUpdate(update, ros_bridge::kMapFrame, grid).has_value());
+      }
+      updates_.messages.clear();
+      return cellAhead(grid) == wanted;
+    });
+  }
+
+  ros::NodeHandle node_;
+  tf2_ros::StaticTransformBroadcaster transforms_;
+  ros::Publisher scans_ = node_.advertise<sensor_msgs::LaserScan>("scan", 10);
+  Inbox<nav_msgs::OccupancyGrid> maps_{node_, "map"};
+  Inbox<map_msgs::OccupancyGridUpdate> updates_{node_, "map_updates"};
+};
+
+TEST_F(MapNode, PublishesItsChartAddsEchoesSavesAndResets) {
+  ASSERT_TRUE(maps_.waitFor([](const auto& message) { return message.info.width == 240U; }));
+  const auto grid_result = ros_bridge::toGrid(maps_.messages.front(), ros_bridge::kMapFrame);
+  ASSERT_TRUE(grid_result.has_value());
+  map::OccupancyGrid grid = *grid_result;
+  const auto chart = map::loadChart(OTTER_NAV_SOURCE_DIR "/test/rostest/data/pond_chart.yaml");
+  ASSERT_TRUE(chart.has_value());
+  EXPECT_EQ(grid.cells, chart->cells);
+  EXPECT_EQ(cellAhead(grid), map::Cell::kFree);
+
+  ASSERT_TRUE(updates_.connected());
+  ASSERT_TRUE(scanUntil(grid, map::Cell::kOccupied));
+
+  SaveMap save;
+  save.request.path = "/tmp/otter_nav_map_node_test.yaml";
+  ASSERT_TRUE(ros::service::call("map_node/save", save));
+  EXPECT_TRUE(save.response.success) << save.response.message;
+  const auto saved = map::loadChart(save.request.path);
+  ASSERT_TRUE(saved.has_value());
+  EXPECT_EQ(cellAhead(*saved), map::Cell::kOccupied);
+  save.request.path = "/nowhere/map.yaml";
+  ASSERT_TRUE(ros::service::call("map_node/save", save));
+  EXPECT_FALSE(save.response.success);
+
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call("map_node/reset", reset));
+  ASSERT_TRUE(updates_.waitFor([&](const auto& update) {
+    (void)ros_bridge::applyUpdate(update, ros_bridge::kMapFrame, grid);
+    return cellAhead(grid) == map::Cell::kFree;
+  }));
+}
+
+TEST_F(MapNode, RefusesAScanThatGoesBackInTime) {
+  ASSERT_TRUE(updates_.connected());
+  ASSERT_TRUE(waitUntil([&] { return scans_.getNumSubscribers() > 0; }));
+  sensor_msgs::LaserScan late = scan();
+  ASSERT_TRUE(waitUntil([&] {
+    late.header.stamp = ros::Time::now();
+    scans_.publish(late);
+    ros::WallDuration(0.05).sleep();
+    ros::spinOnce();
+    return !updates_.messages.empty();
+  }));
+  updates_.messages.clear();
+  late.header.stamp -= ros::Duration(5.0);
+  scans_.publish(late);
+  EXPECT_FALSE(updates_.waitFor(
+      [&](const auto& update) { return update.header.stamp == late.header.stamp; }, 1.0));
+}
+
+}  // namespace
+}  // namespace otter_nav::rostest
+
+OTTER_NAV_ROSTEST_MAIN("map_node_test")

@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+"""Whole missions through mission.launch: arrival, the same run twice, and nothing left behind."""
+import csv
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import rospkg
+import rostest
+
+PACKAGE = rospkg.RosPack().get_path("otter_nav")
+POND = os.path.join(PACKAGE, "test", "rostest", "data", "pond.yaml")
+NODES = ("map_node", "topology_node", "planner_node", "tracker_node", "plant_node", "mission_node")
+PATIENCE_S = 240
+
+
+def free_port():
+    with socket.socket() as listener:
+        listener.bind(("", 0))
+        return listener.getsockname()[1]
+
+
+def processes_of(uri):
+    """Processes that have this ROS master in their environment, this test's own apart."""
+    found = []
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{pid}/environ", "rb") as environment:
+                if f"ROS_MASTER_URI={uri}".encode() in environment.read().split(b"\0"):
+                    found.append(int(pid))
+        except OSError:
+            continue
+    return found
+
+
+def wait_until(done, patience_s):
+    end = time.monotonic() + patience_s
+    while time.monotonic() < end:
+        if done():
+            return True
+        time.sleep(0.1)
+    return done()
+
+
+class Mission(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def start(self, **arguments):
+        port = free_port()
+        uri = f"http://localhost:{port}"
+        launch = subprocess.Popen(
+            ["roslaunch", "-p", str(port), "otter_nav", "mission.launch"]
+            + [f"{key}:={value}" for key, value in arguments.items()],
+            env={**os.environ, "ROS_MASTER_URI": uri}, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, text=True, start_new_session=True)
+        self.addCleanup(self.kill, launch)
+        return launch, uri
+
+    @staticmethod
+    def kill(launch):
+        if launch.poll() is None:
+            os.killpg(launch.pid, signal.SIGKILL)
+            launch.wait()
+
+    def sail(self, name, **arguments):
+        """The result of a mission, its track, and that nothing runs on after it."""
+        result = os.path.join(self.folder.name, name + ".json")
+        launch, uri = self.start(result=result, speed=0, **arguments)
+        output, _ = launch.communicate(timeout=PATIENCE_S)
+        self.assertTrue(os.path.exists(result), output)
+        self.assertTrue(wait_until(lambda: not processes_of(uri), 20), processes_of(uri))
+        with open(result) as file:
+            mission = json.load(file)["missions"][0]
+        with open(mission["track"]) as file:
+            track = list(csv.DictReader(file))
+        return mission, track, output
+
+    def test_arrives_and_is_the_same_twice(self):
+        first, track, output = self.sail("first", scenario=POND)
+        self.assertEqual(first["outcome"], "arrived", output)
+        self.assertGreater(first["min_clearance_m"], 0.0)
+        self.assertGreater(first["distance_m"], 44.0)
+        self.assertAlmostEqual(float(track[0]["x"]), -22.0, delta=0.1)
+        self.assertLess(abs(float(track[-1]["x"]) - 22.0), 1.0)
+        self.assertLess(abs(float(track[-1]["y"]) - 8.0), 1.0)
+
+        second, again, _ = self.sail("second", scenario=POND)
+        for key in ("outcome", "duration_s", "distance_m", "min_clearance_m",
+                    "tracking_error_mean_m", "tracking_error_max_m", "replans"):
+            self.assertEqual(first[key], second[key], key)
+        self.assertEqual(track, again)
+
+    def test_killed_launch_leaves_no_process(self):
+        launch, uri = self.start(scenario=POND, speed=0.2)
+        self.assertTrue(wait_until(lambda: self.running(uri) == set(NODES), 60), self.running(uri))
+        launch.send_signal(signal.SIGINT)
+        launch.communicate(timeout=60)
+        self.assertTrue(wait_until(lambda: not processes_of(uri), 20), processes_of(uri))
+
+    @staticmethod
+    def running(uri):
+        names = set()
+        for pid in processes_of(uri):
+            try:
+                names.add(os.path.basename(os.readlink(f"/proc/{pid}/exe")))
+            except OSError:
+                continue
+        return names & set(NODES)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("otter_nav", "mission", Mission, sys.argv)

@@ -1,0 +1,101 @@
+// planner_node with a map and a vessel that lies still: goals by action, trajectories out, bad
+// goals aborted with their reason.
+#include <actionlib/client/simple_action_client.h>
+#include <gtest/gtest.h>
+#include <move_base_msgs/MoveBaseAction.h>
+#include <nav_msgs/Path.h>
+#include <otter_nav/PlannerStatus.h>
+#include <otter_nav/Trajectory.h>
+
+#include <limits>
+#include <memory>
+
+#include "otter_nav/ros/trajectories.hpp"
+#include "support.hpp"
+
+namespace otter_nav::rostest {
+namespace {
+
+using Client = actionlib::SimpleActionClient<move_base_msgs::MoveBaseAction>;
+using State = actionlib::SimpleClientGoalState;
+
+const Eigen::Vector2d kStart(-22.0, -8.0);
+
+class PlannerNode : public testing::Test {
+ protected:
+  PlannerNode() {
+    timer_ = node_.createWallTimer(ros::WallDuration(0.02), [this](const ros::WallTimerEvent&) {
+      odometry_.publish(odometryAt(kStart, 0.2, ros::Time::now()));
+    });
+  }
+  void SetUp() override {
+    ASSERT_TRUE(waitUntil([&] { return client_.isServerConnected(); }));
+  }
+
+  static move_base_msgs::MoveBaseGoal goal(double x, double y) {
+    move_base_msgs::MoveBaseGoal message;
+    message.target_pose.header.frame_id = ros_bridge::kMapFrame;
+    message.target_pose.pose = ros_bridge::toPose({x, y}, 0.5);
+    return message;
+  }
+
+  // The reason with which the goal is aborted.
+  std::string abortReason(const move_base_msgs::MoveBaseGoal& message) {
+    client_.sendGoal(message);
+    EXPECT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
+    EXPECT_EQ(client_.getState().toString(), "ABORTED");
+    return client_.getState().getText();
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
+  ros::WallTimer timer_;
+  Inbox<Trajectory> trajectories_{node_, "trajectory"};
+  Inbox<PlannerStatus> statuses_{node_, "planner_status"};
+  Client client_{"move_base", false};
+};
+
+TEST_F(PlannerNode, AbortsBadGoalsWithTheirReason) {
+  EXPECT_NE(abortReason(goal(0.0, 2.0)).find("obstacle"), std::string::npos);
+  EXPECT_NE(abortReason(goal(100.0, 2.0)).find("outside the map"), std::string::npos);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(abortReason(goal(nan, 2.0)).find("not finite"), std::string::npos);
+  move_base_msgs::MoveBaseGoal elsewhere = goal(10.0, 2.0);
+  elsewhere.target_pose.header.frame_id = "base_link";
+  EXPECT_NE(abortReason(elsewhere).find("base_link"), std::string::npos);
+  move_base_msgs::MoveBaseGoal no_rotation = goal(10.0, 2.0);
+  no_rotation.target_pose.pose.orientation.w = 5.0;
+  EXPECT_NE(abortReason(no_rotation).find("quaternion"), std::string::npos);
+}
+
+TEST_F(PlannerNode, PlansFromTheVesselToTheGoal) {
+  client_.sendGoal(goal(22.0, 8.0));
+  ASSERT_TRUE(trajectories_.waitFor([](const auto& message) { return !message.pieces.empty(); }));
+  const auto trajectory =
+      ros_bridge::toTrajectory(trajectories_.messages.back(), ros_bridge::kMapFrame);
+  ASSERT_TRUE(trajectory.has_value()) << trajectory.error().message;
+  EXPECT_LT((trajectory->flat(0.0).position - kStart).norm(), 0.1);
+  const Eigen::Vector2d end = trajectory->flat(trajectory->duration()).position;
+  EXPECT_LT((end - Eigen::Vector2d(22.0, 8.0)).norm(), 0.1);
+  EXPECT_TRUE(statuses_.waitFor([](const auto& status) {
+    return status.outcome == "solved" && status.length > 40.0 && status.planning_ms > 0.0;
+  }));
+  client_.cancelGoal();
+  ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
+  EXPECT_EQ(client_.getState().toString(), "PREEMPTED");
+}
+
+TEST_F(PlannerNode, TakesGoalsFromRviz) {
+  ros::Publisher simple = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
+  ASSERT_TRUE(waitUntil([&] { return simple.getNumSubscribers() > 0; }));
+  trajectories_.messages.clear();
+  simple.publish(goal(-10.0, 10.0).target_pose);
+  EXPECT_TRUE(trajectories_.waitFor([](const auto& message) {
+    return !message.pieces.empty() && message.goal.position.x == -10.0;
+  }));
+}
+
+}  // namespace
+}  // namespace otter_nav::rostest
+
+OTTER_NAV_ROSTEST_MAIN("planner_node_test")

@@ -1,0 +1,123 @@
+// tracker_node alone on its own clock: a command each 10 ms, trajectories taken and refused, and
+// what it does when the odometry is not a number or ends.
+#include <gtest/gtest.h>
+#include <otter_nav/ThrusterCommand.h>
+#include <otter_nav/TrackerStatus.h>
+#include <otter_nav/Trajectory.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "otter_nav/ros/trajectories.hpp"
+#include "support.hpp"
+
+namespace otter_nav::rostest {
+namespace {
+
+// 30 m east in 20 s, from rest to rest.
+Trajectory straight(std::uint32_t id, const ros::Time& start) {
+  vessel::FlatPoint from;
+  vessel::FlatPoint to;
+  to.position = {30.0, 0.0};
+  const trajectory::Trajectory trajectory({trajectory::hermitePiece(from, to, 20.0)});
+  return ros_bridge::toMessage(trajectory, start.toSec(), id, {{30.0, 0.0}, 0.0},
+                               ros_bridge::kMapFrame, vessel::Parameters());
+}
+
+class TrackerNode : public testing::Test {
+ protected:
+  TrackerNode() {
+    timer_ = node_.createWallTimer(ros::WallDuration(0.02), [this](const ros::WallTimerEvent&) {
+      if (sending_) {
+        odometry_.publish(odometryAt({x_, 0.0}, 0.0, ros::Time::now()));
+      }
+    });
+  }
+  void SetUp() override {
+    ASSERT_TRUE(waitUntil(
+        [&] { return odometry_.getNumSubscribers() > 0 && trajectory_.getNumSubscribers() > 0; }));
+    ASSERT_TRUE(commands_.connected());
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
+  ros::Publisher trajectory_ = node_.advertise<Trajectory>("trajectory", 10);
+  ros::WallTimer timer_;
+  bool sending_ = true;
+  double x_ = 0.0;
+  Inbox<ThrusterCommand> commands_{node_, "thruster_command"};
+  Inbox<TrackerStatus> statuses_{node_, "tracker_status"};
+};
+
+TEST_F(TrackerNode, CommandsEachHundredthOfASecond) {
+  ASSERT_TRUE(waitUntil([&] { return commands_.messages.size() >= 200; }));
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < commands_.messages.size(); ++i) {
+    steps.push_back(
+        (commands_.messages[i].header.stamp - commands_.messages[i - 1].header.stamp).toSec());
+  }
+  std::sort(steps.begin(), steps.end());
+  EXPECT_NEAR(steps[steps.size() / 2], 0.01, 0.001);
+}
+
+TEST_F(TrackerNode, SailsATrajectoryThenStopsWhenTheOdometryEnds) {
+  trajectory_.publish(straight(7, ros::Time::now()));
+  ASSERT_TRUE(statuses_.waitFor(
+      [](const auto& status) { return status.state == "tracking" && status.trajectory_id == 7U; }));
+  // The vessel does not move, so it is pushed ahead.
+  ASSERT_TRUE(commands_.waitFor(
+      [](const auto& command) { return command.left > 5.0 && command.right > 5.0; }));
+
+  // Odometry that is not a number is dropped; commands stay numbers.
+  nav_msgs::Odometry broken = odometryAt({0.0, 0.0}, 0.0, ros::Time::now());
+  broken.pose.pose.position.x = std::numeric_limits<double>::quiet_NaN();
+  odometry_.publish(broken);
+  broken.header.frame_id = "base_link";
+  odometry_.publish(broken);
+  commands_.messages.clear();
+  ASSERT_TRUE(waitUntil([&] { return commands_.messages.size() >= 50; }));
+  for (const auto& command : commands_.messages) {
+    ASSERT_TRUE(std::isfinite(command.left) && std::isfinite(command.right));
+  }
+
+  sending_ = false;
+  statuses_.messages.clear();
+  ASSERT_TRUE(statuses_.waitFor([](const auto& status) {
+    return (status.state == "stopping" || status.state == "fault") && !status.reason.empty();
+  }));
+  commands_.messages.clear();
+  EXPECT_TRUE(commands_.waitFor(
+      [](const auto& command) { return command.left == 0.0 && command.right == 0.0; }));
+}
+
+TEST_F(TrackerNode, RefusesMalformedTrajectories) {
+  const auto refused = [&](const Trajectory& message, const std::string& word) {
+    statuses_.messages.clear();
+    trajectory_.publish(message);
+    EXPECT_TRUE(statuses_.waitFor([&](const auto& status) {
+      return status.refused_id == message.id &&
+             status.refused_reason.find(word) != std::string::npos;
+    })) << word;
+  };
+  Trajectory message = straight(21, ros::Time::now());
+  message.header.frame_id = "odom";
+  refused(message, "frame_id");
+  message = straight(22, ros::Time::now());
+  message.pieces[0].x[3] = std::numeric_limits<double>::quiet_NaN();
+  refused(message, "pieces[0]");
+  message = straight(23, ros::Time::now());
+  message.pieces[0].duration = -1.0;
+  refused(message, "duration");
+  message = straight(24, ros::Time::now());
+  message.pieces.push_back(message.pieces[0]);
+  refused(message, "pieces[1]");
+  message = straight(25, ros::Time::now() - ros::Duration(100.0));
+  refused(message, "over");
+}
+
+}  // namespace
+}  // namespace otter_nav::rostest
+
+OTTER_NAV_ROSTEST_MAIN("tracker_node_test")
