@@ -53,23 +53,25 @@ GazeboOtterModel::GazeboOtterModel() {
 
 Eigen::Vector3d GazeboOtterModel::restoring(const Eigen::Vector3d& pose,
                                             const Eigen::Vector3d& surface) const {
+  const double sin_roll = std::sin(pose[1]);
+  const double sin_pitch = std::sin(pose[2]);
   double buoyancy = 0.0;
   double roll = 0.0;
   double pitch = 0.0;
   for (const double x : {-kSectionOffset, kSectionOffset}) {
     for (const double y : {-kPontoonOffset, kPontoonOffset}) {
-      const double immersion = pose[0] - surface[0] - x * (std::sin(pose[2]) - surface[2]) +
-                               y * (std::sin(pose[1]) - surface[1]);
+      const double immersion =
+          pose[0] - surface[0] - x * (sin_pitch - surface[2]) + y * (sin_roll - surface[1]);
       const double up = sectionBuoyancy(immersion);
       buoyancy += up;
       roll -= y * up;
       pitch += x * up;
     }
   }
-  // The centre of gravity lies over the buoyancy: it tips.
-  roll += kGravityHeight * buoyancy * std::sin(pose[1]);
-  pitch += kGravityHeight * buoyancy * std::sin(pose[2]);
-  return {kMass * kGravity - buoyancy, roll, pitch};
+  // The centre of gravity lies over base_link: the weight tips.
+  const double tipping = kGravityHeight * kMass * kGravity;
+  return {kMass * kGravity - buoyancy, roll * std::cos(pose[1]) + tipping * sin_roll,
+          pitch * std::cos(pose[2]) + tipping * sin_pitch};
 }
 
 PlantState GazeboOtterModel::derivative(const PlantState& x, const Eigen::Vector2d& /*command*/,

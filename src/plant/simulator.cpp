@@ -154,6 +154,12 @@ Result<Simulator> Simulator::create(const Options& options, map::OccupancyGrid w
   if (Result<std::unique_ptr<PlantModel>> model = makePlantModel(options); !model) {
     return failure(model.error().message);
   }
+  const std::size_t cells = world.geometry.index(0, world.geometry.height);
+  if (world.cells.size() != cells) {
+    return failure("world of " + std::to_string(world.geometry.width) + " by " +
+                   std::to_string(world.geometry.height) + " cells holds " +
+                   std::to_string(world.cells.size()) + " of them");
+  }
   return Simulator(options, std::move(world), seed);
 }
 

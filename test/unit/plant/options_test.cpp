@@ -1,0 +1,93 @@
+#include "otter_nav/plant/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace otter_nav::plant {
+namespace {
+
+const std::string kConfig = std::string(OTTER_NAV_SOURCE_DIR) + "/config/";
+
+std::string preset(const std::string& name) {
+  return kConfig + "disturbances/" + name + ".yaml";
+}
+
+TEST(PlantOptions, ShippedFilesLoad) {
+  for (const char* vessel : {"otter", "otter_gazebo"}) {
+    for (const char* name : {"none", "force10", "paper", "hard"}) {
+      const Result<Options> options = loadOptions(vessel, kConfig + "plant.yaml", preset(name));
+      ASSERT_TRUE(options) << options.error().message;
+      EXPECT_EQ(options->vessel, vessel);
+      EXPECT_EQ(options->disturbance.name, name);
+    }
+  }
+}
+
+TEST(PlantOptions, PresetsAreWhatTheyAreNamedFor) {
+  const DisturbanceOptions none = loadDisturbance(preset("none")).value();
+  EXPECT_EQ(none.wind.speed_mps + none.wind.slow_deviation_mps + none.current.speed_mps +
+                none.current.slow_deviation_mps + none.waves.spectrum.significant_height_m +
+                none.force_n.norm(),
+            0.0);
+  EXPECT_TRUE(none.waves.components.empty());
+
+  const DisturbanceOptions force = loadDisturbance(preset("force10")).value();
+  EXPECT_EQ(force.force_n, Eigen::Vector2d(0.0, 10.0));
+  EXPECT_EQ(force.wind.speed_mps + force.current.speed_mps, 0.0);
+
+  const DisturbanceOptions paper = loadDisturbance(preset("paper")).value();
+  EXPECT_EQ(paper.wind.speed_mps, 3.0);
+  EXPECT_EQ(paper.wind.gust_intensity, 0.0);
+  ASSERT_EQ(paper.waves.components.size(), 3U);
+  EXPECT_EQ(paper.waves.components[0].amplitude_m, 0.09);
+  EXPECT_EQ(paper.waves.components[0].period_s, 5.0);
+  EXPECT_NEAR(std::cos(paper.waves.components[0].direction_rad), -1.0, 1e-12);
+  EXPECT_NEAR(std::sin(paper.waves.components[1].direction_rad), std::sqrt(0.5), 1e-12);
+
+  const DisturbanceOptions hard = loadDisturbance(preset("hard")).value();
+  EXPECT_EQ(hard.wind.speed_mps, 8.0);
+  EXPECT_GT(hard.wind.gust_intensity, 0.0);
+  EXPECT_EQ(hard.current.speed_mps, 0.5);
+  EXPECT_NE(hard.current.turning_radps, 0.0);
+  EXPECT_EQ(hard.waves.spectrum.significant_height_m, 0.3);
+}
+
+void expectError(const YAML::Node& node, const std::string& word) {
+  const Result<Options> options = readOptions(config::Section(node, "plant.yaml"));
+  ASSERT_FALSE(options);
+  EXPECT_NE(options.error().message.find(word), std::string::npos) << options.error().message;
+}
+
+TEST(PlantOptions, BadValuesAreNamed) {
+  const auto shipped = [] { return config::loadFile(kConfig + "plant.yaml").value(); };
+  YAML::Node node = shipped();
+  node["payload"]["mass_kg"] = 60.0;
+  expectError(node, "mass_kg");
+  node = shipped();
+  node["lidar"].remove("beams");
+  expectError(node, "beams");
+  node = shipped();
+  node["lidar"]["rnage_max_m"] = 10.0;
+  expectError(node, "rnage_max_m");
+  node = shipped();
+  node["step_s"] = "soon";
+  expectError(node, "step_s");
+}
+
+TEST(PlantOptions, BadWavesAndVesselsAreNamed) {
+  YAML::Node node = config::loadFile(preset("paper")).value();
+  node["waves"]["components"][1]["period_s"] = 0.0;
+  const Result<DisturbanceOptions> options =
+      readDisturbanceOptions(config::Section(node, "paper.yaml"));
+  ASSERT_FALSE(options);
+  EXPECT_NE(options.error().message.find("components[1]"), std::string::npos);
+  EXPECT_NE(options.error().message.find("period_s"), std::string::npos);
+
+  const Result<Options> vessel = loadOptions("raft", kConfig + "plant.yaml", preset("none"));
+  ASSERT_FALSE(vessel);
+  EXPECT_NE(vessel.error().message.find("raft"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace otter_nav::plant
