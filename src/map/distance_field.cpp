@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "distance_transform.hpp"
 
@@ -12,8 +13,6 @@ constexpr std::uint8_t kAmidFree = 0;
 constexpr std::uint8_t kOnOutline = 1;  // both kinds of cell around it: the transform's sites
 constexpr std::uint8_t kAmidOccupied = 2;
 
-// Stored distances are floats; taken off so that the bound stays a bound.
-constexpr double kRounding = 1e-5;  // cells
 // The interpolated bound loses at most 0.71 spread / (2 distance) cells, where spread is how far
 // apart the four corners' nearest points are: at most 0.15 cells if spread <= 0.42 distance.
 constexpr double kSpreadSquared = 0.42 * 0.42;
@@ -137,32 +136,6 @@ void DistanceField::judgeRow(int row, const Window& corners, const CornerRow& so
   }
 }
 
-// With squared corner distances e and the point at (fx, fy) in the cell, the bound is
-// interpolation(e) - fx (1 - fx) - fy (1 - fy).
-bool DistanceField::bound(const Eigen::Vector2d& p, Bound& out) const {
-  const double x = (p.x() - geometry_.origin.x()) * inverse_resolution_;
-  const double y = (p.y() - geometry_.origin.y()) * inverse_resolution_;
-  if (!(x >= 0.0 && y >= 0.0 && x < geometry_.width && y < geometry_.height)) {
-    return false;
-  }
-  const int column = static_cast<int>(x);
-  const int row = static_cast<int>(y);
-  const double fx = x - column;
-  const double fy = y - row;
-  const float* corner =
-      &corner_distance_[static_cast<std::size_t>(row) * static_cast<std::size_t>(corner_width_) +
-                        static_cast<std::size_t>(column)];
-  const double e00 = square(std::max(corner[0], 0.0F));
-  const double e10 = square(std::max(corner[1], 0.0F));
-  const double e01 = square(std::max(corner[corner_width_], 0.0F));
-  const double e11 = square(std::max(corner[corner_width_ + 1], 0.0F));
-  const double south = e00 + fx * (e10 - e00);
-  const double north = e01 + fx * (e11 - e01);
-  const double squared = south + fy * (north - south) - fx * (1.0 - fx) - fy * (1.0 - fy);
-  out = {squared, tight_[geometry_.index(column, row)] != 0, column, row, x, y};
-  return true;
-}
-
 // Outwards from the point's own column until no column can hold anything nearer.
 double DistanceField::exactSquared(const Bound& at) const {
   const std::size_t start = geometry_.index(0, at.row);
@@ -192,22 +165,13 @@ double DistanceField::exactSquared(const Bound& at) const {
 }
 
 double DistanceField::clearance(const Eigen::Vector2d& p) const {
-  Bound at;
-  if (!bound(p, at)) {
-    return 0.0;
-  }
-  const double squared = at.tight ? std::max(0.0, at.squared) : exactSquared(at);
-  const double distance_m = (std::sqrt(squared) - kRounding) * geometry_.resolution_m;
-  return std::clamp(distance_m, 0.0, options_.max_distance_m);
+  constexpr double kAlwaysExact = std::numeric_limits<double>::infinity();
+  return std::min(std::sqrt(squaredBound(p, kAlwaysExact)), options_.max_distance_m);
 }
 
 bool DistanceField::isClear(const Eigen::Vector2d& p, double clearance_m) const {
-  Bound at;
-  if (!bound(p, at) || clearance_m > options_.max_distance_m) {
-    return false;
-  }
-  const double needed = square(clearance_m * inverse_resolution_ + kRounding);
-  return at.squared >= needed || (!at.tight && exactSquared(at) >= needed);
+  const double needed = clearance_m * clearance_m;
+  return clearance_m <= options_.max_distance_m && squaredBound(p, needed) >= needed;
 }
 
 DistanceField::Smooth DistanceField::smooth(const Eigen::Vector2d& p) const {

@@ -7,18 +7,22 @@ namespace otter_nav::map {
 namespace {
 
 constexpr double kShortestStep_m = 1e-4;
+constexpr double kLeastClearance_m = 1e-6;
+// Quick bounds above this times the squared clearance make steps long enough.
+constexpr double kEnough = 2.0;
 
 }  // namespace
 
 bool segmentIsClear(const DistanceField& field, const Eigen::Vector2d& from,
                     const Eigen::Vector2d& to, double clearance_m) {
-  const double needed = std::max(clearance_m, 1e-6);
+  const double needed = std::max(clearance_m, kLeastClearance_m);
   const double needed2 = needed * needed;
-  const double length = (to - from).norm();
-  double here = field.clearance(from);
-  if (!(here >= needed) || !field.isClear(to, needed)) {
+  const double enough = kEnough * needed2;
+  double here = field.squaredBound(from, enough);  // squared, as all distances below
+  if (here < needed2 || field.squaredBound(to, enough) < needed2 || needed > field.maxDistance()) {
     return false;
   }
+  const double length = (to - from).norm();
   if (!(length > 0.0)) {
     return true;
   }
@@ -27,21 +31,18 @@ bool segmentIsClear(const DistanceField& field, const Eigen::Vector2d& from,
   double step = length;
   while (at < length) {
     // Twice the half chord would do if the distance stayed the same.
-    const double chord = 2.0 * std::sqrt(std::max(0.0, here * here - needed2));
+    const double chord = 2.0 * std::sqrt(here - needed2);
     step = std::min({length - at, std::max(chord, kShortestStep_m), 2.0 * step});
-    double there = field.clearance(from + (at + step) * direction);
-    if (there < needed) {
-      return false;
-    }
-    while (leastSquaredBetween(here * here, there * there, step) < needed2) {
+    double there = field.squaredBound(from + (at + step) * direction, enough);
+    while (there >= needed2 && leastSquaredBetween(here, there, step) < needed2) {
       step *= 0.5;
       if (step < kShortestStep_m) {
         return false;
       }
-      there = field.clearance(from + (at + step) * direction);
-      if (there < needed) {
-        return false;
-      }
+      there = field.squaredBound(from + (at + step) * direction, enough);
+    }
+    if (there < needed2) {
+      return false;
     }
     here = there;
     at += step;

@@ -48,6 +48,20 @@ class DistanceField {
   // Whether clearance(p) >= clearance_m, for less: ridges need no exact distance then.
   [[nodiscard]] bool isClear(const Eigen::Vector2d& p, double clearance_m) const;
 
+  // A lower bound of the squared distance, m^2, as proofs need it: exact distances are only looked
+  // for where the quick bound is below `enough_m2`. Not saturated exactly at max_distance_m.
+  [[nodiscard]] double squaredBound(const Eigen::Vector2d& p, double enough_m2) const {
+    Bound at;
+    if (!bound(p, at)) {
+      return 0.0;
+    }
+    const double cell2 = geometry_.resolution_m * geometry_.resolution_m;
+    if (at.squared * cell2 < enough_m2 && !isTight(at)) {
+      at.squared = exactSquared(at);
+    }
+    return std::max(0.0, at.squared - kRounding) * cell2;
+  }
+
   // The distance, m, at the corner south-west of cell (column, row), exact up to rounding; 0 on
   // and inside outlines. Columns 0 to width, rows 0 to height.
   [[nodiscard]] double cornerClearance(int column, int row) const {
@@ -72,11 +86,16 @@ class DistanceField {
   // The interpolated bound at a point, all in cells.
   struct Bound {
     double squared;   // of the lower bound; may be negative next to obstacles
-    bool tight;       // to 0.15 cells
     int column, row;  // the cell
     double x, y;      // the point
   };
+  // Stored distances are floats; taken off squared distances so that bounds stay bounds.
+  static constexpr double kRounding = 1e-3;  // cells^2
+
   [[nodiscard]] bool bound(const Eigen::Vector2d& p, Bound& out) const;
+  [[nodiscard]] bool isTight(const Bound& at) const {
+    return tight_[geometry_.index(at.column, at.row)] != 0;
+  }
   [[nodiscard]] double exactSquared(const Bound& at) const;
 
   void markOccupied(const OccupancyGrid& grid, const Window& cells);
@@ -98,6 +117,32 @@ class DistanceField {
   std::vector<std::uint8_t> corner_kind_;
   std::vector<std::uint16_t> corner_up_, corner_down_;
 };
+
+// With squared corner distances e and the point at (fx, fy) in the cell, the bound is
+// interpolation(e) - fx (1 - fx) - fy (1 - fy). False outside the map.
+inline bool DistanceField::bound(const Eigen::Vector2d& p, Bound& out) const {
+  const double x = (p.x() - geometry_.origin.x()) * inverse_resolution_;
+  const double y = (p.y() - geometry_.origin.y()) * inverse_resolution_;
+  if (!(x >= 0.0 && y >= 0.0 && x < geometry_.width && y < geometry_.height)) {
+    return false;
+  }
+  const int column = static_cast<int>(x);
+  const int row = static_cast<int>(y);
+  const double fx = x - column;
+  const double fy = y - row;
+  const float* corner =
+      &corner_distance_[static_cast<std::size_t>(row) * static_cast<std::size_t>(corner_width_) +
+                        static_cast<std::size_t>(column)];
+  const auto squared = [](float distance) {
+    const double outside = std::max(distance, 0.0F);
+    return outside * outside;
+  };
+  const double south = squared(corner[0]) + fx * (squared(corner[1]) - squared(corner[0]));
+  const float* above = corner + corner_width_;
+  const double north = squared(above[0]) + fx * (squared(above[1]) - squared(above[0]));
+  out = {south + fy * (north - south) - fx * (1.0 - fx) - fy * (1.0 - fy), column, row, x, y};
+  return true;
+}
 
 // The least squared distance there can be between two points `length` apart whose squared
 // distances are at least a and b: along a line the squared distance less the squared arc length is
