@@ -120,6 +120,9 @@ Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
   for (std::size_t i = 0; i + 1 < data.samples.size(); ++i) {
     data.samples[i].thrusts = history.mean(data.samples[i].time_s, data.samples[i + 1].time_s);
   }
+  if (data.samples.size() > 1) {  // no interval follows the last
+    data.samples.back().thrusts = data.samples[data.samples.size() - 2].thrusts;
+  }
   data.stretches = stretchesOf(data.samples, options.max_gap_s);
   const double duration_s = usableDuration(data);
   if (duration_s < options.min_duration_s) {

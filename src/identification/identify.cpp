@@ -1,6 +1,9 @@
 #include "otter_nav/identification/identify.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "otter_nav/identification/regression.hpp"
@@ -10,17 +13,20 @@
 namespace otter_nav::identification {
 namespace {
 
-// Standard deviation of a quantity over the samples.
+// Mean absolute deviation of a quantity from its mean over the samples: unlike the variance it
+// makes little of a short transient.
 template <typename Quantity>
 double deviation(const DataSet& data, Quantity quantity) {
-  double sum = 0.0;
-  double sum2 = 0.0;
-  for (const Sample& s : data.samples) {
-    sum += quantity(s);
-    sum2 += quantity(s) * quantity(s);
-  }
   const double n = static_cast<double>(data.samples.size());
-  return std::sqrt(std::max(0.0, sum2 / n - sum / n * (sum / n)));
+  double mean = 0.0;
+  for (const Sample& s : data.samples) {
+    mean += quantity(s) / n;
+  }
+  double sum = 0.0;
+  for (const Sample& s : data.samples) {
+    sum += std::abs(quantity(s) - mean);
+  }
+  return sum / n;
 }
 
 // Constant input shows a steady state, from which no inertia can be told.
@@ -73,11 +79,9 @@ Eigen::VectorXd betterStart(const Problem& problem, const Eigen::VectorXd& a,
 
 // Digits beyond the standard errors say nothing, and hide that two runs found the same.
 double rounded(double value) {
-  if (value == 0.0) {
-    return 0.0;
-  }
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 5.0);
-  return std::round(value / unit) * unit;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return std::strtod(text.data(), nullptr);
 }
 
 // The barrier keeps a solution a hair's breadth off a bound.

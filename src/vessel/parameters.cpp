@@ -1,6 +1,7 @@
 #include "otter_nav/vessel/parameters.hpp"
 
-#include <limits>
+#include <array>
+#include <charconv>
 #include <sstream>
 
 namespace otter_nav::vessel {
@@ -51,6 +52,13 @@ Status readHull(config::Section section, Hull& hull) {
   section.read("length_m", hull.length_m, kPositive);
   section.read("beam_m", hull.beam_m, kPositive);
   return section.finish();
+}
+
+// The shortest text that reads back to the same number.
+std::string text(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), end.ptr};
 }
 
 }  // namespace
@@ -104,28 +112,30 @@ Result<Parameters> loadParameters(const std::string& path) {
 
 std::string toYaml(const Parameters& p) {
   std::ostringstream out;
-  out.precision(std::numeric_limits<double>::max_digits10);
-  out << "name: " << p.name << "\ntop_speed_mps: " << p.top_speed_mps;
-  out << "\npaper_model:\n  m1_kg: " << p.paper.m1_kg << "\n  m2_kgm2: " << p.paper.m2_kgm2
-      << "\n  d1_kgps: " << p.paper.d1_kgps << "\n  d2_kgps: " << p.paper.d2_kgps
-      << "\n  d3_kgm2ps: " << p.paper.d3_kgm2ps;
+  out << "name: " << p.name << "\ntop_speed_mps: " << text(p.top_speed_mps);
+  out << "\npaper_model:\n  m1_kg: " << text(p.paper.m1_kg)
+      << "\n  m2_kgm2: " << text(p.paper.m2_kgm2) << "\n  d1_kgps: " << text(p.paper.d1_kgps)
+      << "\n  d2_kgps: " << text(p.paper.d2_kgps) << "\n  d3_kgm2ps: " << text(p.paper.d3_kgm2ps);
   const ManoeuvringModel& m = p.manoeuvring;
-  out << "\nmanoeuvring_model:\n  surge_inertia_kg: " << m.surge_inertia_kg
-      << "\n  sway_inertia_kg: " << m.sway_inertia_kg
-      << "\n  yaw_inertia_kgm2: " << m.yaw_inertia_kgm2
-      << "\n  surge_centripetal_kg: " << m.surge_centripetal_kg
-      << "\n  sway_centripetal_kg: " << m.sway_centripetal_kg << "\n  munk_kg: " << m.munk_kg
-      << "\n  surge_drag_kgps: " << m.surge_drag_kgps << "\n  sway_drag_kgps: " << m.sway_drag_kgps
-      << "\n  yaw_drag_kgm2ps: " << m.yaw_drag_kgm2ps
-      << "\n  surge_drag_quadratic_kgpm: " << m.surge_drag_quadratic_kgpm
-      << "\n  sway_drag_quadratic_kgpm: " << m.sway_drag_quadratic_kgpm
-      << "\n  yaw_drag_quadratic_kgm2: " << m.yaw_drag_quadratic_kgm2
-      << "\n  sway_from_yaw_kgmps: " << m.sway_from_yaw_kgmps
-      << "\n  yaw_from_sway_kgmps: " << m.yaw_from_sway_kgmps;
-  out << "\nthrusters:\n  lever_arm_m: " << p.thrusters.lever_arm_m
-      << "\n  ahead_max_n: " << p.thrusters.ahead_max_n
-      << "\n  astern_max_n: " << p.thrusters.astern_max_n << "\n  lag_s: " << p.thrusters.lag_s;
-  out << "\nhull:\n  length_m: " << p.hull.length_m << "\n  beam_m: " << p.hull.beam_m << "\n";
+  out << "\nmanoeuvring_model:\n  surge_inertia_kg: " << text(m.surge_inertia_kg)
+      << "\n  sway_inertia_kg: " << text(m.sway_inertia_kg)
+      << "\n  yaw_inertia_kgm2: " << text(m.yaw_inertia_kgm2)
+      << "\n  surge_centripetal_kg: " << text(m.surge_centripetal_kg)
+      << "\n  sway_centripetal_kg: " << text(m.sway_centripetal_kg)
+      << "\n  munk_kg: " << text(m.munk_kg) << "\n  surge_drag_kgps: " << text(m.surge_drag_kgps)
+      << "\n  sway_drag_kgps: " << text(m.sway_drag_kgps)
+      << "\n  yaw_drag_kgm2ps: " << text(m.yaw_drag_kgm2ps)
+      << "\n  surge_drag_quadratic_kgpm: " << text(m.surge_drag_quadratic_kgpm)
+      << "\n  sway_drag_quadratic_kgpm: " << text(m.sway_drag_quadratic_kgpm)
+      << "\n  yaw_drag_quadratic_kgm2: " << text(m.yaw_drag_quadratic_kgm2)
+      << "\n  sway_from_yaw_kgmps: " << text(m.sway_from_yaw_kgmps)
+      << "\n  yaw_from_sway_kgmps: " << text(m.yaw_from_sway_kgmps);
+  out << "\nthrusters:\n  lever_arm_m: " << text(p.thrusters.lever_arm_m)
+      << "\n  ahead_max_n: " << text(p.thrusters.ahead_max_n)
+      << "\n  astern_max_n: " << text(p.thrusters.astern_max_n)
+      << "\n  lag_s: " << text(p.thrusters.lag_s);
+  out << "\nhull:\n  length_m: " << text(p.hull.length_m) << "\n  beam_m: " << text(p.hull.beam_m)
+      << "\n";
   return out.str();
 }
 

@@ -1,1 +1,4 @@
-otter_nav_test(unit_identification_recovery SOURCES ${CMAKE_CURRENT_LIST_DIR}/identification/recovery_test.cpp ROOMS identification)
+foreach(test csv data_set identifiability recovery sensitivity)
+  otter_nav_test(unit_identification_${test}
+    SOURCES ${CMAKE_CURRENT_LIST_DIR}/identification/${test}_test.cpp ROOMS identification)
+endforeach()

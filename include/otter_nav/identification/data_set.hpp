@@ -50,7 +50,7 @@ struct DataSet {
 };
 
 struct DataOptions {
-  double min_duration_s = 60.0;    // shorter recordings are refused
+  double min_duration_s = 30.0;    // shorter recordings are refused
   double max_gap_s = 0.5;          // a longer pause of the odometry splits the recording
   double command_timeout_s = 0.5;  // thrust is zero this long after the last command
 };

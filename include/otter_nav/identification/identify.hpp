@@ -28,7 +28,8 @@ struct Options {
   bool fit_manoeuvring = true;  // else the manoeuvring model is the paper's
   double prior_relative = 1.0;  // width of the manoeuvring priors, in the guess's magnitudes
   double identifiable_limit = 0.5;  // largest relative standard error of h that passes
-  double min_excitation = 0.02;     // least deviation of thrust, as a share of the thrust limit
+  double min_excitation = 0.02;  // least mean deviation of the thrusters' difference, share of the
+  // limit ahead
 };
 
 // config/identification.yaml.
