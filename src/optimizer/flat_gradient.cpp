@@ -54,9 +54,9 @@ FlatGradient flatGradient(const vessel::FlatPoint& z, const vessel::Parameters& 
 
   const Eigen::Vector2d r_w = (crossRow(t.w1) - 2.0 * t.r * t.w) * inverse2;
   const Eigen::Vector2d r_w1 = -crossRow(t.w) * inverse2;
-  const Eigen::Vector2d q_w = (crossRow(t.w2) - 2.0 * t.along * r_w - 2.0 * t.r * t.w1 -
-                               2.0 * t.yaw_acceleration * t.w) *
-                              inverse2;
+  const Eigen::Vector2d q_w =
+      (crossRow(t.w2) - 2.0 * t.along * r_w - 2.0 * t.r * t.w1 - 2.0 * t.yaw_acceleration * t.w) *
+      inverse2;
   const Eigen::Vector2d q_w1 = (-2.0 * t.along * r_w1 - 2.0 * t.r * t.w) * inverse2;
   const Eigen::Vector2d q_w2 = r_w1;
 
@@ -71,15 +71,13 @@ FlatGradient flatGradient(const vessel::FlatPoint& z, const vessel::Parameters& 
   // tau_u = bow . (m1 z'' + d1 z') = |w| + (d1 - d2) bow . z'
   const double extra = m.d1_kgps - m.d2_kgps;
   const double ahead = g.bow.dot(z.velocity);
-  const Eigen::Vector2d u_w =
-      g.bow + extra / g.heading_force_n * (z.velocity - ahead * g.bow);
+  const Eigen::Vector2d u_w = g.bow + extra / g.heading_force_n * (z.velocity - ahead * g.bow);
   g.surge_n = m.m1_kg * g.bow.dot(z.acceleration) + m.d1_kgps * ahead;
   g.surge.col(0) = m.d2_kgps * u_w + extra * g.bow;
   g.surge.col(1) = m.m1_kg * u_w;
 
   const double inverse_lever = 1.0 / vessel.thrusters.lever_arm_m;
-  g.difference_n =
-      inverse_lever * (m.m2_kgm2 * t.yaw_acceleration + m.d3_kgm2ps * t.r);
+  g.difference_n = inverse_lever * (m.m2_kgm2 * t.yaw_acceleration + m.d3_kgm2ps * t.r);
   const double scale = inverse_lever * m.m2_kgm2;
   g.difference = inverse_lever * m.d3_kgm2ps * g.yaw_rate;
   g.difference.col(0) += scale * m.d2_kgps * q_w;

@@ -60,8 +60,8 @@ class GlobalOptimizer::Solver {
     budget_ = &budget;
     check_ = checkOptions(clearance_m);
     result_ = Optimized();
-    for (const Manner& manner : {Manner{false, 1.0, 1.0}, Manner{true, 1.0, 3.0},
-                                 Manner{true, 0.8, 10.0}}) {
+    for (const Manner& manner :
+         {Manner{false, 1.0, 1.0}, Manner{true, 1.0, 3.0}, Manner{true, 0.8, 10.0}}) {
       if (attempt(way, manner)) {
         return std::move(result_);
       }
@@ -100,8 +100,7 @@ class GlobalOptimizer::Solver {
     const HullCircles hull = hullCircles(vessel_.hull);
     limits.hull_offset_m = check_.check_hull ? hull.offset_m : 0.0;
     limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell;
-    const double share =
-        (options_.thrust_share - options_.thrust_margin) * manner.thrust_factor;
+    const double share = (options_.thrust_share - options_.thrust_margin) * manner.thrust_factor;
     limits.thrust_ahead_n = share * vessel_.thrusters.ahead_max_n;
     limits.thrust_astern_n = share * vessel_.thrusters.astern_max_n;
     limits.speed_mps = options_.speed_max_mps * manner.thrust_factor;
@@ -149,7 +148,10 @@ class GlobalOptimizer::Solver {
     for (int round = 0; round < options_.rounds; ++round) {
       result_.iterations += solver_.improve(problem_, stop, spline_);
       verifyDilated();
-      if (getenv("TRACE")) fprintf(stderr,"round %d: %s clr %.3f thr %.3f wf %.2f\n",round,result_.verification.reason.c_str(),result_.verification.clearance_m,result_.verification.thrust_share,result_.verification.heading_force_n);
+      if (getenv("TRACE"))
+        fprintf(stderr, "round %d: %s clr %.3f thr %.3f wf %.2f\n", round,
+                result_.verification.reason.c_str(), result_.verification.clearance_m,
+                result_.verification.thrust_share, result_.verification.heading_force_n);
       if (result_.verification.ok) {
         return true;
       }
@@ -194,14 +196,11 @@ class GlobalOptimizer::Solver {
     constexpr int kTries = 5;
     for (int i = 0;; ++i) {
       result_.trajectory = assemble();
-      result_.verification =
-          verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
-      const double excess =
-          std::max(result_.verification.thrust_share / check_.thrust_share,
-                   result_.verification.speed_mps / check_.speed_max_mps) -
-          1.0;
-      if (i == kTries || !ends_.start_at_rest || excess <= 0.0 ||
-          excess > options_.dilation_max) {
+      result_.verification = verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
+      const double excess = std::max(result_.verification.thrust_share / check_.thrust_share,
+                                     result_.verification.speed_mps / check_.speed_max_mps) -
+                            1.0;
+      if (i == kTries || !ends_.start_at_rest || excess <= 0.0 || excess > options_.dilation_max) {
         return;
       }
       dilate(1.0 + 0.8 * excess + 0.001);
@@ -242,8 +241,7 @@ class GlobalOptimizer::Solver {
   static trajectory::Piece straightPiece(const Knot& from, const Knot& to,
                                          const Eigen::Vector2d& direction, double duration_s) {
     const auto along = [&](const Knot& knot) {
-      const Eigen::Vector4d s =
-          (direction.transpose() * knot.state).transpose();
+      const Eigen::Vector4d s = (direction.transpose() * knot.state).transpose();
       vessel::FlatPoint z;
       z.position.x() = direction.dot(knot.state.col(0) - from.state.col(0));
       z.velocity.x() = s[1];
@@ -314,9 +312,9 @@ class GlobalOptimizer::Solver {
     result_.verification = verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
     result_.last_resort = true;
     if (!result_.verification.ok) {
-      return failure("optimisation failed: " + reason +
-                     "; following the way from stop to stop failed: " +
-                     result_.verification.reason);
+      return failure(
+          "optimisation failed: " + reason +
+          "; following the way from stop to stop failed: " + result_.verification.reason);
     }
     return std::move(result_);
   }

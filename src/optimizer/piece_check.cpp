@@ -8,10 +8,10 @@
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr double kStraightShare = 1e-9;   // of a coefficient, that may point off the line
-constexpr double kSlowMps = 1e-3;         // below it a course says nothing of the heading
-constexpr double kLeastSlackM = 1e-3;     // nearer to the limit than this counts as a fault
-constexpr double kAcrossCosine = 0.02;    // heading and course nearer to a right angle: a jump
+constexpr double kStraightShare = 1e-9;  // of a coefficient, that may point off the line
+constexpr double kSlowMps = 1e-3;        // below it a course says nothing of the heading
+constexpr double kLeastSlackM = 1e-3;    // nearer to the limit than this counts as a fault
+constexpr double kAcrossCosine = 0.02;   // heading and course nearer to a right angle: a jump
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -57,8 +57,7 @@ Eigen::Vector2d lineOf(const trajectory::Piece& piece) {
     }
   }
   // Ahead is where the piece ends.
-  const Eigen::Vector2d way =
-      piece.flat(piece.duration_s).position - piece.flat(0.0).position;
+  const Eigen::Vector2d way = piece.flat(piece.duration_s).position - piece.flat(0.0).position;
   return way.dot(longest) < 0.0 ? Eigen::Vector2d(-longest) : longest;
 }
 
@@ -120,8 +119,7 @@ PieceCheck::Point PieceCheck::at(double t_s) const {
   const Eigen::Vector2d a = evaluate<6>(acceleration_, t_s);
   p.w = m.m1_kg * a + m.d2_kgps * p.velocity;
   if (straight_) {
-    const double force =
-        m.m1_kg * direction_.dot(a) + m.d1_kgps * direction_.dot(p.velocity);
+    const double force = m.m1_kg * direction_.dot(a) + m.d1_kgps * direction_.dot(p.velocity);
     p.thrust_left_n = p.thrust_right_n = 0.5 * force;
     p.yaw_rate_radps = 0.0;
     return p;
@@ -131,14 +129,11 @@ PieceCheck::Point PieceCheck::at(double t_s) const {
   const Eigen::Vector2d w2 = m.m1_kg * evaluate<4>(snap_, t_s) + m.d2_kgps * j;
   const double norm2 = std::max(p.w.squaredNorm(), 1e-12);
   p.yaw_rate_radps = cross(p.w, w1) / norm2;
-  const double yaw_acceleration =
-      (cross(p.w, w2) - 2.0 * p.yaw_rate_radps * p.w.dot(w1)) / norm2;
+  const double yaw_acceleration = (cross(p.w, w2) - 2.0 * p.yaw_rate_radps * p.w.dot(w1)) / norm2;
   const double sign = p.w.dot(p.velocity) >= 0.0 ? 1.0 : -1.0;
-  const double surge =
-      sign * p.w.dot(m.m1_kg * a + m.d1_kgps * p.velocity) / std::sqrt(norm2);
-  const double difference =
-      (m.m2_kgm2 * yaw_acceleration + m.d3_kgm2ps * p.yaw_rate_radps) /
-      vessel_.thrusters.lever_arm_m;
+  const double surge = sign * p.w.dot(m.m1_kg * a + m.d1_kgps * p.velocity) / std::sqrt(norm2);
+  const double difference = (m.m2_kgm2 * yaw_acceleration + m.d3_kgm2ps * p.yaw_rate_radps) /
+                            vessel_.thrusters.lever_arm_m;
   p.thrust_left_n = 0.5 * (surge - difference);
   p.thrust_right_n = 0.5 * (surge + difference);
   return p;
@@ -179,8 +174,8 @@ void PieceCheck::checkSpin(PieceReport& report) const {
     const Eigen::Vector3d psi = piece_.spinHeading(report.time_s);
     const double thrust = (vessel_.paper.m2_kgm2 * psi[2] + vessel_.paper.d3_kgm2ps * psi[1]) /
                           (2.0 * vessel_.thrusters.lever_arm_m);
-    const double worst = std::max(shareOf(thrust, vessel_.thrusters),
-                                  shareOf(-thrust, vessel_.thrusters));
+    const double worst =
+        std::max(shareOf(thrust, vessel_.thrusters), shareOf(-thrust, vessel_.thrusters));
     report.thrust_share = std::max(report.thrust_share, share.bound(worst));
     report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(psi[1]));
     if (report.thrust_share > options_.thrust_share) {

@@ -8,13 +8,13 @@
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr double kForceScaleN = 50.0;   // a thrust exceeded by this counts as one
-constexpr double kForceKnee = 0.3;       // exceeded by more than this share, it counts linearly
-constexpr double kMotionKnee = 1.0;      // of speed, m/s, and yaw rate, rad/s
+constexpr double kForceScaleN = 50.0;  // a thrust exceeded by this counts as one
+constexpr double kForceKnee = 0.3;     // exceeded by more than this share, it counts linearly
+constexpr double kMotionKnee = 1.0;    // of speed, m/s, and yaw rate, rad/s
 constexpr double kClearanceKneeM = 1.0;
-constexpr double kForceFloorN = 3.0;    // |w| below this is treated as this
-constexpr double kSlowMps = 0.5;        // below it the length's curvature is bounded
-constexpr double kEvenness = 0.02;      // pieces shall last about as long as their neighbours
+constexpr double kForceFloorN = 3.0;  // |w| below this is treated as this
+constexpr double kSlowMps = 0.5;      // below it the length's curvature is bounded
+constexpr double kEvenness = 0.02;    // pieces shall last about as long as their neighbours
 
 using Rows = Eigen::Matrix<double, 2, kOrders>;  // derivatives by position ... snap
 
@@ -242,8 +242,7 @@ void SplineProblem::addClearance(int point, bool straight, const Eigen::Vector2d
       Rows rows = Rows::Zero();
       rows.col(0) = -end.gradient;
       if (!straight) {
-        const Eigen::Vector2d turn =
-            -offset / norm * (end.gradient - end.gradient.dot(bow) * bow);
+        const Eigen::Vector2d turn = -offset / norm * (end.gradient - end.gradient.dot(bow) * bow);
         rows.col(1) = m.d2_kgps * turn;
         rows.col(2) = m.m1_kg * turn;
       }
@@ -369,8 +368,7 @@ void SplineProblem::apply(const std::vector<System::Vector>& step, double scale,
     Knot& knot = spline.knots[k];
     const Eigen::Vector2d side = across(knot.direction);
     for (int m = 0; m < 4; ++m) {
-      knot.state.col(m) +=
-          scale * (step[k][2 * m] * knot.direction + step[k][2 * m + 1] * side);
+      knot.state.col(m) += scale * (step[k][2 * m] * knot.direction + step[k][2 * m + 1] * side);
     }
     if (k < spline.spans.size()) {
       double& duration = spline.spans[k].duration_s;

@@ -80,8 +80,8 @@ class Verifier {
     const vessel::FlatPoint z = trajectory_.pieces()[piece].flat(t_in_piece);
     const double off = (z.position - boundary.flat.position).norm();
     if (off > options_.position_tolerance_m) {
-      fail(t, sentence((label + " position missed").c_str(), t, off,
-                       options_.position_tolerance_m));
+      fail(t,
+           sentence((label + " position missed").c_str(), t, off, options_.position_tolerance_m));
       return;
     }
     double motion = (z.velocity - boundary.flat.velocity).norm();

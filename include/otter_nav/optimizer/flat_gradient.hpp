@@ -14,10 +14,10 @@ namespace otter_nav::optimizer {
 using FlatRow = Eigen::Matrix<double, 2, 4>;
 
 struct FlatGradient {
-  double heading_force_n = 0.0;   // |w|
+  double heading_force_n = 0.0;  // |w|
   double yaw_rate_radps = 0.0;
-  double surge_n = 0.0;           // F_r + F_l
-  double difference_n = 0.0;      // F_r - F_l
+  double surge_n = 0.0;                           // F_r + F_l
+  double difference_n = 0.0;                      // F_r - F_l
   Eigen::Vector2d bow = Eigen::Vector2d::Zero();  // w / |w|
   FlatRow heading_force = FlatRow::Zero();
   FlatRow yaw_rate = FlatRow::Zero();

@@ -79,8 +79,27 @@ class LocalOptimizer {
   void setClearance(double clearance_m) { options_.clearance_m = clearance_m; }
 
  private:
+  static constexpr int kPoints = 5;  // a segment, where terms are summed
+  static constexpr int kKnots = kMaxSegments + 1;
+  using Knots = std::array<Eigen::Matrix<double, 2, 3>, kKnots>;  // p, v, a
+  // Where the edge is drawn to at each point: position, velocity and acceleration, with weights.
+  struct Pull {
+    Eigen::Matrix<double, 2, 3> target;
+    Eigen::Vector3d weight;
+  };
+  using Pulls = std::array<std::array<Pull, kPoints>, kMaxSegments>;
+
+  void pullTowards(const map::DistanceField& field, const Knots& knots, double step_s,
+                   double growth, Pulls& pulls) const;
+  void solve(const Pulls& pulls, double step_s, Knots& knots) const;
+  [[nodiscard]] bool accept(const map::DistanceField& field, const Knots& knots, double step_s,
+                            RepairedEdge& repaired, EdgeFault& fault) const;
+
   LocalOptions options_;
   vessel::Parameters vessel_;
+  // Quintic Hermite basis at each point: rows are derivatives, columns p, v, a at both ends.
+  std::array<Eigen::Matrix<double, 3, 6>, kPoints> basis_;
+  Eigen::Matrix<double, 6, 6> jerk_;  // integral of the squared third derivative, unit time
 };
 
 // The integral of |z'''|^2 over a piece, exact.

@@ -3,7 +3,8 @@
 //   F = sum over pieces of
 //       lt T + ll length + ls fs + lo fo                    (paper: f_s smoothness, f_o original)
 //     + lc sum max(0, clearance aimed at - distance)^2      (paper: f_c)
-//     + ld sum max(0, limit exceeded, normalised)^2         (paper: f_d; both thrusters, speed, ...)
+//     + ld sum max(0, limit exceeded, normalised)^2         (paper: f_d; both thrusters, speed,
+//     ...)
 //
 // Unknowns: each knot's position, velocity, acceleration and jerk, and each piece's duration.
 // Every term is a square (Gauss-Newton) but time and length, whose curvature is known to be

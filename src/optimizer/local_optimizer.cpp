@@ -1,0 +1,241 @@
+#include "otter_nav/optimizer/local_optimizer.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace otter_nav::optimizer {
+namespace {
+
+constexpr double kStretch = 1.15;     // of the edge's time when its dynamics fail
+constexpr double kSquareCells = 0.7;  // from a cell's centre to what its square reaches
+
+// Coefficients of s^0..s^5 (rows) of the quintic Hermite basis (columns).
+Eigen::Matrix<double, 6, 6> quinticCoefficients() {
+  Eigen::Matrix<double, 6, 6> c;
+  c << 1, 0, 0, 0, 0, 0,           //
+      0, 1, 0, 0, 0, 0,            //
+      0, 0, 0.5, 0, 0, 0,          //
+      -10, -6, -1.5, 10, -4, 0.5,  //
+      15, 8, 1.5, -15, 7, -1,      //
+      -6, -3, -0.5, 6, -3, 0.5;
+  return c;
+}
+
+// T^k of the end values [p v a p v a].
+Eigen::Matrix<double, 6, 1> powers(double T) {
+  Eigen::Matrix<double, 6, 1> s;
+  s << 1.0, T, T * T, 1.0, T, T * T;
+  return s;
+}
+
+trajectory::Piece quintic(const Eigen::Matrix<double, 2, 3>& from,
+                          const Eigen::Matrix<double, 2, 3>& to, double T) {
+  Eigen::Matrix<double, 2, 6> ends;
+  ends << from, to;
+  const Eigen::Matrix<double, 2, 6> unit =
+      ends * powers(T).asDiagonal() * quinticCoefficients().transpose();
+  trajectory::Piece piece;
+  piece.duration_s = T;
+  double scale = 1.0;
+  for (int k = 0; k < 6; ++k) {
+    piece.position.col(k) = scale * unit.col(k);
+    scale /= T;
+  }
+  return piece;
+}
+
+}  // namespace
+
+double squaredJerk(const trajectory::Piece& piece) {
+  // z''' = sum of j_k t^k, j_k = (k + 3)(k + 2)(k + 1) c_{k + 3}
+  double sum = 0.0;
+  constexpr int kTerms = trajectory::kCoefficients - 3;
+  for (int i = 0; i < kTerms; ++i) {
+    for (int k = 0; k < kTerms; ++k) {
+      const double factor = (i + 3.0) * (i + 2.0) * (i + 1.0) * (k + 3.0) * (k + 2.0) * (k + 1.0);
+      sum += factor * piece.position.col(i + 3).dot(piece.position.col(k + 3)) *
+             std::pow(piece.duration_s, i + k + 1) / (i + k + 1);
+    }
+  }
+  return sum;
+}
+
+LocalOptimizer::LocalOptimizer(const LocalOptions& options, const vessel::Parameters& vessel)
+    : options_(options), vessel_(vessel) {
+  options_.segments = std::clamp(options_.segments, 2, kMaxSegments);
+  const Eigen::Matrix<double, 6, 6> c = quinticCoefficients();
+  for (int i = 0; i < kPoints; ++i) {
+    const double s = (i + 0.5) / kPoints;
+    for (int d = 0; d < 3; ++d) {
+      Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
+      for (int k = d; k < 6; ++k) {
+        double factor = std::pow(s, k - d);
+        for (int j = 0; j < d; ++j) {
+          factor *= k - j;
+        }
+        row += factor * c.row(k);
+      }
+      basis_[static_cast<std::size_t>(i)].row(d) = row;
+    }
+  }
+  jerk_.setZero();
+  for (int i = 3; i < 6; ++i) {
+    for (int k = 3; k < 6; ++k) {
+      const double factor = i * (i - 1.0) * (i - 2.0) * k * (k - 1.0) * (k - 2.0) / (i + k - 5.0);
+      jerk_ += factor * c.row(i).transpose() * c.row(k);
+    }
+  }
+}
+
+// Each point is drawn to where it was (f_o); a colliding one instead to the guidance point it is
+// pushed to, down the distance field's slope (f_c); one beyond a limit to the limit (f_d).
+void LocalOptimizer::pullTowards(const map::DistanceField& field, const Knots& knots, double step_s,
+                                 double growth, Pulls& pulls) const {
+  const double safe = options_.clearance_m + options_.clearance_margin_m +
+                      kSquareCells * field.geometry().resolution_m;
+  const double force = options_.force_share * 2.0 * vessel_.thrusters.ahead_max_n;
+  const vessel::PaperModel& m = vessel_.paper;
+  const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(options_.segments); ++i) {
+    Eigen::Matrix<double, 2, 6> ends;
+    ends << knots[i], knots[i + 1];
+    const Eigen::Matrix<double, 2, 6> scaled = ends * scale.asDiagonal();
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      Pull& pull = pulls[i][k];
+      Eigen::Matrix<double, 2, 3> z = scaled * basis_[k].transpose();
+      z.col(1) /= step_s;
+      z.col(2) /= step_s * step_s;
+      Eigen::Vector2d p = z.col(0);
+      for (int push = 0; push < 12; ++push) {
+        const map::DistanceField::Smooth d = field.smooth(p);
+        const double slope = d.gradient.norm();
+        if (d.distance_m >= safe || slope < 1e-3 || (p - z.col(0)).norm() > options_.push_max_m) {
+          break;
+        }
+        p += std::min(safe - d.distance_m + 0.05, 1.0) / slope * d.gradient;
+      }
+      if ((p - z.col(0)).squaredNorm() > 1e-6) {
+        pull.target.col(0) = p;
+        pull.weight[0] = std::max(pull.weight[0], options_.weight_clearance * growth);
+      } else if (pull.weight[0] <= options_.weight_original) {
+        pull.weight[0] = options_.weight_original;
+      }
+      const double speed = z.col(1).norm();
+      if (speed > options_.speed_max_mps) {
+        pull.target.col(1) = 0.95 * options_.speed_max_mps / speed * z.col(1);
+        pull.weight[1] = options_.weight_dynamics * growth;
+      }
+      const double w = (m.m1_kg * z.col(2) + m.d2_kgps * z.col(1)).norm();
+      if (w > force) {
+        pull.target.col(2) = z.col(2) * (force / w);
+        pull.weight[2] = options_.weight_dynamics * growth;
+      }
+    }
+  }
+}
+
+// The minimum of F in the inner knots: x and y share the matrix, 3 by 3 blocks on three diagonals.
+void LocalOptimizer::solve(const Pulls& pulls, double step_s, Knots& knots) const {
+  using Block = Eigen::Matrix3d;
+  using Right = Eigen::Matrix<double, 3, 2>;
+  const auto n = static_cast<std::size_t>(options_.segments);
+  std::array<Block, kKnots> diagonal;
+  std::array<Block, kKnots> below;  // row k + 1, column k
+  std::array<Right, kKnots> right;
+  for (std::size_t k = 0; k <= n; ++k) {
+    diagonal[k].setZero();
+    below[k].setZero();
+    right[k].setZero();
+  }
+  const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
+  const Eigen::Vector3d rate(1.0, 1.0 / step_s, 1.0 / (step_s * step_s));
+  const Eigen::Matrix<double, 6, 6> smooth = options_.weight_smooth / std::pow(step_s, 5) *
+                                             scale.asDiagonal() * jerk_ * scale.asDiagonal();
+  for (std::size_t i = 0; i < n; ++i) {
+    Eigen::Matrix<double, 6, 6> hessian = smooth;
+    Eigen::Matrix<double, 6, 2> linear = Eigen::Matrix<double, 6, 2>::Zero();
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const Eigen::Matrix<double, 3, 6> rows = rate.asDiagonal() * basis_[k] * scale.asDiagonal();
+      const Eigen::Vector3d weight = step_s / kPoints * pulls[i][k].weight;
+      hessian += rows.transpose() * weight.asDiagonal() * rows;
+      linear += rows.transpose() * weight.asDiagonal() * pulls[i][k].target.transpose();
+    }
+    diagonal[i] += hessian.topLeftCorner<3, 3>();
+    diagonal[i + 1] += hessian.bottomRightCorner<3, 3>();
+    below[i] += hessian.bottomLeftCorner<3, 3>();
+    right[i] += linear.topRows<3>();
+    right[i + 1] += linear.bottomRows<3>();
+  }
+  // The ends are given.
+  right[1] -= below[0] * knots[0].transpose();
+  right[n - 1] -= below[n - 1].transpose() * knots[n].transpose();
+  std::array<Eigen::LLT<Block>, kKnots> factor;
+  for (std::size_t k = 1; k < n; ++k) {
+    if (k > 1) {
+      const Block gain = factor[k - 1].solve(below[k - 1].transpose()).transpose();
+      diagonal[k] -= gain * below[k - 1].transpose();
+      right[k] -= gain * right[k - 1];
+    }
+    factor[k].compute(diagonal[k]);
+  }
+  for (std::size_t k = n - 1; k >= 1; --k) {
+    if (k + 1 < n) {
+      right[k] -= below[k].transpose() * knots[k + 1].transpose();
+    }
+    knots[k] = factor[k].solve(right[k]).transpose();
+  }
+}
+
+bool LocalOptimizer::accept(const map::DistanceField& field, const Knots& knots, double step_s,
+                            RepairedEdge& repaired, EdgeFault& fault) const {
+  repaired.count = options_.segments;
+  repaired.duration_s = step_s * options_.segments;
+  repaired.cost = options_.sigma * repaired.duration_s;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(options_.segments); ++i) {
+    repaired.pieces[i] = quintic(knots[i], knots[i + 1], step_s);
+    fault = check(field, repaired.pieces[i]).fault;
+    if (fault != EdgeFault::kNone) {
+      return false;
+    }
+    repaired.cost += squaredJerk(repaired.pieces[i]);
+  }
+  return true;
+}
+
+bool LocalOptimizer::repair(const map::DistanceField& field, const trajectory::Piece& edge,
+                            RepairedEdge& repaired) const {
+  const auto n = static_cast<std::size_t>(options_.segments);
+  double step = edge.duration_s / static_cast<double>(n);
+  Knots knots;
+  for (std::size_t k = 0; k <= n; ++k) {
+    const vessel::FlatPoint z = edge.flat(step * static_cast<double>(k));
+    knots[k] << z.position, z.velocity, z.acceleration;
+  }
+  Pulls pulls;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const vessel::FlatPoint z =
+          edge.flat(step * (static_cast<double>(i) + (static_cast<double>(k) + 0.5) / kPoints));
+      pulls[i][k].target << z.position, z.velocity, z.acceleration;
+      pulls[i][k].weight.setZero();
+    }
+  }
+  double growth = 1.0;
+  for (int attempt = 0; attempt < options_.attempts; ++attempt) {
+    pullTowards(field, knots, step, growth, pulls);
+    solve(pulls, step, knots);
+    EdgeFault fault = EdgeFault::kNone;
+    if (accept(field, knots, step, repaired, fault)) {
+      return true;
+    }
+    if (fault != EdgeFault::kClearance) {
+      step *= kStretch;
+    }
+    growth *= options_.weight_growth;
+  }
+  return false;
+}
+
+}  // namespace otter_nav::optimizer
