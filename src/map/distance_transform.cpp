@@ -45,30 +45,29 @@ RowEnvelope::RowEnvelope(int width, int cap)
 
 // A parabola hides between its neighbours when they meet before it comes up; the comparison of
 // the two meeting points is cross-multiplied, so no division and no rounding.
-void RowEnvelope::push(std::int32_t x, std::int32_t gap_squared) {
-  const std::int64_t height = gap_squared + static_cast<std::int64_t>(x) * x;
-  while (size_ > 1) {
-    const std::size_t top = size_ - 1;
-    const std::int64_t left = (height_[top] - height_[top - 1]) * (x - site_[top]);
-    const std::int64_t right = (height - height_[top]) * (site_[top] - site_[top - 1]);
-    if (left < right) {
-      break;
-    }
-    --size_;
-  }
-  site_[size_] = x;
-  height_[size_] = height;
-  ++size_;
-}
-
 void RowEnvelope::build(const std::uint16_t* up, const std::uint16_t* down, int x0, int x1) {
-  size_ = 0;
+  std::int32_t* const site = site_.data();
+  std::int64_t* const height = height_.data();
+  std::size_t size = 0;
   for (int x = std::max(0, x0 - cap_); x < std::min(width_, x1 + cap_); ++x) {
-    const std::int32_t gap = std::min(up[x], down[x]);
-    if (gap < cap_) {
-      push(x, gap * gap);
+    const std::int64_t gap = std::min(up[x], down[x]);
+    if (gap >= cap_) {
+      continue;
     }
+    const std::int64_t h = gap * gap + static_cast<std::int64_t>(x) * x;
+    for (; size > 1; --size) {
+      const std::size_t top = size - 1;
+      const std::int64_t left = (height[top] - height[top - 1]) * (x - site[top]);
+      const std::int64_t right = (h - height[top]) * (site[top] - site[top - 1]);
+      if (left < right) {
+        break;
+      }
+    }
+    site[size] = x;
+    height[size] = h;
+    ++size;
   }
+  size_ = size;
 }
 
 void RowEnvelope::run(const std::uint16_t* up, const std::uint16_t* down, int x0, int x1,
@@ -79,13 +78,16 @@ void RowEnvelope::run(const std::uint16_t* up, const std::uint16_t* down, int x0
     std::fill(out.squared.begin() + x0, out.squared.begin() + x1, cap_squared);
     return;
   }
+  const std::int32_t* const sites = site_.data();
+  const std::int64_t* const height = height_.data();
+  const std::size_t last = size_ - 1;
   const auto value = [&](std::size_t k, std::int64_t x) {  // less x^2
-    return height_[k] - 2 * x * site_[k];
+    return height[k] - 2 * x * sites[k];
   };
   std::size_t k = 0;
   for (int x = x0; x < x1; ++x) {
     std::int64_t here = value(k, x);
-    for (; k + 1 < size_; ++k) {
+    for (; k < last; ++k) {
       const std::int64_t next = value(k + 1, x);
       if (next > here) {
         break;
@@ -94,7 +96,7 @@ void RowEnvelope::run(const std::uint16_t* up, const std::uint16_t* down, int x0
     }
     const auto i = static_cast<std::size_t>(x);
     const std::int64_t distance = here + static_cast<std::int64_t>(x) * x;
-    const std::int32_t site = site_[k];
+    const std::int32_t site = sites[k];
     out.squared[i] = static_cast<std::int32_t>(std::min<std::int64_t>(distance, cap_squared));
     out.site_x[i] = site;
     out.site_y[i] = up[site] <= down[site] ? up[site] : -down[site];

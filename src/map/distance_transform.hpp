@@ -36,7 +36,6 @@ class RowEnvelope {
 
  private:
   void build(const std::uint16_t* up, const std::uint16_t* down, int x0, int x1);
-  void push(std::int32_t x, std::int32_t gap_squared);
 
   int width_;
   int cap_;
