@@ -30,6 +30,9 @@ void addOptions(CLI::App& app, Request& request, std::string& out, bool& profile
   app.add_option("--budget-ms", request.budget_ms, "time for one query")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
+  app.add_option("--clock", request.clock, "times by the wall's clock or the processor's")
+      ->check(CLI::IsMember({"wall", "cpu"}))
+      ->capture_default_str();
   app.add_option("--methods", request.methods, "comma-separated: baseline,local,global,proposed")
       ->delimiter(',')
       ->check(CLI::IsMember({"baseline", "local", "global", "proposed"}))

@@ -1,5 +1,6 @@
 #include "planner_cases.hpp"
 
+#include <time.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -48,6 +49,18 @@ Result<Ground> loadGround(const std::string& file, const std::string& which) {
   return ground;
 }
 
+// This thread's processor time from now on.
+planner::Termination cpuClock(double budget_s) {
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  planner::Termination termination = planner::wallClock(budget_s);
+  termination.elapsed_s = [now, began = now()] { return now() - began; };
+  return termination;
+}
+
 planner::Query queryOf(const mission::Mission& mission, std::uint64_t seed) {
   planner::Query query;
   query.start.position = mission.start.position;
@@ -90,8 +103,10 @@ class Runner {
   Status runCase(const Ground& ground, const mission::Mission& mission, Method& method,
                  Case& result) {
     const planner::Query query = queryOf(mission, result.seed);
-    const planner::Plan plan =
-        method.planner.plan(ground.field, query, planner::wallClock(1e-3 * request_.budget_ms));
+    const double budget_s = 1e-3 * request_.budget_ms;
+    const planner::Plan plan = method.planner.plan(
+        ground.field, query,
+        request_.clock == "cpu" ? cpuClock(budget_s) : planner::wallClock(budget_s));
     result.success = plan.outcome == planner::Outcome::kSolved;
     result.reason =
         result.success ? "" : std::string(planner::toString(plan.outcome)) + ": " + plan.reason;

@@ -20,6 +20,7 @@ struct Request {
   std::string kind = "all";   // local, cross or all
   int seeds = 3;
   double budget_ms = 1000.0;
+  std::string clock = "wall";  // or cpu: this thread's, for a machine that is busy
   std::vector<std::string> methods = {"proposed"};
   std::string vessel = "otter_gazebo";
   std::string config;  // folder of planner.yaml and its neighbours

@@ -210,6 +210,7 @@ json toJson(const Outcome& outcome, const Request& request) {
   j["vessel"] = outcome.vessel;
   j["map"] = request.map;
   j["budget_ms"] = request.budget_ms;
+  j["clock"] = request.clock;
   j["distance_field_ms"] = outcome.field_ms;
   j["cases"] = json::array();
   for (const Case& c : outcome.cases) {

@@ -42,6 +42,7 @@ Result<Options> readOptions(config::Section section) {
   section.read("improve_samples", o.improve_samples, {0, 100000});
   section.read("attempt_samples", o.attempt_samples, {10, 100000});
   section.read("max_attempts", o.max_attempts, {1, 100});
+  section.read("improve_attempts", o.improve_attempts, {0, 1000});
   section.read("local_optimization", o.local_optimization);
   section.read("global_optimization", o.global_optimization);
   section.read("keep_trees", o.keep_trees);

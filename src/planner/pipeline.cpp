@@ -74,7 +74,7 @@ Planner::Pipeline::Pipeline(const Options& options, const vessel::Parameters& ve
 
 Plan Planner::Pipeline::plan(const map::DistanceField& field, const Query& query,
                              const Termination& termination) {
-  Run run{field, query, termination, 0.0, {}, {}, {}, 0, 0.0};
+  Run run{field, query, termination};
   run.clearance_m = query.clearance_m > 0.0 ? query.clearance_m : options_.clearance_m;
   run.start = {query.start, query.start_psi_rad};
   run.goal.flat.position = query.goal;
@@ -84,23 +84,47 @@ Plan Planner::Pipeline::plan(const map::DistanceField& field, const Query& query
   if (checkEnds(run) && findGuide(run)) {
     tryWarmStart(run);
     prepareSearch(run);
-    for (int attempt = 0; attempt < options_.max_attempts && !run.timeUp(); ++attempt) {
-      ++run.plan.figures.attempts;
-      if (searchTrees(run, attempt) && finish(run, search_.recall())) {
-        break;
-      }
-      if (options_.global_optimization && attempt == 0) {
-        optimizeGuide(run);
-      }
-      if (run.plan.outcome == Outcome::kSolved || run.samples_left <= 0) {
-        break;
-      }
+    const int attempts = std::max(options_.max_attempts, options_.improve_attempts + 1);
+    for (int attempt = 0; attempt < attempts && !done(run); ++attempt) {
+      attemptOnce(run, attempt);
     }
     keepTrees(run);
   }
   conclude(run);
   run.plan.figures.total_ms = 1e3 * (run.now() - began);
   return std::move(run.plan);
+}
+
+bool Planner::Pipeline::done(const Run& run) const {
+  const bool sound = run.plan.outcome == Outcome::kSolved && !run.stopgap;
+  const bool improve = run.plan.figures.attempts <= options_.improve_attempts;
+  return run.timeUp() || run.samples_left <= 0 || (sound && !improve);
+}
+
+// A tree's way, optimised; failing that the guide path, and failing that the tree's way made sound
+// by the least that will do. Later attempts draw other samples.
+void Planner::Pipeline::attemptOnce(Run& run, int attempt) {
+  ++run.plan.figures.attempts;
+  if (!options_.global_optimization) {
+    if (searchTrees(run, attempt, Roots::kLaunched)) {
+      closeTreesWay(run);
+    }
+    return;
+  }
+  if (searchTrees(run, attempt, Roots::kAtEnds)) {
+    run.plan.figures.tree_cost = search_.bestCost();
+    optimizeWay(run, trajectory::Trajectory(search_.recall()));
+  }
+  if (attempt == 0 && !done(run)) {
+    optimizeGuide(run);
+  }
+  if (!done(run) && run.query.warm_start != nullptr && attempt == 0) {
+    optimizeWay(run, *run.query.warm_start);
+  }
+  if (run.plan.outcome != Outcome::kSolved && !run.timeUp() &&
+      searchTrees(run, attempt, Roots::kLaunched)) {
+    closeTreesWay(run);
+  }
 }
 
 bool Planner::Pipeline::checkEnds(Run& run) const {
@@ -168,7 +192,7 @@ void Planner::Pipeline::prepareSearch(Run& run) {
 
 // Roots at the ends themselves where the whole will be optimised: which way to leave is chosen
 // there. Without it, after a straight launch and before a straight stop along the guide path.
-void Planner::Pipeline::placeRoots(Run& run) {
+void Planner::Pipeline::placeRoots(Run& run, Roots roots) {
   KinoState start;
   start.position = run.query.start.position;
   start.velocity = run.query.start.velocity;
@@ -177,7 +201,7 @@ void Planner::Pipeline::placeRoots(Run& run) {
   goal.position = run.query.goal;
   launch_.reset();
   stop_.reset();
-  if (!options_.global_optimization) {
+  if (roots == Roots::kLaunched) {
     stop_ = stopAt(goal.position, line_.at(line_.length()).direction, vessel_.top_speed_mps);
     goal = stop_->root;
     if (optimizer::atRest(run.start)) {
@@ -189,9 +213,9 @@ void Planner::Pipeline::placeRoots(Run& run) {
 }
 
 // Samples until the trees meet, then improve_samples more.
-bool Planner::Pipeline::searchTrees(Run& run, int attempt) {
+bool Planner::Pipeline::searchTrees(Run& run, int attempt, Roots roots) {
   const double began = run.now();
-  placeRoots(run);
+  placeRoots(run, roots);
 
   SamplerOptions options;
   options.key_spacing_m = options_.key_spacing_m / (1.0 + 0.5 * attempt);
@@ -222,28 +246,24 @@ bool Planner::Pipeline::searchTrees(Run& run, int attempt) {
   return search_.solved();
 }
 
-bool Planner::Pipeline::finish(Run& run, const std::vector<trajectory::Piece>& way) {
-  run.plan.figures.tree_cost = search_.bestCost();
-  if (options_.global_optimization) {
-    optimizeWay(run, trajectory::Trajectory(way));
-    return run.plan.outcome == Outcome::kSolved;
-  }
+void Planner::Pipeline::closeTreesWay(Run& run) {
   const double began = run.now();
   std::vector<trajectory::Piece> whole;
   if (launch_) {
     whole.push_back(launch_->piece);
   }
+  const std::vector<trajectory::Piece> way = search_.recall();
   whole.insert(whole.end(), way.begin(), way.end());
   whole.push_back(stop_->piece);
+  run.plan.figures.tree_cost = search_.bestCost();
   auto closed = closeWay(whole, run.start, run.goal, run.field, vessel_,
                          optimizer_.checkOptions(run.clearance_m));
   run.plan.figures.verify_ms += 1e3 * (run.now() - began);
-  if (!closed) {
+  if (closed) {
+    accept(run, std::move(*closed), false);
+  } else if (run.plan.outcome != Outcome::kSolved) {
     run.plan.reason = closed.error().message;
-    return false;
   }
-  accept(run, std::move(*closed));
-  return true;
 }
 
 optimizer::Budget Planner::Pipeline::optimizerBudget(const Run& run) const {
@@ -260,7 +280,7 @@ void Planner::Pipeline::optimizeWay(Run& run, const trajectory::Trajectory& way)
   run.plan.figures.optimize_ms += 1e3 * (run.now() - began);
   if (optimized) {
     run.plan.figures.iterations += optimized->iterations;
-    accept(run, std::move(optimized->trajectory));
+    accept(run, std::move(optimized->trajectory), optimized->last_resort);
   } else if (run.plan.outcome != Outcome::kSolved) {
     run.plan.reason = optimized.error().message;
   }
@@ -274,7 +294,7 @@ void Planner::Pipeline::optimizeGuide(Run& run) {
   run.plan.figures.optimize_ms += 1e3 * (run.now() - began);
   if (optimized) {
     run.plan.figures.iterations += optimized->iterations;
-    accept(run, std::move(optimized->trajectory));
+    accept(run, std::move(optimized->trajectory), optimized->last_resort);
   }
 }
 
@@ -288,16 +308,24 @@ void Planner::Pipeline::tryWarmStart(Run& run) {
                                               run.goal, optimizer_.checkOptions(run.clearance_m));
   run.plan.figures.verify_ms += 1e3 * (run.now() - began);
   if (verification.ok) {
-    accept(run, *run.query.warm_start);
+    accept(run, *run.query.warm_start, false);
   }
 }
 
-void Planner::Pipeline::accept(Run& run, trajectory::Trajectory trajectory) {
-  const double cost = trajectoryCost(trajectory, options_.sigma);
-  if (run.plan.outcome == Outcome::kSolved && cost >= run.best_cost) {
+// The best by the optimiser's own measure: it trades seconds for jerk at another rate than the
+// trees. A stopgap (stop and spin) is better than nothing, and worse than anything else.
+void Planner::Pipeline::accept(Run& run, trajectory::Trajectory trajectory, bool stopgap) {
+  const double jerk = trajectoryCost(trajectory, 0.0);
+  const double rank = trajectory.duration() + options_.global.weight_smooth * jerk;
+  const bool first = run.plan.outcome != Outcome::kSolved;
+  if (!first && (stopgap && !run.stopgap)) {
     return;
   }
-  run.best_cost = cost;
+  if (!first && stopgap == run.stopgap && rank >= run.rank) {
+    return;
+  }
+  run.rank = rank;
+  run.stopgap = stopgap;
   run.plan.trajectory = std::move(trajectory);
   run.plan.outcome = Outcome::kSolved;
 }
@@ -310,7 +338,7 @@ void Planner::Pipeline::conclude(Run& run) {
     run.plan.reason.clear();
     figures.length_m = trajectory::length(run.plan.trajectory);
     figures.duration_s = run.plan.trajectory.duration();
-    figures.cost = run.best_cost;
+    figures.cost = trajectoryCost(run.plan.trajectory, options_.sigma);
     return;
   }
   if (run.timeUp()) {

@@ -22,6 +22,8 @@ class Planner::Pipeline {
  private:
   // What one query's stages share.
   struct Run {
+    Run(const map::DistanceField& on, const Query& asked, const Termination& until)
+        : field(on), query(asked), termination(until) {}
     const map::DistanceField& field;
     const Query& query;
     const Termination& termination;
@@ -30,7 +32,8 @@ class Planner::Pipeline {
     optimizer::Boundary goal;
     Plan plan;
     int samples_left = 0;
-    double best_cost = 0.0;  // of plan.trajectory, once there is one
+    double rank = 0.0;     // of plan.trajectory, once there is one; less is better
+    bool stopgap = false;  // it stops and spins along the way
 
     [[nodiscard]] double now() const {
       return termination.elapsed_s ? termination.elapsed_s() : 0.0;
@@ -40,17 +43,21 @@ class Planner::Pipeline {
     }
   };
 
+  enum class Roots { kAtEnds, kLaunched };
+
+  [[nodiscard]] bool done(const Run& run) const;
+  void attemptOnce(Run& run, int attempt);
   bool checkEnds(Run& run) const;
   bool findGuide(Run& run);
   void prepareSearch(Run& run);
-  void placeRoots(Run& run);
-  bool searchTrees(Run& run, int attempt);
+  void placeRoots(Run& run, Roots roots);
+  bool searchTrees(Run& run, int attempt, Roots roots);
   void keepTrees(Run& run) const;
-  bool finish(Run& run, const std::vector<trajectory::Piece>& way);
+  void closeTreesWay(Run& run);
   void optimizeWay(Run& run, const trajectory::Trajectory& way);
   void optimizeGuide(Run& run);
   void tryWarmStart(Run& run);
-  void accept(Run& run, trajectory::Trajectory trajectory);
+  void accept(Run& run, trajectory::Trajectory trajectory, bool stopgap);
   void conclude(Run& run);
   [[nodiscard]] optimizer::Budget optimizerBudget(const Run& run) const;
 

@@ -57,12 +57,13 @@ bool atRest(const FlatPoint& z) {
   return z.velocity.norm() < 1e-6;
 }
 
-// Jerks on both sides of each joint averaged; next to launch and stop only their part along the
-// way is kept, so that these stay straight.
-std::vector<Piece> smoothed(const std::vector<Piece>& way) {
+// Jerks on both sides of each joint averaged, the first one given; next to launch and stop only
+// their part along the way is kept, so that these stay straight.
+std::vector<Piece> smoothed(const std::vector<Piece>& way, const Eigen::Vector2d& start_jerk) {
   const std::size_t last = way.size() - 1;
   std::vector<FlatPoint> knots(way.size() + 1);
   knots.front() = way.front().flat(0.0);
+  knots.front().jerk = start_jerk;
   knots.back() = way.back().flat(way.back().duration_s);
   const bool launched = atRest(knots.front());
   for (std::size_t i = 1; i <= last; ++i) {
@@ -153,7 +154,7 @@ Result<trajectory::Trajectory> closeWay(const std::vector<Piece>& way,
                                         const vessel::Parameters& vessel,
                                         const optimizer::CheckOptions& check) {
   constexpr std::array<double, 7> kSlowdown = {1.0, 1.05, 1.1, 1.2, 1.4, 1.7, 2.1};
-  const std::vector<Piece> smooth = smoothed(way);
+  const std::vector<Piece> smooth = smoothed(way, start.flat.jerk);
   std::string reason;
   for (const double slowdown : kSlowdown) {
     if (slowdown > 1.0 && !optimizer::atRest(start)) {

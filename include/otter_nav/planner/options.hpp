@@ -29,6 +29,7 @@ struct Options {
   int improve_samples = 0;           // drawn after the first solution, to shorten it
   int attempt_samples = 400;         // drawn before the search begins anew with another seed
   int max_attempts = 4;              // searches until one can be made sound
+  int improve_attempts = 0;          // searches after that, in what is left of the time
   // The paper's two additions (its table I).
   bool local_optimization = true;
   bool global_optimization = true;

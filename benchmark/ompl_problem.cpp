@@ -1,0 +1,308 @@
+#include "ompl_problem.hpp"
+
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/control/PathControl.h>
+#include <ompl/control/SimpleSetup.h>
+#include <ompl/control/planners/kpiece/KPIECE1.h>
+#include <ompl/control/planners/rrt/RRT.h>
+#include <ompl/control/planners/sst/SST.h>
+#include <ompl/control/spaces/RealVectorControlSpace.h>
+#include <ompl/geometric/SimpleSetup.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/tools/benchmark/Benchmark.h>
+#include <ompl/util/Console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/rk4.hpp"
+#include "otter_nav/planner/ompl_planner.hpp"
+#include "otter_nav/vessel/model.hpp"
+
+namespace otter_nav::benchmark {
+namespace {
+
+namespace ob = ompl::base;
+namespace oc = ompl::control;
+namespace og = ompl::geometric;
+
+constexpr double kStepS = 0.1;
+constexpr double kMemoryMb = 2048.0;
+
+// Called for each run's solution: properties for the log, and the numbers for our rows.
+class Recorder {
+ public:
+  explicit Recorder(const OmplProblem& problem) : problem_(problem) {}
+
+  // Positions along a solution, 0.05 m apart or closer.
+  void record(const ob::PlannerPtr& planner, const ob::StateSpacePtr& space,
+              const planner::StateAdapter& adapter) {
+    Run run;
+    const auto& definition = planner->getProblemDefinition();
+    run.solved = definition->hasExactSolution();
+    if (run.solved) {
+      const ob::PathPtr path = definition->getSolutionPath();
+      if (const auto* control = dynamic_cast<const oc::PathControl*>(path.get())) {
+        run.duration_s = control->length();
+        og::PathGeometric states = control->asGeometric();
+        measure(states, space, adapter, run);
+      } else if (const auto* states = dynamic_cast<const og::PathGeometric*>(path.get())) {
+        og::PathGeometric copy = *states;
+        measure(copy, space, adapter, run);
+      }
+      if (const auto* ours = dynamic_cast<const planner::OmplPlanner*>(planner.get())) {
+        run.duration_s = ours->plan().trajectory.duration();
+      }
+    }
+    runs_[planner->getName()].push_back(run);
+  }
+
+  [[nodiscard]] std::vector<OmplRow> rows(const ompl::tools::Benchmark& benchmark) const {
+    std::vector<OmplRow> rows;
+    for (const auto& experiment : benchmark.getRecordedExperimentData().planners) {
+      const auto found = runs_.find(experiment.name.substr(experiment.name.find('_') + 1));
+      OmplRow row;
+      row.planner = experiment.name;
+      row.runs = static_cast<int>(experiment.runs.size());
+      if (found != runs_.end()) {
+        row.solved = static_cast<int>(std::count_if(found->second.begin(), found->second.end(),
+                                                    [](const Run& r) { return r.solved; }));
+        row.length_m = median(found->second, [](const Run& r) { return r.length_m; });
+        row.duration_s = median(found->second, [](const Run& r) { return r.duration_s; });
+        row.clearance_m = median(found->second, [](const Run& r) { return r.clearance_m; });
+      }
+      std::vector<double> times;
+      for (const auto& run : experiment.runs) {
+        times.push_back(1e3 * std::stod(run.at("time REAL")));
+      }
+      std::sort(times.begin(), times.end());
+      row.time_ms = times.empty() ? 0.0 : times[times.size() / 2];
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+ private:
+  struct Run {
+    bool solved = false;
+    double length_m = 0.0;
+    double duration_s = 0.0;
+    double clearance_m = 0.0;
+  };
+
+  void measure(og::PathGeometric& path, const ob::StateSpacePtr& space,
+               const planner::StateAdapter& adapter, Run& run) const {
+    constexpr double kSpacingM = 0.05;
+    run.clearance_m = problem_.field.maxDistance();
+    const ob::ScopedState<> between(space);
+    for (std::size_t i = 0; i + 1 < path.getStateCount(); ++i) {
+      const Eigen::Vector2d from = adapter.pose(path.getState(i)).position;
+      const Eigen::Vector2d to = adapter.pose(path.getState(i + 1)).position;
+      const double length = (to - from).norm();
+      run.length_m += length;
+      const int parts = std::max(1, static_cast<int>(std::ceil(length / kSpacingM)));
+      for (int k = 0; k <= parts; ++k) {
+        const Eigen::Vector2d p = from + (to - from) * k / parts;
+        run.clearance_m = std::min(run.clearance_m, problem_.field.clearance(p));
+      }
+    }
+  }
+
+  template <typename Value>
+  static double median(const std::vector<Run>& runs, const Value& value) {
+    std::vector<double> values;
+    for (const Run& run : runs) {
+      if (run.solved) {
+        values.push_back(value(run));
+      }
+    }
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0.0 : values[values.size() / 2];
+  }
+
+  const OmplProblem& problem_;
+  std::map<std::string, std::vector<Run>> runs_;
+};
+
+ob::RealVectorBounds mapBounds(const map::DistanceField& field) {
+  const map::GridGeometry& g = field.geometry();
+  ob::RealVectorBounds bounds(2);
+  bounds.setLow(0, g.origin.x());
+  bounds.setLow(1, g.origin.y());
+  bounds.setHigh(0, g.origin.x() + g.resolution_m * g.width);
+  bounds.setHigh(1, g.origin.y() + g.resolution_m * g.height);
+  return bounds;
+}
+
+ob::StateSpacePtr poseSpace(const map::DistanceField& field) {
+  auto space = std::make_shared<ob::SE2StateSpace>();
+  space->setBounds(mapBounds(field));
+  return space;
+}
+
+void setPose(ob::SE2StateSpace::StateType& state, const mission::Berth& berth) {
+  state.setXY(berth.position.x(), berth.position.y());
+  state.setYaw(berth.psi_rad);
+}
+
+ob::PlannerPtr ours(const ob::SpaceInformationPtr& space, const OmplProblem& problem,
+                    const planner::StateAdapter& adapter) {
+  return std::make_shared<planner::OmplPlanner>(space, problem.options, problem.vessel,
+                                                problem.field, adapter);
+}
+
+template <typename Setup>
+std::vector<OmplRow> run(Setup& setup, const std::vector<ob::PlannerPtr>& planners,
+                         const OmplProblem& problem, const planner::StateAdapter& adapter,
+                         const OmplBudget& budget, const std::string& name) {
+  ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
+  Recorder recorder(problem);
+  ompl::tools::Benchmark benchmark(setup, name);
+  for (const auto& planner : planners) {
+    benchmark.addPlanner(planner);
+  }
+  benchmark.setPostRunEvent(
+      [&](const ob::PlannerPtr& planner, ompl::tools::Benchmark::RunProperties&) {
+        recorder.record(planner, setup.getStateSpace(), adapter);
+      });
+  ompl::tools::Benchmark::Request request;
+  request.maxTime = budget.seconds;
+  request.maxMem = kMemoryMb;
+  request.runCount = static_cast<unsigned>(budget.runs);
+  request.displayProgress = true;
+  request.saveConsoleOutput = false;
+  request.simplify = false;
+  benchmark.benchmark(request);
+  if (!budget.log.empty()) {
+    benchmark.saveResultsToFile((budget.log + "_" + name + ".log").c_str());
+  }
+  return recorder.rows(benchmark);
+}
+
+// Poses, and u, v, r.
+constexpr int kPose = 0;
+constexpr int kVelocity = 1;
+
+vessel::State readState(const ob::State* state) {
+  const auto* compound = state->as<ob::CompoundState>();
+  const auto* pose = compound->as<ob::SE2StateSpace::StateType>(kPose);
+  const auto* velocity = compound->as<ob::RealVectorStateSpace::StateType>(kVelocity);
+  vessel::State x;
+  x << pose->getX(), pose->getY(), pose->getYaw(), velocity->values[0], velocity->values[1],
+      velocity->values[2];
+  return x;
+}
+
+void writeState(const vessel::State& x, ob::State* state) {
+  auto* compound = state->as<ob::CompoundState>();
+  auto* pose = compound->as<ob::SE2StateSpace::StateType>(kPose);
+  auto* velocity = compound->as<ob::RealVectorStateSpace::StateType>(kVelocity);
+  pose->setXY(x[vessel::kX], x[vessel::kY]);
+  pose->setYaw(wrapAngle(x[vessel::kPsi]));
+  for (int i = 0; i < 3; ++i) {
+    velocity->values[i] = x[vessel::kSurge + i];
+  }
+}
+
+ob::StateSpacePtr vesselSpace(const OmplProblem& problem) {
+  ob::RealVectorBounds velocities(3);
+  velocities.setLow(-problem.vessel.top_speed_mps);
+  velocities.setHigh(problem.vessel.top_speed_mps);
+  velocities.setLow(2, -2.0);
+  velocities.setHigh(2, 2.0);
+  auto velocity = std::make_shared<ob::RealVectorStateSpace>(3);
+  velocity->setBounds(velocities);
+  auto space = std::make_shared<ob::CompoundStateSpace>();
+  space->addSubspace(poseSpace(problem.field), 1.0);
+  space->addSubspace(velocity, 0.3);
+  return space;
+}
+
+std::shared_ptr<oc::RealVectorControlSpace> thrustSpace(const ob::StateSpacePtr& states,
+                                                        const vessel::Thrusters& thrusters) {
+  ob::RealVectorBounds thrusts(2);
+  thrusts.setLow(-thrusters.astern_max_n);
+  thrusts.setHigh(thrusters.ahead_max_n);
+  auto space = std::make_shared<oc::RealVectorControlSpace>(states, 2);
+  space->setBounds(thrusts);
+  return space;
+}
+
+// RK4 of the paper's model under constant thrusts.
+void sail(const OmplProblem& problem, const vessel::ManoeuvringModel& model, const ob::State* from,
+          const oc::Control* control, double duration, ob::State* to) {
+  const double* f = control->as<oc::RealVectorControlSpace::ControlType>()->values;
+  const vessel::Thrusts thrusts(f[0], f[1]);
+  const auto derivative = [&](double, const vessel::State& x) {
+    return vessel::stateDerivative(x, thrusts, model, problem.vessel.thrusters, {});
+  };
+  writeState(rk4Step(derivative, 0.0, readState(from), duration), to);
+}
+
+}  // namespace
+
+std::vector<OmplRow> runGeometric(const OmplProblem& problem, const OmplBudget& budget) {
+  og::SimpleSetup setup(poseSpace(problem.field));
+  const planner::StateAdapter adapter = planner::se2Adapter();
+  setup.setStateValidityChecker([&](const ob::State* state) {
+    return problem.field.clearance(adapter.pose(state).position) >= problem.options.clearance_m;
+  });
+  setup.getSpaceInformation()->setStateValidityCheckingResolution(0.0005);
+  ob::ScopedState<ob::SE2StateSpace> start(setup.getStateSpace());
+  ob::ScopedState<ob::SE2StateSpace> goal(setup.getStateSpace());
+  setPose(*start, problem.mission.start);
+  setPose(*goal, problem.mission.goal);
+  setup.setStartAndGoalStates(start, goal, 0.5);
+  const auto& space = setup.getSpaceInformation();
+  return run(setup,
+             {ours(space, problem, adapter), std::make_shared<og::RRTConnect>(space),
+              std::make_shared<og::BITstar>(space), std::make_shared<og::RRTstar>(space)},
+             problem, adapter, budget, "geometric");
+}
+
+std::vector<OmplRow> runKinodynamic(const OmplProblem& problem, const OmplBudget& budget) {
+  const ob::StateSpacePtr states = vesselSpace(problem);
+  oc::SimpleSetup setup(thrustSpace(states, problem.vessel.thrusters));
+  const auto model = vessel::ManoeuvringModel::fromPaper(problem.vessel.paper);
+  planner::StateAdapter adapter;
+  adapter.pose = [](const ob::State* state) {
+    const vessel::State x = readState(state);
+    return topology::Pose{x.head<2>(), x[vessel::kPsi]};
+  };
+  adapter.write = [](const trajectory::Sample& sample, ob::State* state) {
+    writeState(sample.state, state);
+  };
+  setup.setStatePropagator(
+      [&](const ob::State* from, const oc::Control* control, double duration, ob::State* to) {
+        sail(problem, model, from, control, duration, to);
+      });
+  const auto& space = setup.getSpaceInformation();
+  setup.setStateValidityChecker([&](const ob::State* state) {
+    return space->satisfiesBounds(state) &&
+           problem.field.clearance(adapter.pose(state).position) >= problem.options.clearance_m;
+  });
+  space->setPropagationStepSize(kStepS);
+  space->setMinMaxControlDuration(2, 20);
+  ob::ScopedState<> start(states);
+  ob::ScopedState<> goal(states);
+  vessel::State rest = vessel::State::Zero();
+  rest << problem.mission.start.position, problem.mission.start.psi_rad, 0.0, 0.0, 0.0;
+  writeState(rest, start.get());
+  rest << problem.mission.goal.position, problem.mission.goal.psi_rad, 0.0, 0.0, 0.0;
+  writeState(rest, goal.get());
+  // Within 2 m and a like error of heading and speed: exact goals are out of these planners' reach.
+  setup.setStartAndGoalStates(start, goal, 2.0);
+  return run(setup,
+             {ours(space, problem, adapter), std::make_shared<oc::KPIECE1>(space),
+              std::make_shared<oc::RRT>(space), std::make_shared<oc::SST>(space)},
+             problem, adapter, budget, "kinodynamic");
+}
+
+}  // namespace otter_nav::benchmark
