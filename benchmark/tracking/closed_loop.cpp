@@ -106,7 +106,7 @@ Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
   }
   const double period = setup.tracker.period_s;
   const double began = simulator->time();
-  const int cycles = static_cast<int>(setup.trajectory.duration() / period);
+  const int cycles = static_cast<int>(setup.duration_s / period);
   Tally tally(setup.vessel.thrusters);
   std::vector<double> step_us;
   step_us.reserve(static_cast<std::size_t>(cycles));

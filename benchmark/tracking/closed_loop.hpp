@@ -19,6 +19,7 @@ struct RunSetup {
   vessel::Parameters vessel;
   plant::Options plant;
   std::uint64_t seed = 0;
+  double duration_s = 0.0;      // of the run; the trajectory may go on beyond
   double errors_from_s = 10.0;  // the vessel starts at rest and catches up before
 };
 

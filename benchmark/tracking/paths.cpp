@@ -78,7 +78,8 @@ trajectory::Trajectory eight(double top_speed_mps) {
   constexpr int kPieces = 128;
   const double step = 2.0 * kPi / w / kPieces;
   std::vector<FlatPoint> knots;
-  for (int i = 0; i <= kPieces; ++i) {
+  const int pieces = kPieces + static_cast<int>(std::ceil(kRunOutS / step));
+  for (int i = 0; i <= pieces; ++i) {
     knots.push_back(eightAt(w, i * step));
   }
   return fromKnots(knots, step);
@@ -90,7 +91,9 @@ trajectory::Trajectory spiral(double top_speed_mps) {
   const double dt = kStepS / kSubsteps;
   std::vector<FlatPoint> knots;
   double angle = 0.0;
-  while (angle < kTurns * 2.0 * kPi) {
+  int beyond = 0;  // knots past the last turn
+  while (beyond * kStepS <= kRunOutS) {
+    beyond += angle >= kTurns * 2.0 * kPi ? 1 : 0;
     knots.push_back(spiralAt(angle, top_speed_mps));
     for (int i = 0; i < kSubsteps; ++i) {
       const double k1 = spiralRate(angle, top_speed_mps);

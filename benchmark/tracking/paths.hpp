@@ -8,6 +8,9 @@
 
 namespace otter_nav::benchmark {
 
+// Eight and spiral go on this much longer than what is measured, so that no horizon sees an end.
+constexpr double kRunOutS = 5.0;
+
 // x = 50 sin(w t), y = 25 sin(2 w t) once round; w so that the fastest point has `top_speed_mps`.
 [[nodiscard]] trajectory::Trajectory eight(double top_speed_mps);
 

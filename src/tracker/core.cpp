@@ -258,6 +258,9 @@ Command Tracker::Core::step(double now_s) {
   if (mode_ == Mode::kTracking && now_s >= reference_source_.end()) {
     beginHolding();
   }
+  if (mode_ == Mode::kTracking) {
+    reference_source_.wait(now_s, state.head<2>());
+  }
   vessel::Thrusts wanted = vessel::Thrusts::Zero();
   switch (mode_) {
     case Mode::kTracking:

@@ -24,7 +24,11 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::ManoeuvringM
   walk_variance_ << 0.0, 0.0, 0.0, o.velocity_walk_mps, o.velocity_walk_mps, o.yaw_rate_walk_radps,
       o.force_walk_n, o.force_walk_n, o.moment_walk_nm, o.current_walk_mps, o.current_walk_mps;
   walk_variance_ = walk_variance_.cwiseAbs2().eval();
-  if (!o.enabled) {
+  if (o.enabled) {
+    covariance_.diagonal().tail<5>() << o.force_sigma_n, o.force_sigma_n, o.moment_sigma_nm,
+        o.current_sigma_mps, o.current_sigma_mps;
+    covariance_ = covariance_.cwiseAbs2().eval();
+  } else {
     walk_variance_.tail<5>().setZero();
   }
 }

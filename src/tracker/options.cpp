@@ -32,6 +32,9 @@ Status readEstimator(config::Section section, EstimatorOptions& o) {
   section.read("force_walk_n", o.force_walk_n, kNotNegative);
   section.read("moment_walk_nm", o.moment_walk_nm, kNotNegative);
   section.read("current_walk_mps", o.current_walk_mps, kNotNegative);
+  section.read("force_sigma_n", o.force_sigma_n, kNotNegative);
+  section.read("moment_sigma_nm", o.moment_sigma_nm, kNotNegative);
+  section.read("current_sigma_mps", o.current_sigma_mps, kNotNegative);
   section.read("force_max_n", o.force_max_n, kNotNegative);
   section.read("moment_max_nm", o.moment_max_nm, kNotNegative);
   section.read("current_max_mps", o.current_max_mps, kNotNegative);
@@ -73,6 +76,8 @@ Result<Options> readOptions(config::Section section) {
   section.read("thrust_share", o.thrust_share, kShare);
   section.read("thrust_rate_nps", o.thrust_rate_nps, kPositive);
   section.read("keep_plan_s", o.keep_plan_s, {0.0, 2.0});
+  section.read("leash_m", o.leash_m, kPositive);
+  section.read("catch_up_rate", o.catch_up_rate, {0.0, 10.0});
   section.read("join_offset_m", o.join_offset_m, kPositive);
   section.read("join_speed_mps", o.join_speed_mps, kPositive);
   section.read("arrival_radius_m", o.arrival_radius_m, kPositive);

@@ -20,6 +20,7 @@ using vessel::kYawRate;
 // the bow should point (at rest, coasting, braking): the trajectory's own heading is taken.
 constexpr double kLeastSlopeN = 10.0;
 constexpr double kSlowMps = 0.05;
+constexpr double kLeastWaitingSpeedMps = 0.3;
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -36,12 +37,30 @@ struct ReferenceSource::Course {
 };
 
 ReferenceSource::ReferenceSource(const Options& options, const vessel::Parameters& vessel)
-    : method_(options.method), vessel_(vessel) {}
+    : method_(options.method),
+      vessel_(vessel),
+      leash_m_(options.leash_m),
+      catch_up_rate_(options.catch_up_rate) {}
+
+void ReferenceSource::wait(double now_s, const Vector2d& position) {
+  const vessel::FlatPoint z = flat(now_s);
+  const double speed = z.velocity.norm();
+  const double elapsed = now_s - waited_at_s_;
+  waited_at_s_ = now_s;
+  lag_s_ = std::max(0.0, lag_s_ - catch_up_rate_ * elapsed);
+  const double behind = speed > 0.0 ? (z.position - position).dot(z.velocity) / speed : 0.0;
+  if (behind > leash_m_) {
+    lag_s_ = std::min(lag_s_ + (behind - leash_m_) / std::max(speed, kLeastWaitingSpeedMps),
+                      now_s - start_s_);
+  }
+}
 
 void ReferenceSource::start(const trajectory::Trajectory* trajectory, double start_s,
                             double now_s) {
   trajectory_ = trajectory;
   start_s_ = start_s;
+  lag_s_ = 0.0;
+  waited_at_s_ = now_s;
   joins_ = false;
   psi_time_s_ = now_s;
   psi_rad_ = course(now_s).psi_rad;
@@ -58,11 +77,11 @@ void ReferenceSource::join(double now_s, const Vector2d& offset, const Vector2d&
 }
 
 double ReferenceSource::end() const {
-  return trajectory_ == nullptr ? start_s_ : start_s_ + trajectory_->duration();
+  return trajectory_ == nullptr ? start_s_ : start_s_ + trajectory_->duration() + lag_s_;
 }
 
 vessel::FlatPoint ReferenceSource::flat(double time_s) const {
-  vessel::FlatPoint z = trajectory_->flat(time_s - start_s_);
+  vessel::FlatPoint z = trajectory_->flat(time_s - start_s_ - lag_s_);
   if (time_s >= end()) {
     z.velocity.setZero();
     z.acceleration.setZero();
@@ -82,7 +101,7 @@ vessel::FlatPoint ReferenceSource::flat(double time_s) const {
 }
 
 trajectory::Sample ReferenceSource::at(double time_s) const {
-  return trajectory_->sample(time_s - start_s_, vessel_);
+  return trajectory_->sample(time_s - start_s_ - lag_s_, vessel_);
 }
 
 ReferenceSource::Course ReferenceSource::course(double time_s) const {

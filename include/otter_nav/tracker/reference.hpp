@@ -36,6 +36,10 @@ class ReferenceSource {
   [[nodiscard]] trajectory::Sample at(double time_s) const;
   [[nodiscard]] vessel::FlatPoint flat(double time_s) const;
   [[nodiscard]] double end() const;
+  // Lets the reference wait for a vessel at `position`, or catch up; call once a control step.
+  void wait(double now_s, const Eigen::Vector2d& position);
+  // How far the reference is behind the trajectory's own time, s.
+  [[nodiscard]] double lag() const { return lag_s_; }
 
  private:
   struct Course;
@@ -54,6 +58,10 @@ class ReferenceSource {
   vessel::Parameters vessel_;
   const trajectory::Trajectory* trajectory_ = nullptr;
   double start_s_ = 0.0;
+  double leash_m_;
+  double catch_up_rate_;
+  double lag_s_ = 0.0;
+  double waited_at_s_ = 0.0;
   trajectory::Piece joining_;
   double joining_start_s_ = 0.0;
   bool joins_ = false;
