@@ -184,7 +184,7 @@ void MissionNode::openGate() {
   gate_open_ = true;
   std_msgs::Header acknowledgement;
   acknowledgement.stamp = ros::TIME_MAX;
-  acknowledgement.frame_id = "mission_node";
+  acknowledgement.frame_id = ros::this_node::getName().substr(1);
   acknowledgement_.publish(acknowledgement);
 }
 

@@ -208,7 +208,7 @@ void PlannerNode::settle() {
     unacknowledged_.reset();
     std_msgs::Header acknowledgement;
     acknowledgement.stamp = acknowledged_;
-    acknowledgement.frame_id = "planner_node";
+    acknowledgement.frame_id = ros::this_node::getName().substr(1);
     acknowledgement_.publish(acknowledgement);
   }
 }

@@ -31,8 +31,13 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   const auto supervisor = mission::readSupervisorOptions(section.child("supervisor"));
   const auto planner = planner::readOptions(section.child("planner"));
   const auto topology = topology::readOptions(section.child("topology"));
-  if (const Status status = section.finish(); !status) {
-    return failure(status.error().message);
+  config::Section optimizer = section.child("optimizer");
+  const auto local = optimizer::readLocalOptions(optimizer.child("local"));
+  const auto global = optimizer::readGlobalOptions(optimizer.child("global"));
+  for (const Status& status : {section.finish(), optimizer.finish()}) {
+    if (!status) {
+      return failure(status.error().message);
+    }
   }
   if (!field) {
     return failure(field.error().message);
@@ -46,10 +51,18 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   if (!topology) {
     return failure(topology.error().message);
   }
+  if (!local) {
+    return failure(local.error().message);
+  }
+  if (!global) {
+    return failure(global.error().message);
+  }
   setup.field = *field;
   setup.supervisor = *supervisor;
   setup.planner = *planner;
   setup.planner.topology = *topology;
+  setup.planner.local = *local;
+  setup.planner.global = *global;
   return config::vesselFile(setup.node.vessel)
       .and_then([](const std::string& path) { return vessel::loadParameters(path); })
       .map([&](const vessel::Parameters& vessel) {

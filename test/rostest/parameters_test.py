@@ -20,7 +20,7 @@ FILES = {
     "map_node": {"": "map_node", "map": "map"},
     "topology_node": {"": "topology_node", "topology": "topology"},
     "planner_node": {"": "planner_node", "planner": "planner", "topology": "topology",
-                     "+": "mission"},
+                     "optimizer": "optimizer", "+": "mission"},
     "tracker_node": {"": "tracker_node", "tracker": "tracker"},
     "plant_node": {"": "plant_node", "plant": "plant"},
     "mission_node": {"": "mission_node"},
