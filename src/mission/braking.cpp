@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+#include "straight_stop.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -18,8 +20,11 @@ using trajectory::PieceKind;
 using trajectory::Trajectory;
 using vessel::FlatPoint;
 
-constexpr double kAtRestMps = 0.02;
+constexpr double kUnderWayMps = 0.3;
 constexpr double kKnotS = 0.25;
+// The sailed trajectory may be at the thrusters' limits where the stop begins; the tracker shaves
+// off a short peak.
+constexpr double kThrustTolerance = 1.1;
 
 // Along the way with its time slowed down smoothly to nothing within `duration_s`: z(s(t)) with
 // s' = 1 - (10 x^3 - 15 x^4 + 6 x^5), x = t / duration. Half the duration of way is used up.
@@ -54,27 +59,6 @@ Trajectory slowed(const Trajectory& sailed, double at_s, double duration_s) {
   return Trajectory(std::move(pieces));
 }
 
-// Out of the turn within `straighten_s`, then to rest in a line within `brake_s`.
-Trajectory straightened(const FlatPoint& from, double straighten_s, double brake_s) {
-  const double speed = from.velocity.norm();
-  const Eigen::Vector2d along = from.velocity / speed;
-  const Eigen::Vector2d port(-along.y(), along.x());
-  // The turn dies out about linearly, so half of it is still made.
-  const double turn = 0.5 * straighten_s * from.acceleration.dot(port) / speed;
-  const auto turned = [&](double angle) -> Eigen::Vector2d {
-    return along * std::cos(angle) + port * std::sin(angle);
-  };
-  FlatPoint straight;
-  const double straight_speed = speed * (1.0 - 0.1 * straighten_s);
-  straight.velocity = straight_speed * turned(turn);
-  straight.position =
-      from.position + 0.5 * (speed + straight_speed) * straighten_s * turned(0.7 * turn);
-  FlatPoint rest;
-  rest.position = straight.position + 0.5 * brake_s * straight.velocity;
-  return Trajectory({trajectory::hermitePiece(from, straight, straighten_s),
-                     trajectory::hermitePiece(straight, rest, brake_s)});
-}
-
 double leastClearance(const Trajectory& trajectory, const map::DistanceField& field) {
   constexpr double kStepS = 0.05;
   double least = std::numeric_limits<double>::infinity();
@@ -82,6 +66,19 @@ double leastClearance(const Trajectory& trajectory, const map::DistanceField& fi
     least = std::min(least, field.clearance(trajectory.flat(t).position));
   }
   return least;
+}
+
+// Astern, a planned stop leaves part of the thrust to the tracker.
+bool keepsAsternShare(const Trajectory& trajectory, const vessel::Parameters& vessel,
+                      double share) {
+  constexpr double kStepS = 0.05;
+  for (double t = 0.0; t < trajectory.duration(); t += kStepS) {
+    const double least = trajectory.sample(t, vessel).thrusts.minCoeff();
+    if (least < -share * vessel.thrusters.astern_max_n) {
+      return false;
+    }
+  }
+  return true;
 }
 
 // Where a sailed trajectory comes to rest by itself soon: its end, or the next spin's.
@@ -106,15 +103,22 @@ std::optional<Trajectory> ownRest(const Trajectory& sailed, double at_s, double 
 // From gentle to hard, by the way they need.
 std::vector<Trajectory> candidates(const Trajectory& sailed, double at_s) {
   constexpr std::array<double, 5> kSlowS = {12.0, 9.0, 7.0, 5.5, 4.0};
-  constexpr std::array<std::array<double, 2>, 9> kStraightS = {{{2.0, 4.0},
-                                                                {1.5, 3.2},
-                                                                {1.0, 3.2},
-                                                                {1.0, 2.6},
-                                                                {0.7, 2.6},
-                                                                {0.7, 2.1},
-                                                                {0.4, 2.1},
-                                                                {0.4, 1.7},
-                                                                {0.25, 1.4}}};
+  constexpr std::array<StraightStop, 16> kStraight = {{{3.0, 4.5},
+                                                       {2.0, 4.5},
+                                                       {2.0, 3.2},
+                                                       {2.0, 2.4},
+                                                       {1.3, 3.2},
+                                                       {1.3, 2.4},
+                                                       {0.9, 3.2},
+                                                       {0.6, 3.2},
+                                                       {0.9, 2.4},
+                                                       {0.9, 2.0},
+                                                       {0.3, 3.2},
+                                                       {0.6, 2.4},
+                                                       {0.6, 2.0},
+                                                       {0.3, 2.4},
+                                                       {0.3, 2.0},
+                                                       {0.3, 1.6}}};
   std::vector<Trajectory> all;
   if (std::optional<Trajectory> rest = ownRest(sailed, at_s, kSlowS.front())) {
     all.push_back(std::move(*rest));
@@ -128,9 +132,9 @@ std::vector<Trajectory> candidates(const Trajectory& sailed, double at_s) {
     }
   }
   const FlatPoint from = sailed.flat(at_s);
-  if (from.velocity.norm() > kAtRestMps) {
-    for (const auto& [straighten_s, brake_s] : kStraightS) {
-      all.push_back(straightened(from, straighten_s, brake_s));
+  if (from.velocity.norm() > kUnderWayMps) {
+    for (const StraightStop& stop : kStraight) {
+      all.push_back(straightStop(from, stop));
     }
   }
   return all;
@@ -142,7 +146,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s, const map::Dist
                           const vessel::Parameters& vessel, const BrakingOptions& options) {
   optimizer::CheckOptions check;
   check.clearance_m = options.clearance_m;
-  check.thrust_share = options.thrust_share;
+  check.thrust_share = kThrustTolerance;
   check.speed_max_mps = 2.0 * vessel.top_speed_mps;
   check.step_s = 0.02;
   Braking best;
@@ -151,11 +155,12 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s, const map::Dist
     if (candidate.empty()) {
       continue;
     }
-    if (optimizer::verify(candidate, field, vessel, check).ok) {
+    if (keepsAsternShare(candidate, vessel, options.thrust_share) &&
+        optimizer::verify(candidate, field, vessel, check).ok) {
       return {std::move(candidate), true, options.clearance_m};
     }
     const double clearance = leastClearance(candidate, field);
-    if (clearance > best.clearance_m) {
+    if (clearance >= best.clearance_m) {  // of equals the harder stop
       best = {std::move(candidate), false, clearance};
     }
   }

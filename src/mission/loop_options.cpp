@@ -9,25 +9,29 @@
 namespace otter_nav::mission {
 namespace {
 
-// The mapping `key` of a shipped file, read by `reader`.
+// A shipped file, read by `reader`.
 template <typename Options>
-Status readShipped(const std::string& file, const std::string& key,
-                   Result<Options> (*reader)(config::Section), Options& options) {
+Status readShipped(const std::string& file,
+                   const std::function<Result<Options>(const std::string&)>& reader,
+                   Options& options) {
   const Result<std::string> path = config::findFile(file);
   if (!path) {
     return failure(path.error().message);
   }
-  const Result<YAML::Node> root = config::loadFile(*path);
-  if (!root) {
-    return failure(root.error().message);
-  }
-  config::Section section(*root, *path);
-  Result<Options> read = reader(section.child(key));
+  Result<Options> read = reader(*path);
   if (!read) {
     return failure(read.error().message);
   }
   options = std::move(*read);
   return {};
+}
+
+Result<map::OccupancyMapOptions> loadMapOptions(const std::string& path) {
+  const Result<YAML::Node> root = config::loadFile(path);
+  if (!root) {
+    return failure(root.error().message);
+  }
+  return map::readOccupancyMapOptions(config::Section(*root, path));
 }
 
 Status readVessel(const std::string& name, LoopOptions& options) {
@@ -65,18 +69,17 @@ Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string
   const std::function<Status()> steps[] = {
       [&] { return readVessel(vessel, o); },
       [&] { return readPlant(disturbance, o); },
+      [&] { return readShipped<planner::Options>("config", planner::loadOptions, o.planner); },
       [&] {
-        return readShipped("config/planner.yaml", "planner", planner::readOptions, o.planner);
+        return readShipped<tracker::Options>("config/tracker.yaml", tracker::loadOptions,
+                                             o.tracker);
       },
       [&] {
-        return readShipped("config/tracker.yaml", "tracker", tracker::readOptions, o.tracker);
+        return readShipped<map::OccupancyMapOptions>("config/map.yaml", loadMapOptions, o.map);
       },
       [&] {
-        return readShipped("config/map.yaml", "occupancy_map", map::readOccupancyMapOptions, o.map);
-      },
-      [&] {
-        return readShipped("config/mission.yaml", "supervisor", readSupervisorOptions,
-                           o.supervisor);
+        return readShipped<SupervisorOptions>("config/mission.yaml", loadSupervisorOptions,
+                                              o.supervisor);
       }};
   for (const auto& step : steps) {
     if (const Status status = step(); !status) {

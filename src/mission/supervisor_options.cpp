@@ -37,4 +37,17 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   return o;
 }
 
+Result<SupervisorOptions> loadSupervisorOptions(const std::string& path) {
+  const Result<YAML::Node> root = config::loadFile(path);
+  if (!root) {
+    return failure(root.error().message);
+  }
+  config::Section section(*root, path);
+  Result<SupervisorOptions> options = readSupervisorOptions(section.child("supervisor"));
+  if (const Status status = section.finish(); options && !status) {
+    return failure(status.error().message);
+  }
+  return options;
+}
+
 }  // namespace otter_nav::mission

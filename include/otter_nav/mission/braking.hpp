@@ -10,8 +10,8 @@
 namespace otter_nav::mission {
 
 struct BrakingOptions {
-  // Share of the thrust a planned stop may ask for; the rest is the tracker's.
-  double thrust_share = 0.8;
+  // Share of the thrust astern a planned stop may ask for; the rest is the tracker's.
+  double thrust_share = 0.9;
   // Clearance of the hull's centre the stop keeps, m.
   double clearance_m = 0.8;
 };

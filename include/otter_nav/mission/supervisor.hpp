@@ -62,7 +62,7 @@ struct SupervisorOptions {
   // for anything further ahead than `brake_horizon_s`.
   double stop_reserve_s = 0.3;
   double brake_horizon_s = 8.0;
-  double brake_thrust_share = 0.8;  // of the limits
+  double brake_thrust_share = 0.9;  // of the limits, astern
   // Tracking error from which the plan starts at the vessel itself again, m.
   double tracking_error_max_m = 2.5;
   // Odometry older than this is no ground for sailing on, s.
@@ -81,6 +81,7 @@ struct SupervisorOptions {
 
 // config/mission.yaml: mapping `supervisor`.
 [[nodiscard]] Result<SupervisorOptions> readSupervisorOptions(config::Section section);
+[[nodiscard]] Result<SupervisorOptions> loadSupervisorOptions(const std::string& path);
 
 // What is known of the vessel at a decision.
 struct Situation {

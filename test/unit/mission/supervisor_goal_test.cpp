@@ -114,12 +114,9 @@ TEST(Goal, PlannerThatStaysSilentCountsAsFailed) {
 
 TEST(Options, ShippedFileLoads) {
   const std::string path = std::string(OTTER_NAV_SOURCE_DIR) + "/config/mission.yaml";
-  const auto root = config::loadFile(path);
-  ASSERT_TRUE(root.has_value());
-  config::Section section(*root, path);
-  const auto options = readSupervisorOptions(section.child("supervisor"));
+  const auto options = loadSupervisorOptions(path);
   ASSERT_TRUE(options.has_value()) << options.error().message;
-  EXPECT_TRUE(section.finish().has_value());
+  const auto root = config::loadFile(path);
   YAML::Node broken = YAML::Clone((*root)["supervisor"]);
   broken["plan_clearances_m"] = std::vector<double>{0.8, 0.9, 1.2, 1.6};
   EXPECT_FALSE(readSupervisorOptions(config::Section(broken, "broken")).has_value());

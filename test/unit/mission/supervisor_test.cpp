@@ -211,8 +211,8 @@ TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
   SupervisorOptions options;
   options.improve_period_s = 2.0;
   ScriptedMission mission(test::openWater(), options);
-  mission.setOut(6.0);
-  const Orders orders = mission.update(0.1);
+  mission.setOut(1.5);
+  const Orders orders = mission.update(1.0);
   ASSERT_TRUE(orders.plan);
   EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
   EXPECT_FALSE(mission.answer(*orders.plan, orders.plan->warm_start).sail);

@@ -1,0 +1,194 @@
+// Sails missions of scenarios in the closed loop without ROS and prints what came of them.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "otter_nav/mission/closed_loop.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace mission = otter_nav::mission;
+using otter_nav::failure;
+using otter_nav::Result;
+using otter_nav::Status;
+
+struct Arguments {
+  std::string scenarios;
+  std::string missions = "10-13";
+  std::string vessel = "otter_gazebo";
+  std::string disturbance = "paper";
+  std::string out;
+  std::string tracks;
+  std::uint64_t seed = 1;
+};
+
+// "3", "10-13" or "0,2,10-13".
+Result<std::vector<int>> parseMissions(const std::string& text) {
+  std::vector<int> missions;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    int first = 0;
+    int last = 0;
+    char rest = 0;
+    const int read = std::sscanf(part.c_str(), "%d-%d%c", &first, &last, &rest);
+    if (read != 1 && read != 2) {
+      return failure("--missions: '" + part + "' is neither a number nor a range like 10-13");
+    }
+    last = read == 1 ? first : last;
+    if (first < 0 || last < first || last > 100000) {
+      return failure("--missions: '" + part + "' is not a rising range");
+    }
+    for (int k = first; k <= last; ++k) {
+      missions.push_back(k);
+    }
+  }
+  return missions;
+}
+
+// The scenario itself, or all in a folder: YAML files that aren't maps.
+std::vector<std::string> scenarioFiles(const std::string& path) {
+  if (!fs::is_directory(path)) {
+    return {path};
+  }
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    const std::string stem = entry.path().stem().string();
+    const auto endsIn = [&](const std::string& tail) {
+      return stem.size() > tail.size() && stem.substr(stem.size() - tail.size()) == tail;
+    };
+    if (entry.path().extension() == ".yaml" && !endsIn("_chart") && !endsIn("_world")) {
+      files.push_back(entry.path().string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Result<mission::MissionResult> sail(const Arguments& arguments, const mission::LoopOptions& options,
+                                    const mission::Scenario& scenario,
+                                    const mission::Waters& waters, int index) {
+  const Result<mission::Mission> task = mission::missionOf(scenario, index);
+  if (!task) {
+    return failure(task.error().message);
+  }
+  auto loop = mission::ClosedLoop::create(options, waters, *task, arguments.seed);
+  if (!loop) {
+    return failure(loop.error().message);
+  }
+  const mission::MissionLabel label{scenario.name, index, arguments.vessel, arguments.disturbance,
+                                    arguments.seed};
+  std::optional<mission::TrackWriter> track;
+  std::string track_path;
+  if (!arguments.tracks.empty()) {
+    track_path = arguments.tracks + "/" + scenario.name + "_" + std::to_string(index) + ".csv";
+    auto opened = mission::TrackWriter::open(track_path);
+    if (!opened) {
+      return failure(opened.error().message);
+    }
+    track = std::move(*opened);
+  }
+  mission::ProgressLine line(std::cerr, isatty(STDERR_FILENO) != 0);
+  mission::MissionResult result =
+      mission::run(*loop, label, options.record_period_s, track ? &*track : nullptr,
+                   [&](const mission::Progress& progress) { line.show(progress); });
+  line.finish();
+  result.track = track_path;
+  if (track) {
+    if (const Status status = track->close(); !status) {
+      return failure(status.error().message);
+    }
+  }
+  return result;
+}
+
+void printHead() {
+  std::printf("%-18s %3s %-9s %7s %7s %7s %7s %7s %7s %8s %8s %8s\n", "scenario", "no", "outcome",
+              "time s", "way m", "clear m", "err m", "max m", "replans", "plan ms", "max ms",
+              "track ms");
+}
+
+void printRow(const mission::MissionResult& r) {
+  std::printf("%-18s %3d %-9s %7.1f %7.1f %7.2f %7.3f %7.3f %7d %8.1f %8.1f %8.3f  %s\n",
+              r.label.scenario.c_str(), r.label.mission, mission::name(r.outcome), r.duration_s,
+              r.distance_m, r.min_clearance_m, r.tracking_error_mean_m, r.tracking_error_max_m,
+              r.replans, r.planning_ms_median, r.planning_ms_max, r.tracker_ms_p99,
+              r.reason.c_str());
+  std::fflush(stdout);
+}
+
+Result<std::vector<mission::MissionResult>> sailAll(const Arguments& arguments) {
+  const auto missions = parseMissions(arguments.missions);
+  if (!missions) {
+    return failure(missions.error().message);
+  }
+  const auto options = mission::loadLoopOptions(arguments.vessel, arguments.disturbance);
+  if (!options) {
+    return failure(options.error().message);
+  }
+  std::vector<mission::MissionResult> results;
+  printHead();
+  for (const std::string& file : scenarioFiles(arguments.scenarios)) {
+    const auto scenario = mission::loadScenario(file);
+    if (!scenario) {
+      return failure(scenario.error().message);
+    }
+    const auto waters = mission::loadWaters(*scenario);
+    if (!waters) {
+      return failure(waters.error().message);
+    }
+    for (const int index : *missions) {
+      auto result = sail(arguments, *options, *scenario, *waters, index);
+      if (!result) {
+        return failure(result.error().message);
+      }
+      printRow(*result);
+      results.push_back(std::move(*result));
+    }
+  }
+  return results;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app{"Sails missions in the closed loop without ROS and prints a table"};
+  app.add_option("--scenarios", arguments.scenarios, "scenario YAML, or a folder of them")
+      ->required()
+      ->check(CLI::ExistingPath);
+  app.add_option("--missions", arguments.missions, "numbers and ranges: 0,2,10-13")
+      ->capture_default_str();
+  app.add_option("--vessel", arguments.vessel, "name or YAML")->capture_default_str();
+  app.add_option("--disturbance", arguments.disturbance, "preset")->capture_default_str();
+  app.add_option("--seed", arguments.seed)->capture_default_str();
+  app.add_option("--out", arguments.out, "result JSON");
+  app.add_option("--tracks", arguments.tracks, "folder for the tracks' CSV")
+      ->check(CLI::ExistingDirectory);
+  CLI11_PARSE(app, argc, argv);
+
+  const auto results = sailAll(arguments);
+  if (!results) {
+    std::cerr << "mission_benchmark: " << results.error().message << '\n';
+    return 2;
+  }
+  const auto arrived = std::count_if(
+      results->begin(), results->end(),
+      [](const mission::MissionResult& r) { return r.outcome == mission::Outcome::kArrived; });
+  std::printf("%ld of %zu arrived\n", static_cast<long>(arrived), results->size());
+  if (!arguments.out.empty()) {
+    if (const Status status = mission::saveJson(arguments.out, *results); !status) {
+      std::cerr << "mission_benchmark: " << status.error().message << '\n';
+      return 2;
+    }
+  }
+  return arrived == static_cast<long>(results->size()) ? 0 : 1;
+}
