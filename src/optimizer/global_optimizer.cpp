@@ -147,11 +147,8 @@ class GlobalOptimizer::Solver {
     smoothFirst(stop);
     for (int round = 0; round < options_.rounds; ++round) {
       result_.iterations += solver_.improve(problem_, stop, spline_);
-      verifyDilated();
-      if (getenv("TRACE"))
-        fprintf(stderr, "round %d: %s clr %.3f thr %.3f wf %.2f\n", round,
-                result_.verification.reason.c_str(), result_.verification.clearance_m,
-                result_.verification.thrust_share, result_.verification.heading_force_n);
+      const bool last = round + 1 == options_.rounds;
+      verifyDilated(last ? 2.0 * options_.dilation_max : options_.dilation_max);
       if (result_.verification.ok) {
         return true;
       }
@@ -192,19 +189,37 @@ class GlobalOptimizer::Solver {
 
   // Verifies; from rest to rest, what asks for a little too much thrust is slowed down: time runs
   // slower by a factor everywhere, which leaves the shape as it is.
-  void verifyDilated() {
-    constexpr int kTries = 5;
-    for (int i = 0;; ++i) {
-      result_.trajectory = assemble();
-      result_.verification = verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
-      const double excess = std::max(result_.verification.thrust_share / check_.thrust_share,
-                                     result_.verification.speed_mps / check_.speed_max_mps) -
-                            1.0;
-      if (i == kTries || !ends_.start_at_rest || excess <= 0.0 || excess > options_.dilation_max) {
-        return;
+  void verifyDilated(double dilation_max) {
+    constexpr int kTries = 3;
+    result_.trajectory = assemble();
+    for (int i = 0; i < kTries && ends_.start_at_rest; ++i) {
+      const double excess = worstExcess();
+      if (excess <= 0.0 || excess > dilation_max) {
+        break;
       }
-      dilate(1.0 + 0.8 * excess + 0.001);
+      dilate(1.0 + 0.7 * excess + 0.001);
+      result_.trajectory = assemble();
     }
+    result_.verification = verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
+  }
+
+  // The largest share by which a limit of thrust or speed is exceeded anywhere.
+  [[nodiscard]] double worstExcess() const {
+    CheckOptions open = check_;
+    open.thrust_share = 1e3;
+    open.speed_max_mps = 1e3;
+    open.yaw_rate_max_radps = 1e3;
+    open.heading_force_min_n = 0.0;
+    PieceReport worst;
+    for (const trajectory::Piece& piece : result_.trajectory.pieces()) {
+      PieceReport report;
+      PieceCheck(piece, vessel_, open).checkDynamics(report);
+      worst.thrust_share = std::max(worst.thrust_share, report.thrust_share);
+      worst.speed_mps = std::max(worst.speed_mps, report.speed_mps);
+    }
+    return std::max(worst.thrust_share / check_.thrust_share,
+                    worst.speed_mps / check_.speed_max_mps) -
+           1.0;
   }
 
   void dilate(double factor) {

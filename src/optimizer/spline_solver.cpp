@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 namespace otter_nav::optimizer {
@@ -34,12 +32,6 @@ int SplineSolver::improve(const SplineProblem& problem, const Stop& stop, Spline
     trial_ = spline;
     SplineProblem::apply(system_.solution(), 1.0, trial_);
     const double cost = problem.evaluate(trial_, &trial_system_);
-    if (getenv("TRACE")) {
-      double T = 0;
-      for (auto& s : trial_.spans) T += s.duration_s;
-      fprintf(stderr, "it %d damping %.1e cost %.5f -> %.5f T %.3f\n", iterations, damping, cost_,
-              cost, T);
-    }
     if (!(cost < cost_)) {
       damping *= 6.0;
       continue;

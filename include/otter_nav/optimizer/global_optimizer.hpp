@@ -37,17 +37,17 @@ struct GlobalOptions {
   double speed_max_mps = 4.8;
   double yaw_rate_max_radps = 1.2;   // under way; a spin is limited by its thrust alone
   double heading_force_min_n = 8.0;  // |w| while turning
-  double spin_thrust_share = 0.9;
+  double spin_thrust_share = 0.94;
   double spin_angle_rad = 0.9;  // turns wider than this at an end at rest are spun on the spot
   // A trajectory that asks for this share too much of a thruster is slowed down to suit.
   double dilation_max = 0.06;
-  double piece_length_m = 6.0;
+  double piece_length_m = 8.0;
   // Weights: of a second, of a metre of way, and the paper's.
   double weight_time = 1.0;
   double weight_length = 0.1;
-  double weight_smooth = 0.01;       // ls, on the integral of squared jerk
+  double weight_smooth = 0.1;        // ls, on the integral of squared jerk
   double weight_clearance = 20.0;    // lc
-  double weight_dynamics = 20.0;     // ld
+  double weight_dynamics = 5.0;      // ld
   double weight_original = 0.3;      // lo, while the first shape is found
   double weight_smooth_first = 0.1;  // ls then
   double weight_growth = 1.5;        // of lc and ld from round to round where they fail

@@ -1,0 +1,130 @@
+// The objective's derivatives against finite differences, its closed-form step against a dense
+// solver.
+#include "otter_nav/optimizer/spline_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "otter_nav/base/random.hpp"
+
+namespace otter_nav::optimizer {
+namespace {
+
+constexpr double kOff = 0.05;
+
+map::DistanceField islandField() {
+  map::OccupancyGrid grid;
+  grid.geometry = {80, 80, 0.5, {-20.0, -20.0}};
+  grid.cells.assign(6400, map::Cell::kFree);
+  for (int row = 36; row < 44; ++row) {
+    for (int column = 36; column < 44; ++column) {
+      grid.cells[grid.geometry.index(column, row)] = map::Cell::kOccupied;
+    }
+  }
+  return map::DistanceField(grid, {});
+}
+
+// Past an island's edge with a straight start; every kind of term is at work.
+Spline bentSpline(Random& random) {
+  Spline spline;
+  for (int k = 0; k < 5; ++k) {
+    Knot knot;
+    knot.state << -8.0 + 4.0 * k, 2.0, 0.3, 0.1, 2.2 + 0.3 * k, 0.4, 0.2, -0.1;
+    for (int i = 0; i < 8; ++i) {
+      knot.state(i % 2, i / 2) += kOff * random.normal();
+    }
+    spline.knots.push_back(knot);
+  }
+  spline.spans = {{1.2, true, true}, {1.6}, {1.5}, {1.4}};
+  const Eigen::Vector2d e = Eigen::Vector2d(0.8, 0.6);
+  for (int k = 0; k < 2; ++k) {
+    Knot& knot = spline.knots[static_cast<std::size_t>(k)];
+    knot.direction = e;
+    knot.free = {k > 0, false, k > 0, false, true, false, true, false};
+    knot.state << (-8.0 + 2.0 * k) * e, (0.4 + 2.5 * k) * e, 2.4 * e, 0.3 * e;
+  }
+  return spline;
+}
+
+class SplineProblemTest : public ::testing::Test {
+ protected:
+  SplineProblemTest() : problem(vessel::Parameters()) {
+    problem.field = &field;
+    problem.originals = &originals;
+    problem.weights.original = 0.3;
+    problem.limits.thrust_ahead_n = 20.0;
+    problem.limits.thrust_astern_n = 10.0;
+    problem.limits.speed_mps = 2.0;
+    problem.limits.yaw_rate_radps = 0.05;
+    problem.limits.heading_force_n = 60.0;
+    problem.limits.clearance_m = 2.0;
+    problem.limits.hull_offset_m = 0.667;
+    problem.limits.hull_clearance_m = 1.8;
+  }
+
+  map::DistanceField field = islandField();
+  Originals originals = Originals(4, [] {
+    std::array<Eigen::Vector2d, kQuadraturePoints> points;
+    points.fill(Eigen::Vector2d(0.5, 1.0));
+    return points;
+  }());
+  SplineProblem problem;
+};
+
+TEST_F(SplineProblemTest, GradientIsThatOfTheCost) {
+  Random random(7);
+  const Spline spline = bentSpline(random);
+  System system;
+  problem.evaluate(spline, &system);
+  constexpr double kStep = 1e-6;
+  for (std::size_t k = 0; k < spline.knots.size(); ++k) {
+    for (int row = 0; row < kBlockSize; ++row) {
+      const bool is_free = row < 8 ? spline.knots[k].free[static_cast<std::size_t>(row)]
+                                   : k < spline.spans.size();
+      std::vector<System::Vector> step(spline.knots.size(), System::Vector::Zero());
+      step[k][row] = kStep;
+      Spline up = spline;
+      Spline down = spline;
+      SplineProblem::apply(step, 1.0, up);
+      SplineProblem::apply(step, -1.0, down);
+      const double slope =
+          (problem.evaluate(up, nullptr) - problem.evaluate(down, nullptr)) / (2.0 * kStep);
+      const double expected = is_free ? -slope : 0.0;
+      EXPECT_NEAR(system.right[k][row], expected, 1e-4 * (1.0 + std::abs(slope)))
+          << "knot " << k << " row " << row;
+    }
+  }
+}
+
+TEST_F(SplineProblemTest, ClosedFormStepIsTheDenseSolution) {
+  Random random(11);
+  const Spline spline = bentSpline(random);
+  System system;
+  problem.evaluate(spline, &system);
+  ASSERT_TRUE(system.solve(1e-3, 1e-9));
+
+  const auto n = static_cast<Eigen::Index>(kBlockSize * spline.knots.size());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd right(n);
+  for (std::size_t k = 0; k < spline.knots.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(kBlockSize * k);
+    System::Block diagonal = system.diagonal[k].selfadjointView<Eigen::Lower>();
+    diagonal.diagonal() += (1e-3 * system.diagonal[k].diagonal()).array().max(1e-9).matrix();
+    dense.block<kBlockSize, kBlockSize>(at, at) = diagonal;
+    if (k + 1 < spline.knots.size()) {
+      dense.block<kBlockSize, kBlockSize>(at + kBlockSize, at) = system.below[k];
+      dense.block<kBlockSize, kBlockSize>(at, at + kBlockSize) = system.below[k].transpose();
+    }
+    right.segment<kBlockSize>(at) = system.right[k];
+  }
+  const Eigen::VectorXd expected = dense.ldlt().solve(right);
+  for (std::size_t k = 0; k < spline.knots.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(kBlockSize * k);
+    EXPECT_LT((system.solution()[k] - expected.segment<kBlockSize>(at)).norm(),
+              1e-8 * (1.0 + expected.norm()));
+  }
+}
+
+}  // namespace
+}  // namespace otter_nav::optimizer
