@@ -5,3 +5,8 @@ otter_nav_program(tracking_benchmark
     ${CMAKE_CURRENT_LIST_DIR}/tracking/csv_path.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracking/paths.cpp
   ROOMS tracker plant config)
+otter_nav_program(nmpc_benchmark
+  SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/nmpc_benchmark.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracking/nmpc_cases.cpp
+  ROOMS tracker tracker_oracle config)

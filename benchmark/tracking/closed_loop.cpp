@@ -77,17 +77,6 @@ void dumpRow(std::ostream& out, const plant::Truth& truth, const vessel::State& 
 
 }  // namespace
 
-Percentiles percentiles(std::vector<double> values) {
-  if (values.empty()) {
-    return {};
-  }
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.5), at(0.99), at(1.0)};
-}
-
 Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
                        const std::function<void(double)>& progress) {
   auto simulator = plant::Simulator::create(setup.plant, map::OccupancyGrid{}, setup.seed);

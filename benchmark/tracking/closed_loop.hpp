@@ -10,6 +10,7 @@
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "percentiles.hpp"
 
 namespace otter_nav::benchmark {
 
@@ -21,12 +22,6 @@ struct RunSetup {
   std::uint64_t seed = 0;
   double duration_s = 0.0;      // of the run; the trajectory may go on beyond
   double errors_from_s = 10.0;  // the vessel starts at rest and catches up before
-};
-
-struct Percentiles {
-  double median = 0.0;
-  double p99 = 0.0;
-  double max = 0.0;
 };
 
 // Errors are distances of the true position from the trajectory's at the same time.
@@ -47,7 +42,5 @@ struct RunFigures {
 // `dump` gets the CSV of the motion if it isn't null; `progress` the share done.
 [[nodiscard]] Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
                                      const std::function<void(double)>& progress);
-
-[[nodiscard]] Percentiles percentiles(std::vector<double> values);
 
 }  // namespace otter_nav::benchmark
