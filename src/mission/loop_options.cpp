@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -24,6 +25,11 @@ Status readShipped(const std::string& file,
   }
   options = std::move(*read);
   return {};
+}
+
+// With the optimiser's and the topology's options beside it.
+Result<planner::Options> loadPlannerOptions(const std::string& path) {
+  return planner::loadOptions(std::filesystem::path(path).parent_path().string());
 }
 
 Result<map::OccupancyMapOptions> loadMapOptions(const std::string& path) {
@@ -69,7 +75,9 @@ Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string
   const std::function<Status()> steps[] = {
       [&] { return readVessel(vessel, o); },
       [&] { return readPlant(disturbance, o); },
-      [&] { return readShipped<planner::Options>("config", planner::loadOptions, o.planner); },
+      [&] {
+        return readShipped<planner::Options>("config/planner.yaml", loadPlannerOptions, o.planner);
+      },
       [&] {
         return readShipped<tracker::Options>("config/tracker.yaml", tracker::loadOptions,
                                              o.tracker);
