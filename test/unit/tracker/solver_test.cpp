@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "otter_nav/base/rk4.hpp"
+#include "otter_nav/tracker/ipopt_solver.hpp"
+#include "problem.hpp"
+
+namespace otter_nav::tracker {
+namespace {
+
+using test::circle;
+using test::Problem;
+
+// Iterates the real-time scheme on one problem until the plan rests.
+std::unique_ptr<RtiSolver> converge(const Problem& p, int& bounds_met) {
+  auto solver = std::make_unique<RtiSolver>(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  solver->setDisturbance(p.disturbance);
+  solver->initialize(*p.reference);
+  for (int i = 0; i < 200; ++i) {
+    EXPECT_EQ(solver->prepare(*p.reference), SolverStatus::kSolved);
+    EXPECT_EQ(solver->feedback(p.measured), SolverStatus::kSolved);
+    if (solver->lastStep() < 1e-10) {
+      break;
+    }
+  }
+  bounds_met = 0;
+  for (int k = 0; k < p.options.stages; ++k) {
+    for (int i = 0; i < 2; ++i) {
+      const double thrust = solver->thrusts()[k][i];
+      bounds_met += thrust <= p.options.lower_n[i] || thrust >= p.options.upper_n[i] ? 1 : 0;
+    }
+  }
+  return solver;
+}
+
+class AgainstIpopt : public ::testing::TestWithParam<std::pair<int, double>> {};
+
+TEST_P(AgainstIpopt, ConvergedPlansAgree) {
+  const auto [stages, aside] = GetParam();
+  const Problem p = circle(stages, aside);
+  int bounds_met = 0;
+  const auto ours = converge(p, bounds_met);
+  EXPECT_EQ(bounds_met > 0, aside > 1.0);
+  IpoptSolver oracle(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  const auto theirs = oracle.solve(p.measured, *p.reference, p.disturbance);
+  ASSERT_TRUE(theirs) << theirs.error().message;
+  const double range = p.options.upper_n[0] - p.options.lower_n[0];
+  for (int k = 0; k < stages; ++k) {
+    const vessel::Thrusts difference =
+        ours->thrusts()[k] - theirs->thrusts[static_cast<std::size_t>(k)];
+    EXPECT_LT(difference.cwiseAbs().maxCoeff() / range, 1e-6) << "stage " << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Problems, AgainstIpopt,
+                         ::testing::Values(std::pair{20, 0.0}, std::pair{20, 2.0},
+                                           std::pair{40, 0.0}, std::pair{40, 2.0},
+                                           std::pair{7, 2.0}));
+
+TEST(RtiSolver, PlanFollowsTheModel) {
+  const Problem p = circle(20, 2.0);
+  int bounds_met = 0;
+  const auto solver = converge(p, bounds_met);
+  for (int k = 0; k < p.options.stages; ++k) {
+    const vessel::State next = rk4Step(
+        [&](double, const vessel::State& x) {
+          return vessel::stateDerivative(x, solver->thrusts()[k], p.vessel.manoeuvring,
+                                         p.vessel.thrusters, p.disturbance);
+        },
+        0.0, solver->states()[k], p.options.step_s);
+    EXPECT_LT((next - solver->states()[k + 1]).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(RtiSolver, SolvesAfterActiveSetsGaveUp) {
+  Problem p = circle(20, 2.0);
+  p.options.active_set_iterations = 0;
+  int bounds_met = 0;
+  const auto interior = converge(p, bounds_met);
+  p.options.active_set_iterations = 10;
+  const auto active = converge(p, bounds_met);
+  EXPECT_GT(bounds_met, 0);
+  for (int k = 0; k < p.options.stages; ++k) {
+    EXPECT_LT((interior->thrusts()[k] - active->thrusts()[k]).norm(), 1e-5);
+  }
+}
+
+TEST(RtiSolver, SaysWhenIterationsRunOutAndKeepsWithinTheBounds) {
+  Problem p = circle(20, 3.0);
+  p.options.active_set_iterations = 0;
+  p.options.interior_point_iterations = 1;
+  RtiSolver solver(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  solver.initialize(*p.reference);
+  ASSERT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
+  EXPECT_EQ(solver.feedback(p.measured), SolverStatus::kIterationsExhausted);
+  for (int k = 0; k < p.options.stages; ++k) {
+    EXPECT_LE(solver.thrusts()[k].maxCoeff(), p.options.upper_n[0]);
+    EXPECT_GE(solver.thrusts()[k].minCoeff(), p.options.lower_n[0]);
+  }
+}
+
+TEST(RtiSolver, RefusesWhatIsNotFinite) {
+  Problem p = circle(20, 0.0);
+  RtiSolver solver(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  EXPECT_EQ(solver.feedback(p.measured), SolverStatus::kNotFinite);  // not prepared
+  solver.initialize(*p.reference);
+  ASSERT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
+  p.measured[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(solver.feedback(p.measured), SolverStatus::kNotFinite);
+  p.reference->states[3][0] = std::numeric_limits<double>::infinity();
+  p.measured[2] = 1.6;
+  solver.prepare(*p.reference);
+  EXPECT_FALSE(usable(solver.feedback(p.measured)));
+}
+
+}  // namespace
+}  // namespace otter_nav::tracker

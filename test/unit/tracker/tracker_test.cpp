@@ -1,0 +1,184 @@
+#include "otter_nav/tracker/tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "otter_nav/base/rk4.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+
+// Counts what the control loop allocates.
+namespace {
+std::size_t allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+
+namespace otter_nav::tracker {
+namespace {
+
+const std::string kSource = OTTER_NAV_SOURCE_DIR;
+
+// Tracker and the model as its plant, 100 Hz.
+class TrackerTest : public ::testing::Test {
+ protected:
+  TrackerTest() : tracker_(load(), vessel_) {}
+
+  static Options load() {
+    const auto options = loadOptions(kSource + "/config/tracker.yaml");
+    EXPECT_TRUE(options) << options.error().message;
+    return *options;
+  }
+
+  // A straight line east from rest to rest.
+  static trajectory::Trajectory line(double length_m, double duration_s) {
+    vessel::FlatPoint start;
+    vessel::FlatPoint end;
+    end.position.x() = length_m;
+    return trajectory::Trajectory({trajectory::hermitePiece(start, end, duration_s)});
+  }
+
+  Command sail(double duration_s, bool odometry = true) {
+    Command command;
+    for (int i = 0; i < static_cast<int>(duration_s * 100.0 + 0.5); ++i) {
+      if (odometry) {
+        tracker_.addOdometry(now_s_, state_);
+      }
+      command = tracker_.step(now_s_);
+      EXPECT_TRUE(command.thrusts.allFinite());
+      EXPECT_GE(vessel::thrustMargin(command.thrusts, vessel_.thrusters), -1e-9);
+      state_ = rk4Step(
+          [&](double, const vessel::State& x) {
+            return vessel::stateDerivative(x, command.thrusts, vessel_.manoeuvring,
+                                           vessel_.thrusters, disturbance_);
+          },
+          0.0, state_, 0.01);
+      now_s_ += 0.01;
+    }
+    return command;
+  }
+
+  vessel::Parameters vessel_;
+  vessel::Disturbance disturbance_;
+  Tracker tracker_;
+  vessel::State state_ = vessel::State::Zero();
+  double now_s_ = 100.0;
+};
+
+TEST_F(TrackerTest, IsIdleWithoutATrajectory) {
+  const Command command = sail(0.5);
+  EXPECT_EQ(command.mode, Mode::kIdle);
+  EXPECT_EQ(command.thrusts, vessel::Thrusts::Zero());
+}
+
+TEST_F(TrackerTest, SailsALineAndHoldsItsEndUnderAForce) {
+  disturbance_.force_n = {-4.0, 3.0};
+  ASSERT_TRUE(tracker_.setTrajectory(line(30.0, 20.0), now_s_));
+  Command command = sail(15.0);
+  EXPECT_EQ(command.mode, Mode::kTracking);
+  EXPECT_LT(command.tracking_error_m, 0.05);
+  // A steady course doesn't tell a force from a current; their sum counts.
+  const double pull = command.disturbance.force_n.x() +
+                      vessel_.manoeuvring.surge_drag_kgps * command.disturbance.current_mps.x();
+  EXPECT_NEAR(pull, -4.0, 0.5);
+  command = sail(65.0);
+  EXPECT_EQ(command.mode, Mode::kHolding);
+  EXPECT_LT((state_.head<2>() - Eigen::Vector2d(30.0, 0.0)).norm(), 1.0);
+}
+
+TEST_F(TrackerTest, AllocatesNothingInTheLoop) {
+  ASSERT_TRUE(tracker_.setTrajectory(line(30.0, 20.0), now_s_));
+  sail(1.0);
+  const std::size_t before = allocations;
+  for (int i = 0; i < 2500; ++i) {  // past the end, through holding
+    tracker_.addOdometry(now_s_, state_);
+    const Command command = tracker_.step(now_s_);
+    tracker_.prepare(now_s_ + 0.01);
+    state_[0] += 0.01 * std::cos(state_[2]) * (command.mode == Mode::kTracking ? 1.5 : 0.0);
+    now_s_ += 0.01;
+  }
+  EXPECT_EQ(allocations, before);
+}
+
+TEST_F(TrackerTest, BridgesAShortGapAndStopsOnALongOne) {
+  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
+  sail(10.0);
+  EXPECT_EQ(sail(0.3, false).mode, Mode::kTracking);
+  EXPECT_EQ(sail(2.0).mode, Mode::kTracking);
+  const Command lost = sail(1.0, false);
+  EXPECT_EQ(lost.mode, Mode::kStopping);
+  EXPECT_EQ(lost.reason, "odometry lost");
+  const Command blind = sail(10.0, false);
+  EXPECT_EQ(blind.mode, Mode::kFault);
+  EXPECT_EQ(blind.thrusts, vessel::Thrusts::Zero());
+  EXPECT_EQ(sail(1.0).mode, Mode::kStopped);
+}
+
+TEST_F(TrackerTest, DropsOdometryThatIsNotFiniteOrJumps) {
+  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
+  sail(10.0);
+  vessel::State bad = state_;
+  bad[1] = std::numeric_limits<double>::quiet_NaN();
+  tracker_.addOdometry(now_s_, bad);
+  EXPECT_EQ(tracker_.step(now_s_).reason, "odometry is not finite");
+  bad = state_;
+  bad[1] += 20.0;
+  tracker_.addOdometry(now_s_ + 0.001, bad);
+  const Command command = tracker_.step(now_s_ + 0.002);
+  EXPECT_EQ(command.reason, "odometry jumps");
+  EXPECT_LT(command.tracking_error_m, 0.5);
+  now_s_ += 0.01;
+  EXPECT_TRUE(sail(0.1).reason.empty());
+}
+
+TEST_F(TrackerTest, RefusesTrajectoriesThatCannotBeSailed) {
+  sail(0.1);
+  const auto refused = [&](trajectory::Trajectory t, double start_s, const std::string& why) {
+    const Status status = tracker_.setTrajectory(std::move(t), start_s);
+    ASSERT_FALSE(status);
+    EXPECT_NE(status.error().message.find(why), std::string::npos) << status.error().message;
+  };
+  refused(trajectory::Trajectory(), now_s_, "no pieces");
+  refused(line(10.0, 5.0), now_s_ - 6.0, "ended");
+  refused(line(10.0, 5.0), std::numeric_limits<double>::quiet_NaN(), "start time");
+  trajectory::Piece piece = line(10.0, 5.0).pieces()[0];
+  trajectory::Piece broken = piece;
+  broken.position(0, 3) = std::numeric_limits<double>::infinity();
+  refused(trajectory::Trajectory({piece, broken}), now_s_, "piece 1");
+  refused(trajectory::Trajectory({piece, piece}), now_s_, "piece 1 starts");
+  piece.duration_s = 0.0;
+  refused(trajectory::Trajectory({piece}), now_s_, "duration");
+}
+
+TEST_F(TrackerTest, StopsOnRequestAndSailsOnWithTheNextTrajectory) {
+  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
+  sail(10.0);
+  tracker_.requestStop("the operator said so");
+  EXPECT_EQ(sail(0.1).reason, "the operator said so");
+  EXPECT_EQ(sail(15.0).mode, Mode::kStopped);
+  EXPECT_LT(state_.tail<3>().norm(), 0.2);
+  vessel::FlatPoint start;
+  start.position = state_.head<2>();
+  vessel::FlatPoint end;
+  end.position = start.position + Eigen::Vector2d(20.0, 0.0);
+  ASSERT_TRUE(tracker_.setTrajectory(
+      trajectory::Trajectory({trajectory::hermitePiece(start, end, 15.0)}), now_s_));
+  EXPECT_EQ(sail(1.0).mode, Mode::kTracking);
+}
+
+}  // namespace
+}  // namespace otter_nav::tracker
