@@ -46,7 +46,6 @@ Status readComponent(config::Section section, WaveComponent& wave) {
 }
 
 Status readWaves(config::Section section, WaveOptions& waves) {
-  section.read("in_plane", waves.in_plane);
   for (const config::Section& component : section.children("components")) {
     waves.components.emplace_back();
     if (Status status = readComponent(component, waves.components.back()); !status) {

@@ -49,7 +49,7 @@ Conditions Environment::at(double time_s, const vessel::State& planar,
   if (!waves_.empty()) {
     c.waves = waves_.underHull(planar.head<2>(), planar[vessel::kPsi], time_s, model.gridHalfSize(),
                                model.draft());
-    if (!options_.waves.in_plane) {
+    if (!model.wavesCarryInPlane()) {
       c.waves.orbital_velocity_mps.setZero();
       c.waves.orbital_acceleration_mps2.setZero();
       c.waves.rotation_radps = 0.0;

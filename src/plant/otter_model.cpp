@@ -171,7 +171,7 @@ Vector6 OtterModel::crossFlowDrag(const Vector6& velocity_water) const {
   double pitch = 0.0;
   double yaw = 0.0;
   for (int i = 0; i <= kStrips; ++i) {
-    const double x = (i - kStrips / 2) * kStrip;
+    const double x = i * kStrip - 0.5 * kLength;
     const double across = velocity_water[kV] + x * velocity_water[kR];
     const double down = velocity_water[kW] + x * velocity_water[kQ];
     const double across_squared = std::abs(across) * across;

@@ -24,12 +24,12 @@ class Simulator::Impl {
  public:
   Impl(const Options& options, std::unique_ptr<PlantModel> model, const map::OccupancyGrid& world,
        std::uint64_t seed)
-      : options_(options),
-        model_(std::move(model)),
-        world_(world),
-        environment_(options.disturbance, seed),
+      : environment_(options.disturbance, seed),
         odometry_(options.odometry, seed ^ kOdometrySeed),
-        lidar_(options.lidar, seed ^ kLidarSeed) {
+        lidar_(options.lidar, seed ^ kLidarSeed),
+        options_(options),
+        world_(world),
+        model_(std::move(model)) {
     placeAt(Eigen::Vector2d::Zero(), 0.0);
   }
 
@@ -121,23 +121,23 @@ class Simulator::Impl {
     had_contact_ = had_contact_ || in_contact_;
   }
 
-  Options options_;
-  std::unique_ptr<PlantModel> model_;
-  WorldMap world_;
   Environment environment_;
   OdometrySensor odometry_;
   Lidar lidar_;
   PlantState state_ = PlantState::Zero();
   Truth truth_;
-  double time_s_ = 0.0;
   Eigen::Vector2d command_ = Eigen::Vector2d::Zero();
+  Options options_;
+  WorldMap world_;
+  std::unique_ptr<PlantModel> model_;
+  double time_s_ = 0.0;
   double command_time_s_ = -std::numeric_limits<double>::infinity();
   double next_scan_s_ = 0.0;
   bool in_contact_ = false;
   bool had_contact_ = false;
 };
 
-Simulator::Simulator(const Options& options, map::OccupancyGrid world, std::uint64_t seed) {
+Simulator::Simulator(const Options& options, const map::OccupancyGrid& world, std::uint64_t seed) {
   Result<std::unique_ptr<PlantModel>> model = makePlantModel(options);
   if (!model) {
     throw std::invalid_argument(model.error().message);
@@ -149,7 +149,7 @@ Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
-Result<Simulator> Simulator::create(const Options& options, map::OccupancyGrid world,
+Result<Simulator> Simulator::create(const Options& options, const map::OccupancyGrid& world,
                                     std::uint64_t seed) {
   if (Result<std::unique_ptr<PlantModel>> model = makePlantModel(options); !model) {
     return failure(model.error().message);
@@ -160,7 +160,7 @@ Result<Simulator> Simulator::create(const Options& options, map::OccupancyGrid w
                    std::to_string(world.geometry.height) + " cells holds " +
                    std::to_string(world.cells.size()) + " of them");
   }
-  return Simulator(options, std::move(world), seed);
+  return Simulator(options, world, seed);
 }
 
 void Simulator::placeAt(const Eigen::Vector2d& position, double psi_rad) {

@@ -52,9 +52,6 @@ struct SpectrumOptions {
 struct WaveOptions {
   std::vector<WaveComponent> components;
   SpectrumOptions spectrum;  // added to the components
-  // Whether the water's orbital motion carries the hull in the plane too; without it waves heave,
-  // roll and pitch the hull only, as in the paper's simulator.
-  bool in_plane = true;
 };
 
 struct DisturbanceOptions {

@@ -27,6 +27,8 @@ class GazeboOtterModel final : public PlantModel {
                                   const Vector6& velocity) const override;
   [[nodiscard]] Eigen::Vector2d gridHalfSize() const override;
   [[nodiscard]] double draft() const override { return draft_m_; }
+  // That simulator's waves act through buoyancy alone, which is upright.
+  [[nodiscard]] bool wavesCarryInPlane() const override { return false; }
 
  private:
   // [Z K M] of buoyancy and weight for the pose [z phi theta] over the surface's plane.

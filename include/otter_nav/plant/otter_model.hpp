@@ -30,6 +30,7 @@ class OtterModel final : public PlantModel {
                                   const Vector6& velocity) const override;
   [[nodiscard]] Eigen::Vector2d gridHalfSize() const override;
   [[nodiscard]] double draft() const override { return draft_m_; }
+  [[nodiscard]] bool wavesCarryInPlane() const override { return true; }
 
   // Inertia with added mass, and stiffness, about midships.
   [[nodiscard]] const Matrix6& inertia() const { return inertia_; }

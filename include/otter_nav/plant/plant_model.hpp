@@ -81,6 +81,9 @@ class PlantModel {
   // Half length and half spread of the pontoons' grid points, m: where waves are felt.
   [[nodiscard]] virtual Eigen::Vector2d gridHalfSize() const = 0;
   [[nodiscard]] virtual double draft() const = 0;
+  // Whether the water's orbital motion carries the hull in the plane, too; otherwise waves heave,
+  // roll and pitch it only.
+  [[nodiscard]] virtual bool wavesCarryInPlane() const = 0;
 };
 
 // The model `options.vessel` names.

@@ -24,13 +24,14 @@ class Simulator {
   // The plant at rest in the settled trim at the origin, heading east, at time zero. Throws
   // std::invalid_argument for an unknown vessel name (readers check it first). A grid of no cells
   // is open water; occupied cells are walls, everything beyond the grid is water.
-  Simulator(const Options& options, map::OccupancyGrid world, std::uint64_t seed);
+  Simulator(const Options& options, const map::OccupancyGrid& world, std::uint64_t seed);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
   // The same with an error instead of an exception.
-  [[nodiscard]] static Result<Simulator> create(const Options& options, map::OccupancyGrid world,
+  [[nodiscard]] static Result<Simulator> create(const Options& options,
+                                                const map::OccupancyGrid& world,
                                                 std::uint64_t seed);
 
   // At rest over ground, in the settled trim, at this pose; time and disturbances go on.

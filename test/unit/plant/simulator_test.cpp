@@ -131,11 +131,10 @@ TEST(Simulator, ForceTowardsNorthPushesNorth) {
   EXPECT_NEAR(planar[vessel::kSway], 0.5, 1e-3);
 }
 
-TEST(Simulator, WavesCarryTheHullUnlessTheyMayNot) {
-  Options options = optionsFor("otter_gazebo");
-  options.disturbance.waves.components = {{0.09, 5.0, 0.0}};
+TEST(Simulator, WavesCarryTheOtterInThePlaneAndTheGazeboOtterNot) {
   for (const bool in_plane : {true, false}) {
-    options.disturbance.waves.in_plane = in_plane;
+    Options options = optionsFor(in_plane ? "otter" : "otter_gazebo");
+    options.disturbance.waves.components = {{0.09, 5.0, 0.0}};
     Simulator simulator(options, {}, 1);
     double low = 0.0;
     double high = 0.0;
