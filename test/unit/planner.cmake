@@ -1,2 +1,4 @@
-otter_nav_test(unit_planner_obvp SOURCES ${CMAKE_CURRENT_LIST_DIR}/planner/obvp_test.cpp ROOMS planner)
-otter_nav_test(unit_planner_tree SOURCES ${CMAKE_CURRENT_LIST_DIR}/planner/tree_test.cpp ROOMS planner)
+foreach(name obvp tree edge_check)
+  otter_nav_test(unit_planner_${name}
+    SOURCES ${CMAKE_CURRENT_LIST_DIR}/planner/${name}_test.cpp ROOMS planner)
+endforeach()

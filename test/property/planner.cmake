@@ -1,0 +1,4 @@
+foreach(name planner search)
+  otter_nav_test(property_planner_${name}
+    SOURCES ${CMAKE_CURRENT_LIST_DIR}/planner/${name}_test.cpp ROOMS planner)
+endforeach()

@@ -1,0 +1,161 @@
+// What holds for every plan: soundness, sameness for a seed, honest outcomes.
+#include "otter_nav/planner/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "../../unit/planner/planner_ground.hpp"
+#include "otter_nav/optimizer/verification.hpp"
+
+namespace otter_nav::planner {
+namespace {
+
+// Without a clock: bounded by iterations, the same on every machine.
+Termination byIterations() {
+  Termination termination;
+  termination.max_iterations = 2000;
+  return termination;
+}
+
+Query across() {
+  Query query;
+  query.start.position = {-30.0, -5.0};
+  query.start_psi_rad = 1.0;
+  query.goal = {30.0, 5.0};
+  query.goal_psi_rad = -2.0;
+  return query;
+}
+
+map::DistanceField islands() {
+  map::OccupancyGrid grid = test::openGrid();
+  test::fill(grid, -12.0, -25.0, 6.0, 30.0);
+  test::fill(grid, 8.0, -5.0, 5.0, 30.0);
+  return map::DistanceField(grid, map::DistanceFieldOptions{});
+}
+
+optimizer::Verification verifyPlan(const Plan& plan, const map::DistanceField& field,
+                                   const Query& query) {
+  optimizer::Boundary start{query.start, query.start_psi_rad};
+  optimizer::Boundary goal;
+  goal.flat.position = query.goal;
+  goal.psi_rad = query.goal_psi_rad;
+  return optimizer::verify(plan.trajectory, field, vessel::Parameters{}, start, goal,
+                           optimizer::CheckOptions{});
+}
+
+class EveryMethod : public ::testing::TestWithParam<std::pair<bool, bool>> {};
+
+TEST_P(EveryMethod, ReturnsWhatPassesVerification) {
+  const map::DistanceField field = islands();
+  Options options;
+  options.local_optimization = GetParam().first;
+  options.global_optimization = GetParam().second;
+  Planner planner(options, vessel::Parameters{});
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Query query = across();
+    query.seed = seed;
+    const Plan plan = planner.plan(field, query, byIterations());
+    ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+    const auto verification = verifyPlan(plan, field, query);
+    EXPECT_TRUE(verification.ok) << verification.reason;
+    EXPECT_GT(plan.figures.node_utilization, 0.0);
+    EXPECT_LE(plan.figures.node_utilization, 1.0);
+    EXPECT_NEAR(plan.figures.length_m, trajectory::length(plan.trajectory), 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ablation, EveryMethod,
+                         ::testing::Values(std::pair{false, false}, std::pair{true, false},
+                                           std::pair{false, true}, std::pair{true, true}));
+
+TEST(Planner, IsTheSameForASeed) {
+  const map::DistanceField field = islands();
+  Planner fresh(Options{}, vessel::Parameters{});
+  Planner used(Options{}, vessel::Parameters{});
+  Query other = across();
+  other.goal = {25.0, -25.0};
+  (void)used.plan(field, other, byIterations());
+  const Plan a = fresh.plan(field, across(), byIterations());
+  const Plan b = used.plan(field, across(), byIterations());
+  ASSERT_EQ(a.trajectory.pieces().size(), b.trajectory.pieces().size());
+  EXPECT_EQ(a.trajectory.duration(), b.trajectory.duration());
+  for (std::size_t i = 0; i < a.trajectory.pieces().size(); ++i) {
+    EXPECT_EQ(a.trajectory.pieces()[i].position, b.trajectory.pieces()[i].position);
+  }
+}
+
+TEST(Planner, SaysWhyThereIsNoPlan) {
+  const map::DistanceField field = islands();
+  Planner planner(Options{}, vessel::Parameters{});
+  Query query = across();
+  query.start.position = {-9.0, 0.0};
+  EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kStartBlocked);
+  query = across();
+  query.goal = {10.0, 5.0};
+  EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kGoalBlocked);
+  query.goal = {300.0, 5.0};
+  const Plan outside = planner.plan(field, query, byIterations());
+  EXPECT_EQ(outside.outcome, Outcome::kGoalBlocked);
+  EXPECT_NE(outside.reason.find("outside the map"), std::string::npos) << outside.reason;
+  query.goal.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kGoalBlocked);
+}
+
+TEST(Planner, SaysThatThereIsNoWay) {
+  const map::DistanceField wall = test::withObstacle(0.0, -40.0, 2.0, 80.0);
+  Planner planner(Options{}, vessel::Parameters{});
+  const Plan plan = planner.plan(wall, across(), byIterations());
+  EXPECT_EQ(plan.outcome, Outcome::kNoWay);
+  EXPECT_FALSE(plan.reason.empty());
+  EXPECT_TRUE(plan.trajectory.empty());
+}
+
+TEST(Planner, SaysThatTheTimeIsUp) {
+  const map::DistanceField field = islands();
+  Planner planner(Options{}, vessel::Parameters{});
+  Termination termination = byIterations();
+  termination.elapsed_s = [] { return 2.0; };
+  termination.budget_s = 1.0;
+  EXPECT_EQ(planner.plan(field, across(), termination).outcome, Outcome::kTimeUp);
+}
+
+TEST(Planner, PlansFromAMovingStartAndKeepsTheJoint) {
+  const map::DistanceField field = islands();
+  Planner planner(Options{}, vessel::Parameters{});
+  const Plan first = planner.plan(field, across(), byIterations());
+  ASSERT_EQ(first.outcome, Outcome::kSolved);
+  Query query = across();
+  const double when = 0.5 * first.trajectory.duration();
+  query.start = first.trajectory.flat(when);
+  query.start_psi_rad = first.trajectory.sample(when, vessel::Parameters{}).state[vessel::kPsi];
+  ASSERT_GT(query.start.velocity.norm(), 1.0);
+  const Plan second = planner.plan(field, query, byIterations());
+  ASSERT_EQ(second.outcome, Outcome::kSolved) << second.reason;
+  const vessel::FlatPoint joint = second.trajectory.flat(0.0);
+  EXPECT_LT((joint.velocity - query.start.velocity).norm(), 1e-6);
+  EXPECT_LT((joint.jerk - query.start.jerk).norm(), 1e-6);
+  EXPECT_TRUE(verifyPlan(second, field, query).ok);
+}
+
+TEST(Planner, IsNoWorseThanItsWarmStart) {
+  const map::DistanceField field = islands();
+  Planner planner(Options{}, vessel::Parameters{});
+  const Plan first = planner.plan(field, across(), byIterations());
+  ASSERT_EQ(first.outcome, Outcome::kSolved);
+  Query query = across();
+  query.warm_start = &first.trajectory;
+  query.seed = 77;
+  const Plan second = planner.plan(field, query, byIterations());
+  ASSERT_EQ(second.outcome, Outcome::kSolved);
+  EXPECT_LE(second.trajectory.duration(), first.trajectory.duration() + 1.0);
+}
+
+TEST(PlannerOptions, ShippedFilesLoad) {
+  const auto options = loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config");
+  ASSERT_TRUE(options) << options.error().message;
+  EXPECT_EQ(options->clearance_m, 0.8);
+}
+
+}  // namespace
+}  // namespace otter_nav::planner

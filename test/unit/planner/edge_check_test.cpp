@@ -1,0 +1,51 @@
+#include "otter_nav/planner/edge_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include "otter_nav/planner/obvp.hpp"
+#include "planner_ground.hpp"
+
+namespace otter_nav::planner {
+namespace {
+
+KinoState moving(double x, double y, double speed) {
+  KinoState state;
+  state.position = {x, y};
+  state.velocity = {speed, 0.0};
+  return state;
+}
+
+EdgeCheck makeCheck(const map::DistanceField& field) {
+  EdgeCheck check(EdgeLimits{}, vessel::Parameters{});
+  check.setField(field);
+  return check;
+}
+
+TEST(EdgeCheck, PassesASteadyEdgeOnOpenWater) {
+  const map::DistanceField field = test::openWater();
+  const auto piece = quinticPiece(moving(-10, 0, 4), moving(10, 0, 4), 5.0);
+  EXPECT_EQ(makeCheck(field).check(piece), EdgeFault::kNone);
+}
+
+TEST(EdgeCheck, NamesWhatFails) {
+  const map::DistanceField field = test::openWater();
+  const EdgeCheck check = makeCheck(field);
+  EXPECT_EQ(check.check(quinticPiece(moving(-10, 0, 4), moving(10, 0, 4), 3.0)), EdgeFault::kSpeed);
+  EXPECT_EQ(check.check(quinticPiece(moving(0, 0, 4), moving(2, 0, 0), 1.0)), EdgeFault::kThrust);
+}
+
+TEST(EdgeCheck, SeesAnObstacleThinnerThanItsSteps) {
+  // One cell of 0.25 m, met at 4 m/s: 0.06 s.
+  const map::DistanceField field = test::withObstacle(0.0, 0.0, 0.25, 0.25);
+  const EdgeCheck check = makeCheck(field);
+  EXPECT_EQ(check.check(quinticPiece(moving(-10, 0, 4), moving(10, 0, 4), 5.0)),
+            EdgeFault::kCollision);
+  // Beside it with the clearance asked for, and a little less.
+  EXPECT_EQ(check.check(quinticPiece(moving(-10, -0.95, 4), moving(10, -0.95, 4), 5.0)),
+            EdgeFault::kNone);
+  EXPECT_EQ(check.check(quinticPiece(moving(-10, -0.75, 4), moving(10, -0.75, 4), 5.0)),
+            EdgeFault::kCollision);
+}
+
+}  // namespace
+}  // namespace otter_nav::planner
