@@ -8,7 +8,8 @@
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr double kStretch = 1.15;     // of the edge's time when its dynamics fail
+constexpr double kStretch = 1.15;  // of the edge's time when its dynamics fail
+constexpr double kLeastPushM = 0.1;
 constexpr double kSquareCells = 0.7;  // from a cell's centre to what its square reaches
 
 // Coefficients of s^0..s^5 (rows) of the quintic Hermite basis (columns).
@@ -89,49 +90,87 @@ LocalOptimizer::LocalOptimizer(const LocalOptions& options, const vessel::Parame
   }
 }
 
-// Each point is drawn to where it was (f_o); a colliding one instead to the guidance point it is
-// pushed to, down the distance field's slope (f_c); one beyond a limit to the limit (f_d).
+// Guidance points (f_c): each colliding stretch moves aside as a whole, square to its course, to
+// the side where it has less far to go.
+void LocalOptimizer::guideStretch(const map::DistanceField& field, const States& states, int first,
+                                  int last, double weight, Pulls& pulls) const {
+  const double safe = options_.clearance_m + options_.clearance_margin_m +
+                      kSquareCells * field.geometry().resolution_m;
+  std::array<Eigen::Vector2d, kMaxSegments * kPoints> best;
+  double best_m = options_.push_max_m;
+  bool found = false;
+  for (const double side : {1.0, -1.0}) {
+    std::array<Eigen::Vector2d, kMaxSegments * kPoints> guided;
+    double farthest = 0.0;
+    for (int i = first; i <= last && farthest < best_m; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      const Eigen::Vector2d& course = states[index].col(1);
+      const Eigen::Vector2d aside =
+          side / std::max(course.norm(), 1e-6) * Eigen::Vector2d(-course.y(), course.x());
+      double moved = 0.0;
+      double distance = field.smooth(states[index].col(0)).distance_m;
+      while (distance < safe && moved < best_m) {
+        moved += std::max(safe - distance, kLeastPushM);
+        distance = field.smooth(states[index].col(0) + moved * aside).distance_m;
+      }
+      guided[index] = states[index].col(0) + moved * aside;
+      farthest = std::max(farthest, moved);
+    }
+    if (farthest < best_m) {
+      best_m = farthest;
+      best = guided;
+      found = true;
+    }
+  }
+  for (int i = first; i <= last && found; ++i) {
+    Pull& pull =
+        pulls[static_cast<std::size_t>(i / kPoints)][static_cast<std::size_t>(i % kPoints)];
+    pull.target.col(0) = best[static_cast<std::size_t>(i)];
+    pull.weight[0] = weight;
+  }
+}
+
+// Each point is drawn to where it was (f_o); a colliding one instead to its guidance point (f_c);
+// one beyond a limit to the limit (f_d).
 void LocalOptimizer::pullTowards(const map::DistanceField& field, const Knots& knots, double step_s,
                                  double growth, Pulls& pulls) const {
-  const double safe = options_.clearance_m + options_.clearance_margin_m +
+  const double need = options_.clearance_m + 0.5 * options_.clearance_margin_m +
                       kSquareCells * field.geometry().resolution_m;
   const double force = options_.force_share * 2.0 * vessel_.thrusters.ahead_max_n;
   const vessel::PaperModel& m = vessel_.paper;
   const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(options_.segments); ++i) {
+  States states;
+  int stretch = -1;  // first point of the colliding stretch
+  const int count = options_.segments * kPoints;
+  for (int i = 0; i < count; ++i) {
+    const auto segment = static_cast<std::size_t>(i / kPoints);
+    const auto point = static_cast<std::size_t>(i % kPoints);
     Eigen::Matrix<double, 2, 6> ends;
-    ends << knots[i], knots[i + 1];
-    const Eigen::Matrix<double, 2, 6> scaled = ends * scale.asDiagonal();
-    for (std::size_t k = 0; k < kPoints; ++k) {
-      Pull& pull = pulls[i][k];
-      Eigen::Matrix<double, 2, 3> z = scaled * basis_[k].transpose();
-      z.col(1) /= step_s;
-      z.col(2) /= step_s * step_s;
-      Eigen::Vector2d p = z.col(0);
-      for (int push = 0; push < 12; ++push) {
-        const map::DistanceField::Smooth d = field.smooth(p);
-        const double slope = d.gradient.norm();
-        if (d.distance_m >= safe || slope < 1e-3 || (p - z.col(0)).norm() > options_.push_max_m) {
-          break;
-        }
-        p += std::min(safe - d.distance_m + 0.05, 1.0) / slope * d.gradient;
-      }
-      if ((p - z.col(0)).squaredNorm() > 1e-6) {
-        pull.target.col(0) = p;
-        pull.weight[0] = std::max(pull.weight[0], options_.weight_clearance * growth);
-      } else if (pull.weight[0] <= options_.weight_original) {
-        pull.weight[0] = options_.weight_original;
-      }
-      const double speed = z.col(1).norm();
-      if (speed > options_.speed_max_mps) {
-        pull.target.col(1) = 0.95 * options_.speed_max_mps / speed * z.col(1);
-        pull.weight[1] = options_.weight_dynamics * growth;
-      }
-      const double w = (m.m1_kg * z.col(2) + m.d2_kgps * z.col(1)).norm();
-      if (w > force) {
-        pull.target.col(2) = z.col(2) * (force / w);
-        pull.weight[2] = options_.weight_dynamics * growth;
-      }
+    ends << knots[segment], knots[segment + 1];
+    Eigen::Matrix<double, 2, 3>& z = states[static_cast<std::size_t>(i)];
+    z = ends * scale.asDiagonal() * basis_[point].transpose();
+    z.col(1) /= step_s;
+    z.col(2) /= step_s * step_s;
+    Pull& pull = pulls[segment][point];
+    pull.weight[0] = std::max(pull.weight[0], options_.weight_original);
+    const bool collides = field.smooth(z.col(0)).distance_m < need;
+    if (collides && stretch < 0) {
+      stretch = i;
+    }
+    if (stretch >= 0 && (!collides || i + 1 == count)) {
+      guideStretch(field, states, stretch, collides ? i : i - 1, options_.weight_clearance * growth,
+                   pulls);
+      stretch = -1;
+    }
+    const double speed = z.col(1).norm();
+    if (speed > options_.speed_max_mps) {
+      pull.target.col(1) = 0.95 * options_.speed_max_mps / speed * z.col(1);
+      pull.weight[1] = options_.weight_dynamics * growth;
+    }
+    const double w = (m.m1_kg * z.col(2) + m.d2_kgps * z.col(1)).norm();
+    if (w > force) {
+      pull.target.col(2) = z.col(2) * (force / w);
+      pull.weight[2] = options_.weight_dynamics * growth;
     }
   }
 }

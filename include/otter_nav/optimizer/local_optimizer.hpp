@@ -89,6 +89,10 @@ class LocalOptimizer {
   };
   using Pulls = std::array<std::array<Pull, kPoints>, kMaxSegments>;
 
+  using States = std::array<Eigen::Matrix<double, 2, 3>, kMaxSegments * kPoints>;  // p, v, a
+
+  void guideStretch(const map::DistanceField& field, const States& states, int first, int last,
+                    double weight, Pulls& pulls) const;
   void pullTowards(const map::DistanceField& field, const Knots& knots, double step_s,
                    double growth, Pulls& pulls) const;
   void solve(const Pulls& pulls, double step_s, Knots& knots) const;

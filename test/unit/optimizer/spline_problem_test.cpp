@@ -80,8 +80,8 @@ TEST_F(SplineProblemTest, GradientIsThatOfTheCost) {
   constexpr double kStep = 1e-6;
   for (std::size_t k = 0; k < spline.knots.size(); ++k) {
     for (int row = 0; row < kBlockSize; ++row) {
-      const bool is_free = row < 8 ? spline.knots[k].free[static_cast<std::size_t>(row)]
-                                   : k < spline.spans.size();
+      const bool is_free =
+          row < 8 ? spline.knots[k].free[static_cast<std::size_t>(row)] : k < spline.spans.size();
       std::vector<System::Vector> step(spline.knots.size(), System::Vector::Zero());
       step[k][row] = kStep;
       Spline up = spline;

@@ -1,0 +1,146 @@
+// What the global optimiser returns is verified, nearly as short as its way, quick where the
+// optimum is known, and the same each time.
+#include "otter_nav/optimizer/global_optimizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "otter_nav/base/random.hpp"
+
+namespace otter_nav::optimizer {
+namespace {
+
+map::DistanceField islands(Random& random, int count) {
+  map::OccupancyGrid grid;
+  grid.geometry = {320, 320, 0.5, {-80.0, -80.0}};
+  grid.cells.assign(102400, map::Cell::kFree);
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(60.0, 260.0);
+    const double y = random.uniform(130.0, 190.0);
+    for (int row = 0; row < 320; ++row) {
+      for (int column = 0; column < 320; ++column) {
+        if (std::hypot(column - x, row - y) < 4.0) {
+          grid.cells[grid.geometry.index(column, row)] = map::Cell::kOccupied;
+        }
+      }
+    }
+  }
+  return map::DistanceField(grid, {});
+}
+
+Boundary berth(double x, double y, double psi_rad) {
+  Boundary b;
+  b.flat.position = {x, y};
+  b.psi_rad = psi_rad;
+  return b;
+}
+
+double lengthOf(const std::vector<Eigen::Vector2d>& way) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    length += (way[i] - way[i - 1]).norm();
+  }
+  return length;
+}
+
+TEST(GlobalOptimizer, StraightAheadTakesTheTimeFullThrustDoes) {
+  const vessel::Parameters vessel;
+  Random random(1);
+  const map::DistanceField field = islands(random, 0);
+  const GlobalOptions options;
+  GlobalOptimizer optimizer(options, vessel);
+  const auto result =
+      optimizer.optimize(field, std::vector<Eigen::Vector2d>{{-30.0, 0.0}, {30.0, 0.0}},
+                         berth(-30.0, 0.0, 0.0), berth(30.0, 0.0, 0.0), Budget());
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  EXPECT_NEAR(trajectory::length(result->trajectory), 60.0, 0.05);
+  // Bang-bang under the share allowed: no trajectory is quicker.
+  const double force = 100.0 * options.thrust_share;
+  double best = 0.0;
+  double s = 0.0;
+  double v = 0.0;
+  const auto stop_in = [&](double speed) {
+    double way = 0.0;
+    for (; speed > 0.0; speed -= 1e-3 * (force + 20.0 * speed) / 35.0) {
+      way += 1e-3 * speed;
+      best += 1e-3;
+    }
+    return way;
+  };
+  for (;; best += 1e-3) {
+    const double before = best;
+    if (s + stop_in(v) >= 60.0) {
+      break;
+    }
+    best = before;
+    s += 1e-3 * v;
+    v = std::min(v + 1e-3 * (force - 20.0 * v) / 35.0, options.speed_max_mps);
+  }
+  EXPECT_GT(result->trajectory.duration(), best);
+  EXPECT_LT(result->trajectory.duration(), 1.2 * best);
+}
+
+TEST(GlobalOptimizer, ReturnsVerifiedTrajectoriesAmongIslands) {
+  const vessel::Parameters vessel;
+  Random random(5);
+  GlobalOptimizer optimizer(GlobalOptions(), vessel);
+  int sailed = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const map::DistanceField field = islands(random, 6);
+    const Boundary start = berth(-55.0, random.uniform(-10.0, 10.0), random.uniform(-3.1, 3.1));
+    const Boundary goal = berth(55.0, random.uniform(-10.0, 10.0), random.uniform(-3.1, 3.1));
+    // Around the islands, to the north or the south.
+    const double side = trial % 2 == 0 ? 20.0 : -20.0;
+    const std::vector<Eigen::Vector2d> way = {
+        start.flat.position, {-45.0, side}, {45.0, side}, goal.flat.position};
+    const auto result = optimizer.optimize(field, way, start, goal, Budget());
+    ASSERT_TRUE(result.has_value()) << trial << ": " << result.error().message;
+    const Verification again =
+        verify(result->trajectory, field, vessel, start, goal, optimizer.checkOptions());
+    EXPECT_TRUE(again.ok) << again.reason;
+    EXPECT_LT(trajectory::length(result->trajectory), 1.05 * lengthOf(way));
+    sailed += result->last_resort ? 0 : 1;
+  }
+  EXPECT_GE(sailed, 11);
+}
+
+TEST(GlobalOptimizer, FromAMovingStartTakesOverItsMotion) {
+  const vessel::Parameters vessel;
+  Random random(3);
+  const map::DistanceField field = islands(random, 0);
+  GlobalOptimizer optimizer(GlobalOptions(), vessel);
+  Boundary start = berth(-40.0, 0.0, 0.0);
+  start.flat.velocity = {3.5, 0.5};
+  start.flat.acceleration = {0.1, 0.1};
+  start.flat.jerk = {0.0, 0.02};
+  const auto result =
+      optimizer.optimize(field, std::vector<Eigen::Vector2d>{{-40.0, 0.0}, {0.0, 8.0}, {40.0, 0.0}},
+                         start, berth(40.0, 0.0, 0.2), Budget());
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  const vessel::FlatPoint z = result->trajectory.flat(0.0);
+  EXPECT_LT((z.velocity - start.flat.velocity).norm(), 1e-9);
+  EXPECT_LT((z.jerk - start.flat.jerk).norm(), 1e-9);
+}
+
+TEST(GlobalOptimizer, SameInputsGiveTheSameTrajectory) {
+  const vessel::Parameters vessel;
+  Random random(9);
+  const map::DistanceField field = islands(random, 4);
+  const std::vector<Eigen::Vector2d> way = {{-50.0, 0.0}, {0.0, 22.0}, {50.0, 0.0}};
+  const auto run = [&] {
+    GlobalOptimizer optimizer(GlobalOptions(), vessel);
+    return optimizer.optimize(field, way, berth(-50.0, 0.0, 1.0), berth(50.0, 0.0, -1.0), Budget());
+  };
+  const auto a = run();
+  const auto b = run();
+  ASSERT_TRUE(a.has_value() && b.has_value());
+  ASSERT_EQ(a->trajectory.pieces().size(), b->trajectory.pieces().size());
+  for (std::size_t i = 0; i < a->trajectory.pieces().size(); ++i) {
+    EXPECT_EQ(a->trajectory.pieces()[i].position, b->trajectory.pieces()[i].position);
+    EXPECT_EQ(a->trajectory.pieces()[i].duration_s, b->trajectory.pieces()[i].duration_s);
+  }
+}
+
+}  // namespace
+}  // namespace otter_nav::optimizer

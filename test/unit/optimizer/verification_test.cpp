@@ -1,0 +1,181 @@
+// Verification passes a sound trajectory and names each kind of fault put into it.
+#include "otter_nav/optimizer/verification.hpp"
+
+#include <gtest/gtest.h>
+
+#include "otter_nav/optimizer/global_optimizer.hpp"
+#include "otter_nav/optimizer/spin.hpp"
+
+namespace otter_nav::optimizer {
+namespace {
+
+using trajectory::Piece;
+using trajectory::Trajectory;
+
+// 60 m by 60 m of water with a rock of one cell at (30.25, 29.25).
+map::DistanceField rockField(bool with_rock = true) {
+  map::OccupancyGrid grid;
+  grid.geometry = {120, 120, 0.5, {0.0, 0.0}};
+  grid.cells.assign(14400, map::Cell::kFree);
+  if (with_rock) {
+    grid.cells[grid.geometry.index(60, 58)] = map::Cell::kOccupied;
+  }
+  return map::DistanceField(grid, {});
+}
+
+Boundary berth(double x, double y, double psi_rad) {
+  Boundary b;
+  b.flat.position = {x, y};
+  b.psi_rad = psi_rad;
+  return b;
+}
+
+class VerificationTest : public ::testing::Test {
+ protected:
+  VerificationTest() {
+    GlobalOptimizer optimizer(GlobalOptions(), vessel);
+    const auto result = optimizer.optimize(
+        field, std::vector<Eigen::Vector2d>{{10.0, 30.0}, {30.0, 31.5}, {50.0, 30.0}}, start, goal,
+        Budget());
+    EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message);
+    pieces = result ? result->trajectory.pieces() : std::vector<Piece>();
+    options = optimizer.checkOptions();
+  }
+
+  [[nodiscard]] Verification check() const {
+    return verify(Trajectory(pieces), field, vessel, start, goal, options);
+  }
+  // A piece well under way.
+  Piece& middle() { return pieces[2]; }
+
+  void expectFault(const std::string& word) const {
+    const Verification v = check();
+    EXPECT_FALSE(v.ok);
+    EXPECT_NE(v.reason.find(word), std::string::npos) << v.reason;
+  }
+
+  vessel::Parameters vessel;
+  map::DistanceField field = rockField();
+  Boundary start = berth(10.0, 30.0, 0.4);
+  Boundary goal = berth(50.0, 30.0, -2.0);
+  std::vector<Piece> pieces;
+  CheckOptions options;
+};
+
+TEST_F(VerificationTest, PassesWhatIsSound) {
+  const Verification v = check();
+  EXPECT_TRUE(v.ok) << v.reason;
+  EXPECT_GE(v.clearance_m, 0.8);
+  EXPECT_LE(v.thrust_share, options.thrust_share);
+}
+
+TEST_F(VerificationTest, EmptyAndNotFinite) {
+  pieces[1].position(0, 3) = std::nan("");
+  expectFault("not finite");
+  pieces.clear();
+  expectFault("empty");
+}
+
+TEST_F(VerificationTest, JumpsOfEachOrder) {
+  const std::vector<Piece> sound = pieces;
+  const char* names[] = {"position jumps", "velocity jumps", "acceleration jumps", "jerk jumps"};
+  const double jumps[] = {1e-3, 1e-3, 1e-3, 1e-3};
+  for (int order = 0; order < 4; ++order) {
+    pieces = sound;
+    middle().position(1, order) += jumps[order];
+    expectFault(names[order]);
+  }
+}
+
+TEST_F(VerificationTest, RockInTheWay) {
+  for (Piece& piece : pieces) {
+    piece.position(1, 0) -= 1.6;
+  }
+  start.flat.position.y() -= 1.6;
+  goal.flat.position.y() -= 1.6;
+  expectFault("obstacle");
+}
+
+TEST_F(VerificationTest, OutOfTheMap) {
+  for (Piece& piece : pieces) {
+    piece.position(1, 0) += 29.5;
+  }
+  start.flat.position.y() += 29.5;
+  goal.flat.position.y() += 29.5;
+  expectFault("obstacle");
+}
+
+TEST_F(VerificationTest, LimitsOfThrustSpeedAndTurning) {
+  const CheckOptions sound = options;
+  options.thrust_share = 0.7;
+  expectFault("thrust");
+  options = sound;
+  options.speed_max_mps = 2.0;
+  expectFault("too fast");
+  options = sound;
+  options.yaw_rate_max_radps = 0.05;
+  expectFault("turns too fast");
+}
+
+TEST_F(VerificationTest, EndsNotMet) {
+  const Boundary right = start;
+  start.psi_rad += 0.1;
+  expectFault("start heading");
+  start = right;
+  start.flat.position.x() += 0.1;
+  expectFault("start position");
+  start = right;
+  start.flat.velocity.x() = 1.0;
+  expectFault("start motion");
+  start = right;
+  goal.psi_rad += 0.1;
+  expectFault("goal heading");
+}
+
+TEST_F(VerificationTest, SailsAsternOnAStraight) {
+  vessel::FlatPoint from;
+  vessel::FlatPoint to;
+  from.position = {10.0, 30.0};
+  to.position = {16.0, 30.0};
+  to.velocity = {-1.0, 0.0};
+  to.acceleration = {-0.5, 0.0};
+  pieces = {trajectory::hermitePiece(from, to, 6.0)};
+  const Verification v = verify(Trajectory(pieces), field, vessel, options);
+  EXPECT_FALSE(v.ok);
+  EXPECT_NE(v.reason.find("astern"), std::string::npos) << v.reason;
+}
+
+// Turning while |w| vanishes: the heading is undefined there.
+TEST_F(VerificationTest, TurnsWithoutForce) {
+  vessel::FlatPoint from;
+  vessel::FlatPoint to;
+  from.position = {10.0, 30.0};
+  from.velocity = {3.0, 0.0};
+  to.position = {16.0, 30.2};
+  to.velocity = {0.2, 0.4};
+  pieces = {trajectory::hermitePiece(from, to, 3.0)};
+  options.thrust_share = 1e3;
+  options.yaw_rate_max_radps = 1e3;
+  const Verification v = verify(Trajectory(pieces), field, vessel, options);
+  EXPECT_FALSE(v.ok);
+}
+
+TEST_F(VerificationTest, ASpinMustStandStill) {
+  std::vector<Piece> spin;
+  appendSpin(pieces.back().flat(pieces.back().duration_s).position, goal.psi_rad, 1.0, vessel,
+             SpinLimits(), spin);
+  const std::vector<Piece> before(pieces);
+  pieces.insert(pieces.end(), spin.begin(), spin.end());
+  goal.psi_rad += 1.0;
+  EXPECT_TRUE(check().ok) << check().reason;
+  // A spin that begins elsewhere than the sailing ended with its heading.
+  pieces = before;
+  for (Piece& piece : spin) {
+    piece.heading[0] += 0.1;
+  }
+  pieces.insert(pieces.end(), spin.begin(), spin.end());
+  expectFault("heading");
+}
+
+}  // namespace
+}  // namespace otter_nav::optimizer
