@@ -1,6 +1,7 @@
 #include "otter_nav/optimizer/spin.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace otter_nav::optimizer {
@@ -49,77 +50,153 @@ Phases phasesOf(double turn_rad, const vessel::Parameters& vessel, const SpinLim
   return p;
 }
 
-// One phase: r(t) = r_end + (r_0 - r_end) exp(-t / lag), in pieces no longer than the lag.
-class PhaseWriter {
- public:
-  PhaseWriter(const Eigen::Vector2d& position, double psi_start_rad, double sign, double lag_s,
-              std::vector<trajectory::Piece>& pieces)
-      : position_(position), psi_(psi_start_rad), sign_(sign), lag_s_(lag_s), pieces_(pieces) {}
+// What the turn has reached: heading, yaw rate, its derivative, and the heading's integral.
+struct Reached {
+  double integral = 0.0;
+  double psi = 0.0;
+  double r = 0.0;
+  double r1 = 0.0;
+};
 
-  void append(double r_0, double r_end, double duration_s) {
-    if (duration_s < 1e-9) {
-      return;
+// The time-optimal turn to the left as a function of time, phase by phase:
+// r = r_end + (r_0 - r_end) exp(-t / lag). Before its start it is at rest at zero.
+class OptimalTurn {
+ public:
+  explicit OptimalTurn(const Phases& p) : lag_s_(p.lag_s) {
+    append(0.0, p.r_end, p.up_s);
+    append(p.r_top, p.r_top, p.steady_s);
+    append(p.r_top, -p.r_end, p.down_s);
+    starts_[3] = {end_s_, reached_, 0.0};
+  }
+
+  // Starts of the phases, and the end.
+  [[nodiscard]] double joint(std::size_t k) const { return starts_[k].time_s; }
+
+  // At `t`, by the equations in force at `within` (of the same phase: both sides of a joint).
+  [[nodiscard]] Reached at(double t, double within) const {
+    if (within < 0.0) {
+      return {};
     }
-    const int count = std::max(1, static_cast<int>(std::ceil(duration_s / lag_s_)));
-    const double step = duration_s / count;
-    double turned = 0.0;
-    for (int i = 0; i < count; ++i) {
-      const double end = turnAt(r_0, r_end, step * (i + 1));
-      pieces_.push_back(piece(r_0, r_end, step * i, turned, end, step));
-      turned = end;
+    std::size_t k = 3;
+    while (k > 0 && starts_[k].time_s > within) {
+      --k;
     }
-    psi_ += sign_ * turned;
+    return after(starts_[k], t - starts_[k].time_s);
   }
 
  private:
-  [[nodiscard]] double turnAt(double r_0, double r_end, double t) const {
-    return r_end * t + (r_0 - r_end) * lag_s_ * (1.0 - std::exp(-t / lag_s_));
+  struct Start {
+    double time_s = 0.0;
+    Reached reached;
+    double r_end = 0.0;
+  };
+
+  [[nodiscard]] Reached after(const Start& start, double t) const {
+    const double excess = start.reached.r - start.r_end;
+    const double decay = std::exp(-t / lag_s_);
+    const double gone = lag_s_ * (1.0 - decay);
+    Reached now;
+    now.r = start.r_end + excess * decay;
+    now.r1 = -excess * decay / lag_s_;
+    now.psi = start.reached.psi + start.r_end * t + excess * gone;
+    now.integral = start.reached.integral + start.reached.psi * t + 0.5 * start.r_end * t * t +
+                   excess * lag_s_ * (t - gone);
+    return now;
   }
 
-  [[nodiscard]] trajectory::Piece piece(double r_0, double r_end, double t, double turn_0,
-                                        double turn_1, double step) const {
-    vessel::FlatPoint start;
-    vessel::FlatPoint end;
-    const auto set = [&](vessel::FlatPoint& z, double time, double turn) {
-      const double decay = (r_0 - r_end) * std::exp(-time / lag_s_);
-      z.position.x() = psi_ + sign_ * turn;
-      z.velocity.x() = sign_ * (r_end + decay);
-      z.acceleration.x() = -sign_ * decay / lag_s_;
-      z.jerk.x() = sign_ * decay / (lag_s_ * lag_s_);
-    };
-    set(start, t, turn_0);
-    set(end, t + step, turn_1);
-    trajectory::Piece spin;
-    spin.kind = trajectory::PieceKind::kSpin;
-    spin.duration_s = step;
-    spin.heading = trajectory::hermitePiece(start, end, step).position.row(0);
-    spin.position.col(0) = position_;
-    return spin;
+  void append(double r_0, double r_end, double duration_s) {
+    reached_.r = r_0;
+    starts_[count_] = {end_s_, reached_, r_end};
+    reached_ = after(starts_[count_], duration_s);
+    reached_.r1 = 0.0;
+    end_s_ += duration_s;
+    ++count_;
+    if (count_ == 3) {
+      reached_.r = 0.0;
+    }
   }
 
-  Eigen::Vector2d position_;
-  double psi_;
-  double sign_;
   double lag_s_;
-  std::vector<trajectory::Piece>& pieces_;
+  std::array<Start, 4> starts_;
+  std::size_t count_ = 0;
+  double end_s_ = 0.0;
+  Reached reached_;
 };
+
+// The optimal turn's mean over the last `ramp` seconds: the same turn (the equation of motion is
+// linear), with a moment that ramps where the optimal one jumps.
+class SmoothTurn {
+ public:
+  SmoothTurn(const OptimalTurn& turn, double ramp_s) : turn_(turn), ramp_s_(ramp_s) {}
+
+  // [psi, r, r', r''] at `t` on the side of `within`.
+  [[nodiscard]] Eigen::Vector4d at(double t, double within) const {
+    const Reached now = turn_.at(t, within);
+    const Reached before = turn_.at(t - ramp_s_, within - ramp_s_);
+    return Eigen::Vector4d(now.integral - before.integral, now.psi - before.psi, now.r - before.r,
+                           now.r1 - before.r1) /
+           ramp_s_;
+  }
+
+  // Where the equations change, in order, from start to end.
+  [[nodiscard]] std::array<double, 8> joints() const {
+    std::array<double, 8> times{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      times[2 * k] = turn_.joint(k);
+      times[2 * k + 1] = turn_.joint(k) + ramp_s_;
+    }
+    std::sort(times.begin(), times.end());
+    return times;
+  }
+
+ private:
+  const OptimalTurn& turn_;
+  double ramp_s_;
+};
+
+vessel::FlatPoint headingPoint(const Eigen::Vector4d& turned, double psi_start_rad, double sign) {
+  vessel::FlatPoint z;
+  z.position.x() = psi_start_rad + sign * turned[0];
+  z.velocity.x() = sign * turned[1];
+  z.acceleration.x() = sign * turned[2];
+  z.jerk.x() = sign * turned[3];
+  return z;
+}
 
 }  // namespace
 
 double spinDuration(double turn_rad, const vessel::Parameters& vessel, const SpinLimits& limits) {
   const Phases p = phasesOf(turn_rad, vessel, limits);
-  return p.up_s + p.steady_s + p.down_s;
+  return p.up_s + p.steady_s + p.down_s + limits.ramp_s;
 }
 
 void appendSpin(const Eigen::Vector2d& position, double psi_start_rad, double turn_rad,
                 const vessel::Parameters& vessel, const SpinLimits& limits,
                 std::vector<trajectory::Piece>& pieces) {
+  constexpr double kShortestS = 1e-6;
   const Phases p = phasesOf(turn_rad, vessel, limits);
   const double sign = turn_rad < 0.0 ? -1.0 : 1.0;
-  PhaseWriter writer(position, psi_start_rad, sign, p.lag_s, pieces);
-  writer.append(0.0, p.r_end, p.up_s);
-  writer.append(p.r_top, p.r_top, p.steady_s);
-  writer.append(p.r_top, -p.r_end, p.down_s);
+  const OptimalTurn optimal(p);
+  const SmoothTurn smooth(optimal, limits.ramp_s);
+  const std::array<double, 8> joints = smooth.joints();
+  for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
+    const double length_s = joints[k + 1] - joints[k];
+    const int count = std::max(1, static_cast<int>(std::ceil(length_s / p.lag_s)));
+    const double step = length_s / count;
+    for (int i = 0; i < count && length_s > kShortestS; ++i) {
+      const double from = joints[k] + step * i;
+      const double within = from + 0.5 * step;
+      trajectory::Piece spin;
+      spin.kind = trajectory::PieceKind::kSpin;
+      spin.duration_s = step;
+      spin.position.col(0) = position;
+      spin.heading = trajectory::hermitePiece(
+                         headingPoint(smooth.at(from, within), psi_start_rad, sign),
+                         headingPoint(smooth.at(from + step, within), psi_start_rad, sign), step)
+                         .position.row(0);
+      pieces.push_back(spin);
+    }
+  }
 }
 
 }  // namespace otter_nav::optimizer
