@@ -64,9 +64,9 @@ TEST(Braking, IsHardInFrontOfAWall) {
 }
 
 TEST(Braking, StraightensOutOfACurve) {
-  const Trajectory sailed = circle(12.0, 3.5, 20.0);
+  const Trajectory sailed = circle(15.0, 3.3, 20.0);
   map::OccupancyGrid grid = openWater();
-  const Eigen::Vector2d ahead = sailed.flat(8.0).position;
+  const Eigen::Vector2d ahead = sailed.flat(8.5).position;
   block(grid, ahead.array() - 1.0, ahead.array() + 1.0);
   const map::DistanceField field = fieldOf(grid);
   const Braking stop = brakingTrajectory(sailed, 5.0, field, vessel::Parameters{}, {});
