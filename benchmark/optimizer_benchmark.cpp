@@ -112,6 +112,10 @@ int main(int argc, char** argv) {
   app.add_option("--dilate", options.dilation_max);
   app.add_option("--vmax", options.speed_max_mps);
   app.add_option("--wmin", options.heading_force_min_n);
+  app.add_option("--qr", options.quicken_rounds);
+  app.add_option("--qg", options.quicken_growth);
+  app.add_option("--yaw", options.yaw_rate_max_radps);
+  app.add_option("--wss", options.weight_smooth_straight);
   app.add_option("--wt", options.weight_time);
   app.add_option("--wl", options.weight_length);
   app.add_option("--ws", options.weight_smooth);

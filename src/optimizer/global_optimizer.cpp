@@ -110,6 +110,7 @@ class GlobalOptimizer::Solver {
     weights.time = options_.weight_time;
     weights.length = options_.weight_length;
     weights.smooth = options_.weight_smooth;
+    weights.smooth_straight = options_.weight_smooth_straight;
     weights.clearance = options_.weight_clearance * manner.weight_factor;
     weights.dynamics = options_.weight_dynamics * manner.weight_factor;
     weights.original = 0.0;
@@ -150,6 +151,7 @@ class GlobalOptimizer::Solver {
       const bool last = round + 1 == options_.rounds;
       verifyDilated(last ? 2.0 * options_.dilation_max : options_.dilation_max);
       if (result_.verification.ok) {
+        quicken(stop);
         return true;
       }
       if (outOfTime()) {
@@ -158,6 +160,34 @@ class GlobalOptimizer::Solver {
       tighten();
     }
     return false;
+  }
+
+  // A sound trajectory gets quicker: time weighs more, and what verifies and is better is kept.
+  void quicken(const SplineSolver::Stop& stop) {
+    Optimized best = std::move(result_);
+    for (int round = 0; round < options_.quicken_rounds; ++round) {
+      result_.iterations = best.iterations;
+      if (outOfTime()) {
+        break;
+      }
+      problem_.weights.time *= options_.quicken_growth;
+      best.iterations += solver_.improve(problem_, stop, spline_);
+      const Spline shape = spline_;
+      verifyDilated(options_.dilation_max);
+      if (result_.verification.ok && rank(result_.trajectory) < rank(best.trajectory)) {
+        best.trajectory = std::move(result_.trajectory);
+        best.verification = result_.verification;
+      } else if (!result_.verification.ok) {
+        tighten();
+      }
+      spline_ = shape;
+    }
+    result_ = std::move(best);
+  }
+
+  [[nodiscard]] double rank(const trajectory::Trajectory& trajectory) const {
+    return options_.weight_time * trajectory.duration() +
+           options_.weight_length * trajectory::length(trajectory);
   }
 
   // The first shape: durations held, limits of thrust left out, near the way. Nearly quadratic.
@@ -176,6 +206,7 @@ class GlobalOptimizer::Solver {
     problem_.weights.dynamics = options_.weight_dynamics * 1e-3;
     problem_.weights.original = options_.weight_original;
     problem_.weights.smooth = options_.weight_smooth_first;
+    problem_.weights.smooth_straight = options_.weight_smooth_first;
     problem_.originals = &originals_;
     stop.max_iterations = 4;
     stop.relative_decrease = 0.05;
@@ -285,6 +316,7 @@ class GlobalOptimizer::Solver {
     pieces.reserve(spline_.spans.size() + 12);
     const SpinLimits limits = spinLimits();
     if (ends_.start_after_spin) {
+      start_turn_ = wrapAngle(angleOf(lineOf(spline_, 0)) - start_->psi_rad);
       appendSpin(start_->flat.position, start_->psi_rad, start_turn_, vessel_, limits, pieces);
     }
     const std::size_t last = spline_.spans.size() - 1;
@@ -307,10 +339,11 @@ class GlobalOptimizer::Solver {
       const Knot& b = spline_.knots[i + 1];
       const double duration = spline_.spans[i].duration_s;
       pieces.push_back(spline_.spans[i].straight
-                           ? straightPiece(a, b, a.direction, duration)
+                           ? straightPiece(a, b, lineOf(spline_, i), duration)
                            : trajectory::hermitePiece(point(a), point(b), duration));
     }
     if (ends_.goal_before_spin) {
+      goal_turn_ = wrapAngle(goal_->psi_rad - angleOf(lineOf(spline_, last)));
       appendSpin(goal_->flat.position, goal_->psi_rad - goal_turn_, goal_turn_, vessel_, limits,
                  pieces);
     }

@@ -27,6 +27,7 @@ double lengthOf(const std::vector<Eigen::Vector2d>& polyline) {
 
 constexpr std::array<bool, 8> kAllFree = {true, true, true, true, true, true, true, true};
 constexpr std::array<bool, 8> kOnLine = {true, false, true, false, true, false, true, false};
+constexpr std::array<bool, 8> kSwings = {true, true, true, false, true, false, true, false};
 constexpr std::array<bool, 8> kAtRest = {false, false, false, false, true, false, true, false};
 constexpr std::array<bool, 8> kFixed = {};
 
@@ -180,7 +181,9 @@ void InitialWay::build(const map::DistanceField& field,
     spline.knots.push_back(first);
     spline.spans.push_back({kLaunchS, true, true});
     first.state << from, kLaunchMps * ends.leave, 1.0 * ends.leave, Eigen::Vector2d::Zero();
-    first.free = kOnLine;
+    first.free = ends.start_after_spin ? kSwings : kOnLine;
+    first.swing = ends.start_after_spin ? 1.0 : 0.0;
+    first.pivot = p0;
   } else {
     first.state << p0, ends.start.flat.velocity, ends.start.flat.acceleration, ends.start.flat.jerk;
     first.free = kFixed;
@@ -199,7 +202,9 @@ void InitialWay::build(const map::DistanceField& field,
   Knot& brake = spline.knots.back();
   brake.state << to, kBrakeMps * ends.arrive, -1.0 * ends.arrive, Eigen::Vector2d::Zero();
   brake.direction = ends.arrive;
-  brake.free = kOnLine;
+  brake.free = ends.goal_before_spin ? kSwings : kOnLine;
+  brake.swing = ends.goal_before_spin ? -1.0 : 0.0;
+  brake.pivot = p1;
   if (!ends.goal_before_spin) {
     last.state.col(2) = -2.0 * ends.arrive;
   }

@@ -31,12 +31,15 @@ Result<GlobalOptions> readGlobalOptions(config::Section section) {
   section.read("weight_time", o.weight_time, kPositiveWeight);
   section.read("weight_length", o.weight_length, kWeight);
   section.read("weight_smooth", o.weight_smooth, kPositiveWeight);
+  section.read("weight_smooth_straight", o.weight_smooth_straight, kPositiveWeight);
   section.read("weight_clearance", o.weight_clearance, kPositiveWeight);
   section.read("weight_dynamics", o.weight_dynamics, kPositiveWeight);
   section.read("weight_original", o.weight_original, kWeight);
   section.read("weight_smooth_first", o.weight_smooth_first, kPositiveWeight);
   section.read("weight_growth", o.weight_growth, {1.0, 100.0});
   section.read("rounds", o.rounds, {1, 100});
+  section.read("quicken_rounds", o.quicken_rounds, {0, 100});
+  section.read("quicken_growth", o.quicken_growth, {1.0, 10.0});
   section.read("iterations_per_round", o.iterations_per_round, {1, 1000});
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);

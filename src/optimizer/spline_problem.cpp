@@ -14,6 +14,7 @@ constexpr double kMotionKnee = 1.0;    // of speed, m/s, and yaw rate, rad/s
 constexpr double kClearanceKneeM = 1.0;
 constexpr double kForceFloorN = 3.0;  // |w| below this is treated as this
 constexpr double kSlowMps = 0.5;      // below it the length's curvature is bounded
+constexpr double kLeastLeverM = 0.2;  // a swinging knot nearer to its pivot keeps its direction
 constexpr double kEvenness = 0.02;    // pieces shall last about as long as their neighbours
 
 using Rows = Eigen::Matrix<double, 2, kOrders>;  // derivatives by position ... snap
@@ -170,14 +171,15 @@ void SplineProblem::addQuadraturePoint(const Spline& spline, std::size_t i, int 
   const double half_inverse = 0.5 / local.duration_s;
 
   const double speed = z.col(1).norm();
-  local.cost += weights.smooth * dt * z.col(3).squaredNorm() + weights.length * dt * speed;
+  const double smooth = spline.spans[i].straight ? weights.smooth_straight : weights.smooth;
+  local.cost += smooth * dt * z.col(3).squaredNorm() + weights.length * dt * speed;
   if (local.model) {
     for (int axis = 0; axis < 2; ++axis) {
       Rows rows = Rows::Zero();
       rows(axis, 3) = 1.0;
       Local::Vector j = local.chain(rows);
       j[Local::kDuration] += half_inverse * z(axis, 3);
-      local.addSquare(weights.smooth * dt, z(axis, 3), j);
+      local.addSquare(smooth * dt, z(axis, 3), j);
     }
     if (speed > 1e-6) {
       Rows rows = Rows::Zero();
@@ -200,7 +202,7 @@ void SplineProblem::addQuadraturePoint(const Spline& spline, std::size_t i, int 
     }
   }
   if (spline.spans[i].straight) {
-    addStraight(z, spline.knots[i].direction, local);
+    addStraight(z, lineOf(spline, i), local);
   } else {
     addFree(z, local);
   }
@@ -267,7 +269,7 @@ void SplineProblem::addPiece(const Spline& spline, std::size_t i, Local& local) 
   }
   if (field != nullptr) {
     for (int point = 0; point < kClearancePoints; ++point) {
-      addClearance(point, span.straight, spline.knots[i].direction, local);
+      addClearance(point, span.straight, lineOf(spline, i), local);
     }
   }
 }
@@ -288,6 +290,23 @@ void rotatePairs(const Eigen::Vector2d& direction, int first, Vector& gradient, 
     hessian.template middleRows<2>(row) = (to_frame * hessian.template middleRows<2>(row)).eval();
     hessian.template middleCols<2>(row) =
         (hessian.template middleCols<2>(row) * to_frame.transpose()).eval();
+  }
+}
+
+// For a swinging knot, moving across by x turns its motion by x over the distance to the pivot: the
+// column of that position takes over its share of the columns of velocity, acceleration and jerk.
+template <typename Vector, typename Matrix>
+void swingColumns(const Knot& knot, int first, Vector& gradient, Matrix& hessian) {
+  if (knot.swing == 0.0) {
+    return;
+  }
+  const double lever = std::max((knot.state.col(0) - knot.pivot).norm(), kLeastLeverM) * knot.swing;
+  for (int m = 1; m < 4; ++m) {
+    const double share = knot.direction.dot(knot.state.col(m)) / lever;
+    const int from = first + 2 * m + 1;
+    gradient[first + 1] += share * gradient[from];
+    hessian.row(first + 1) += share * hessian.row(from);
+    hessian.col(first + 1) += share * hessian.col(from);
   }
 }
 
@@ -350,6 +369,8 @@ double SplineProblem::evaluate(const Spline& spline, System* system) const {
     }
     rotatePairs(spline.knots[i].direction, 0, local.gradient, local.hessian);
     rotatePairs(spline.knots[i + 1].direction, 9, local.gradient, local.hessian);
+    swingColumns(spline.knots[i], 0, local.gradient, local.hessian);
+    swingColumns(spline.knots[i + 1], 9, local.gradient, local.hessian);
     system->diagonal[i] += local.hessian.topLeftCorner<9, 9>();
     system->diagonal[i + 1].topLeftCorner<8, 8>() += local.hessian.bottomRightCorner<8, 8>();
     system->below[i].topRows<8>() += local.hessian.bottomLeftCorner<8, 9>();
@@ -363,12 +384,33 @@ double SplineProblem::evaluate(const Spline& spline, System* system) const {
   return local.cost;
 }
 
+namespace {
+
+// Turns a swinging knot's motion into the direction its position gives.
+void swing(Knot& knot) {
+  const Eigen::Vector2d lever = knot.swing * (knot.state.col(0) - knot.pivot);
+  const double length = lever.norm();
+  if (length < kLeastLeverM || lever.dot(knot.direction) < 0.5 * length) {
+    return;
+  }
+  const Eigen::Vector2d direction = lever / length;
+  for (int m = 1; m < 4; ++m) {
+    knot.state.col(m) = knot.direction.dot(knot.state.col(m)) * direction;
+  }
+  knot.direction = direction;
+}
+
+}  // namespace
+
 void SplineProblem::apply(const std::vector<System::Vector>& step, double scale, Spline& spline) {
   for (std::size_t k = 0; k < spline.knots.size(); ++k) {
     Knot& knot = spline.knots[k];
     const Eigen::Vector2d side = across(knot.direction);
     for (int m = 0; m < 4; ++m) {
       knot.state.col(m) += scale * (step[k][2 * m] * knot.direction + step[k][2 * m + 1] * side);
+    }
+    if (knot.swing != 0.0) {
+      swing(knot);
     }
     if (k < spline.spans.size()) {
       double& duration = spline.spans[k].duration_s;

@@ -45,13 +45,16 @@ struct GlobalOptions {
   // Weights: of a second, of a metre of way, and the paper's.
   double weight_time = 1.0;
   double weight_length = 0.1;
-  double weight_smooth = 0.1;        // ls, on the integral of squared jerk
-  double weight_clearance = 20.0;    // lc
-  double weight_dynamics = 5.0;      // ld
-  double weight_original = 0.3;      // lo, while the first shape is found
-  double weight_smooth_first = 0.1;  // ls then
-  double weight_growth = 1.5;        // of lc and ld from round to round where they fail
+  double weight_smooth = 0.1;             // ls, on the integral of squared jerk
+  double weight_smooth_straight = 0.005;  // ls on launch and brake, where no moment is at stake
+  double weight_clearance = 20.0;         // lc
+  double weight_dynamics = 5.0;           // ld
+  double weight_original = 0.3;           // lo, while the first shape is found
+  double weight_smooth_first = 0.1;       // ls then
+  double weight_growth = 1.5;             // of lc and ld from round to round where they fail
   int rounds = 6;
+  int quicken_rounds = 3;       // after the first sound result
+  double quicken_growth = 1.6;  // of weight_time, in each of them
   int iterations_per_round = 12;
 };
 

@@ -31,12 +31,16 @@ struct Knot {
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
   // [p along, p across, v along, ..., j across]
   std::array<bool, 8> free = {true, true, true, true, true, true, true, true};
+  // Not zero: the knot swings about `pivot` (a spin's place): its direction is `swing` (1 or -1)
+  // times that from the pivot to it, all its motion is along, and moving across turns it.
+  double swing = 0.0;
+  Eigen::Vector2d pivot = Eigen::Vector2d::Zero();
 };
 
 struct Span {
   double duration_s = 1.0;
   bool duration_free = true;
-  // Both knots lie on a line along `direction` of the first, with all their derivatives: the
+  // Both knots lie on a line (lineOf), with all their derivatives: the
   // heading does not turn, and |w| may vanish.
   bool straight = false;
 };
@@ -46,10 +50,16 @@ struct Spline {
   std::vector<Span> spans;  // one less
 };
 
+// The direction of straight piece `i`: that of its knot that may swing.
+[[nodiscard]] inline const Eigen::Vector2d& lineOf(const Spline& spline, std::size_t i) {
+  return spline.knots[spline.knots[i + 1].swing > 0.0 ? i + 1 : i].direction;
+}
+
 struct SplineWeights {
   double time = 1.0;
   double length = 0.1;
   double smooth = 0.01;
+  double smooth_straight = 0.01;  // on straight pieces, which do not turn
   double clearance = 20.0;
   double dynamics = 20.0;
   double original = 0.0;

@@ -97,6 +97,32 @@ TEST_F(SplineProblemTest, GradientIsThatOfTheCost) {
   }
 }
 
+TEST_F(SplineProblemTest, GradientOfASwingingKnotIsThatOfTheCost) {
+  Random random(13);
+  Spline spline = bentSpline(random);
+  Knot& rest = spline.knots[0];
+  rest.free = {};
+  rest.state.rightCols<3>().setZero();
+  Knot& knot = spline.knots[1];
+  knot.free = {true, true, true, false, true, false, true, false};
+  knot.swing = 1.0;
+  knot.pivot = rest.state.col(0);
+  System system;
+  problem.evaluate(spline, &system);
+  constexpr double kStep = 1e-6;
+  for (const int row : {0, 1, 2, 4, 6}) {
+    std::vector<System::Vector> step(spline.knots.size(), System::Vector::Zero());
+    step[1][row] = kStep;
+    Spline up = spline;
+    Spline down = spline;
+    SplineProblem::apply(step, 1.0, up);
+    SplineProblem::apply(step, -1.0, down);
+    const double slope =
+        (problem.evaluate(up, nullptr) - problem.evaluate(down, nullptr)) / (2.0 * kStep);
+    EXPECT_NEAR(system.right[1][row], -slope, 1e-4 * (1.0 + std::abs(slope))) << row;
+  }
+}
+
 TEST_F(SplineProblemTest, ClosedFormStepIsTheDenseSolution) {
   Random random(11);
   const Spline spline = bentSpline(random);
