@@ -121,8 +121,8 @@ void Planner::Pipeline::attemptOnce(Run& run, int attempt) {
   if (!done(run) && run.query.warm_start != nullptr && attempt == 0) {
     optimizeWay(run, *run.query.warm_start);
   }
-  if (run.plan.outcome != Outcome::kSolved && !run.timeUp() &&
-      searchTrees(run, attempt, Roots::kLaunched)) {
+  const bool poor = run.plan.outcome != Outcome::kSolved || (run.stopgap && attempt == 0);
+  if (poor && !run.timeUp() && searchTrees(run, attempt, Roots::kLaunched)) {
     closeTreesWay(run);
   }
 }
@@ -260,7 +260,7 @@ void Planner::Pipeline::closeTreesWay(Run& run) {
                          optimizer_.checkOptions(run.clearance_m));
   run.plan.figures.verify_ms += 1e3 * (run.now() - began);
   if (closed) {
-    accept(run, std::move(*closed), false);
+    accept(run, std::move(*closed), options_.global_optimization);
   } else if (run.plan.outcome != Outcome::kSolved) {
     run.plan.reason = closed.error().message;
   }
@@ -313,7 +313,8 @@ void Planner::Pipeline::tryWarmStart(Run& run) {
 }
 
 // The best by the optimiser's own measure: it trades seconds for jerk at another rate than the
-// trees. A stopgap (stop and spin) is better than nothing, and worse than anything else.
+// trees. A stopgap (from stop to stop, or slowed down) is better than nothing, and worse than
+// anything optimised.
 void Planner::Pipeline::accept(Run& run, trajectory::Trajectory trajectory, bool stopgap) {
   const double jerk = trajectoryCost(trajectory, 0.0);
   const double rank = trajectory.duration() + options_.global.weight_smooth * jerk;

@@ -33,7 +33,7 @@ class Planner::Pipeline {
     Plan plan;
     int samples_left = 0;
     double rank = 0.0;     // of plan.trajectory, once there is one; less is better
-    bool stopgap = false;  // it stops and spins along the way
+    bool stopgap = false;  // it could not be optimised
 
     [[nodiscard]] double now() const {
       return termination.elapsed_s ? termination.elapsed_s() : 0.0;

@@ -153,7 +153,7 @@ Result<trajectory::Trajectory> closeWay(const std::vector<Piece>& way,
                                         const map::DistanceField& field,
                                         const vessel::Parameters& vessel,
                                         const optimizer::CheckOptions& check) {
-  constexpr std::array<double, 7> kSlowdown = {1.0, 1.05, 1.1, 1.2, 1.4, 1.7, 2.1};
+  constexpr std::array<double, 10> kSlowdown = {1.0, 1.05, 1.1, 1.2, 1.4, 1.7, 2.1, 2.6, 3.2, 4.0};
   const std::vector<Piece> smooth = smoothed(way, start.flat.jerk);
   std::string reason;
   for (const double slowdown : kSlowdown) {
