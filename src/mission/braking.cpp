@@ -62,8 +62,9 @@ Trajectory slowed(const Trajectory& sailed, double at_s, double duration_s) {
 double leastClearance(const Trajectory& trajectory, const map::DistanceField& field) {
   constexpr double kStepS = 0.05;
   double least = std::numeric_limits<double>::infinity();
-  for (double t = 0.0; t < trajectory.duration() + kStepS; t += kStepS) {
-    least = std::min(least, field.clearance(trajectory.flat(t).position));
+  const int steps = static_cast<int>(std::ceil(trajectory.duration() / kStepS));
+  for (int k = 0; k <= steps; ++k) {
+    least = std::min(least, field.clearance(trajectory.flat(k * kStepS).position));
   }
   return least;
 }
@@ -72,8 +73,9 @@ double leastClearance(const Trajectory& trajectory, const map::DistanceField& fi
 bool keepsAsternShare(const Trajectory& trajectory, const vessel::Parameters& vessel,
                       double share) {
   constexpr double kStepS = 0.05;
-  for (double t = 0.0; t < trajectory.duration(); t += kStepS) {
-    const double least = trajectory.sample(t, vessel).thrusts.minCoeff();
+  const int steps = static_cast<int>(std::ceil(trajectory.duration() / kStepS));
+  for (int k = 0; k <= steps; ++k) {
+    const double least = trajectory.sample(k * kStepS, vessel).thrusts.minCoeff();
     if (least < -share * vessel.thrusters.astern_max_n) {
       return false;
     }

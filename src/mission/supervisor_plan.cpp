@@ -17,7 +17,9 @@ constexpr double kLeastSpeedMps = 0.4;
 // From `at_s` on, the first time at which a new trajectory can begin: well under way, or at rest.
 std::optional<double> joiningTime(const trajectory::Trajectory& sailed, double at_s) {
   constexpr double kStepS = 0.1;
-  for (double t = at_s; t < sailed.duration(); t += kStepS) {
+  const int steps = static_cast<int>(std::ceil((sailed.duration() - at_s) / kStepS));
+  for (int k = 0; k < steps; ++k) {
+    const double t = at_s + k * kStepS;
     const std::size_t piece = sailed.pieceAt(t);
     if (sailed.pieces()[piece].kind == trajectory::PieceKind::kSpin) {
       return sailed.startOf(piece + 1);
