@@ -117,4 +117,4 @@ class Mission(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rostest.rosrun("otter_nav", "mission", Mission, sys.argv)
+    rostest.rosrun("otter_nav", "mission_test", Mission, sys.argv)

@@ -98,4 +98,4 @@ class Parameters(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rostest.rosrun("otter_nav", "parameters", Parameters, sys.argv)
+    rostest.rosrun("otter_nav", "parameters_test", Parameters, sys.argv)
