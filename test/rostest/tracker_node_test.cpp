@@ -114,7 +114,7 @@ TEST_F(TrackerNode, RefusesMalformedTrajectories) {
   message.pieces.push_back(message.pieces[0]);
   refused(message, "pieces[1]");
   message = straight(25, ros::Time::now() - ros::Duration(100.0));
-  refused(message, "over");
+  refused(message, "ended");
 }
 
 }  // namespace
