@@ -60,8 +60,8 @@ class GlobalOptimizer::Solver {
     budget_ = &budget;
     check_ = checkOptions(clearance_m);
     result_ = Optimized();
-    for (const Manner& manner :
-         {Manner{false, 1.0, 1.0}, Manner{true, 1.0, 3.0}, Manner{true, 0.8, 10.0}}) {
+    for (const Manner& manner : {Manner{false, 1.0, 1.0, 1.0}, Manner{false, 1.0, 1.0, 0.7},
+                                 Manner{true, 1.0, 3.0, 0.9}, Manner{true, 0.8, 10.0, 0.7}}) {
       if (attempt(way, manner)) {
         return std::move(result_);
       }
@@ -80,6 +80,7 @@ class GlobalOptimizer::Solver {
     bool spin_always;
     double thrust_factor;
     double weight_factor;
+    double length_factor;  // of the pieces
   };
 
   [[nodiscard]] bool outOfTime() const {
@@ -116,7 +117,7 @@ class GlobalOptimizer::Solver {
     weights.original = 0.0;
     problem_.field = field_;
     WayOptions& way = way_.options();
-    way.piece_length_m = options_.piece_length_m * std::sqrt(manner.thrust_factor);
+    way.piece_length_m = options_.piece_length_m * manner.length_factor;
     way.force_share = 0.9 * share;
     way.speed_max_mps = 0.97 * limits.speed_mps;
     way.clearance_m = limits.clearance_m;

@@ -33,26 +33,26 @@ struct GlobalOptions {
   double clearance_margin_m = 0.1;  // beyond it, aimed at
   bool keep_hull_clear = true;
   double thrust_share = 0.96;   // of each thruster's limits, verified; the rest is for control
-  double thrust_margin = 0.04;  // of the limits, below that share: aimed at
+  double thrust_margin = 0.02;  // of the limits, below that share: aimed at
   double speed_max_mps = 4.8;
-  double yaw_rate_max_radps = 1.2;   // under way; a spin is limited by its thrust alone
+  double yaw_rate_max_radps = 1.8;   // under way; a spin is limited by its thrust alone
   double heading_force_min_n = 8.0;  // |w| while turning
   double spin_thrust_share = 0.94;
   double spin_angle_rad = 0.9;  // turns wider than this at an end at rest are spun on the spot
   // A trajectory that asks for this share too much of a thruster is slowed down to suit.
   double dilation_max = 0.06;
-  double piece_length_m = 8.0;
+  double piece_length_m = 9.0;
   // Weights: of a second, of a metre of way, and the paper's.
   double weight_time = 1.0;
   double weight_length = 0.1;
-  double weight_smooth = 0.1;             // ls, on the integral of squared jerk
-  double weight_smooth_straight = 0.005;  // ls on launch and brake, where no moment is at stake
-  double weight_clearance = 20.0;         // lc
-  double weight_dynamics = 5.0;           // ld
-  double weight_original = 0.3;           // lo, while the first shape is found
-  double weight_smooth_first = 0.1;       // ls then
-  double weight_growth = 1.5;             // of lc and ld from round to round where they fail
-  int rounds = 6;
+  double weight_smooth = 0.1;            // ls, on the integral of squared jerk
+  double weight_smooth_straight = 0.02;  // ls on launch and brake, where no moment is at stake
+  double weight_clearance = 20.0;        // lc
+  double weight_dynamics = 5.0;          // ld
+  double weight_original = 0.3;          // lo, while the first shape is found
+  double weight_smooth_first = 0.1;      // ls then
+  double weight_growth = 1.5;            // of lc and ld from round to round where they fail
+  int rounds = 5;
   int quicken_rounds = 3;       // after the first sound result
   double quicken_growth = 1.6;  // of weight_time, in each of them
   int iterations_per_round = 12;
@@ -66,7 +66,7 @@ struct GlobalOptions {
 struct Budget {
   std::function<double()> elapsed_s;
   double budget_s = 0.1;
-  int max_iterations = 200;
+  int max_iterations = 300;
 };
 
 struct Optimized {
