@@ -18,6 +18,7 @@ namespace {
 // A cell's square reaches this far beyond its centre, in cells (DistanceField::smooth measures to
 // centres), as seen from most directions.
 constexpr double kSquareCells = 0.7;
+constexpr double kBrakeM = 5.0;  // the last straight's first guess, at full piece length
 constexpr double kHullMarginM = 0.03;
 constexpr double kLookAheadM = 8.0;  // how far the way's first direction is taken
 
@@ -120,6 +121,7 @@ class GlobalOptimizer::Solver {
     way.piece_length_m = options_.piece_length_m * manner.length_factor;
     way.force_share = 0.9 * share;
     way.speed_max_mps = 0.97 * limits.speed_mps;
+    way.brake_m = kBrakeM * manner.length_factor * manner.length_factor;
     way.clearance_m = limits.clearance_m;
   }
 

@@ -13,9 +13,9 @@ constexpr double kSlowestMps = 0.8;
 constexpr double kLaunchM = 1.2;
 constexpr double kLaunchS = 1.1;
 constexpr double kLaunchMps = 2.0;
-constexpr double kBrakeM = 2.6;
-constexpr double kBrakeS = 1.6;
-constexpr double kBrakeMps = 3.0;
+constexpr double kBrakeS = 2.3;    // from kBrakeMps over kBrakeM; shorter ones in proportion to
+constexpr double kBrakeMps = 4.0;  // constant deceleration
+constexpr double kBrakeM = 5.0;
 
 double lengthOf(const std::vector<Eigen::Vector2d>& polyline) {
   double length = 0.0;
@@ -158,7 +158,11 @@ void InitialWay::build(const map::DistanceField& field,
                        Spline& spline) {
   const Eigen::Vector2d p0 = ends.start.flat.position;
   const Eigen::Vector2d p1 = ends.goal.flat.position;
-  const double shrink = std::min(1.0, 0.25 * (p1 - p0).norm() / kBrakeM);
+  const double room = 0.25 * (p1 - p0).norm();
+  const double brake_m = std::min(options_.brake_m, room);
+  const double launch_m = std::min(kLaunchM, room);
+  const double brake_share = std::sqrt(brake_m / kBrakeM);
+  const double brake_mps = brake_share * kBrakeMps;
   Knot first;
   Knot last;
   first.state.col(0) = p0;
@@ -176,7 +180,7 @@ void InitialWay::build(const map::DistanceField& field,
     if (!ends.start_after_spin) {
       first.state.col(2) = 2.2 * ends.leave;
     }
-    from = p0 + shrink * kLaunchM * ends.leave;
+    from = p0 + launch_m * ends.leave;
     speed_from = kLaunchMps;
     spline.knots.push_back(first);
     spline.spans.push_back({kLaunchS, true, true});
@@ -190,9 +194,9 @@ void InitialWay::build(const map::DistanceField& field,
   }
   spline.knots.push_back(first);
 
-  const Eigen::Vector2d to = p1 - shrink * kBrakeM * ends.arrive;
+  const Eigen::Vector2d to = p1 - brake_m * ends.arrive;
   stretchBand(field, polyline, from, to);
-  paceBand(speed_from, kBrakeMps);
+  paceBand(speed_from, brake_mps);
   const double length = spacing_m_ * static_cast<double>(band_.size() - 1);
   const int parts = std::max(2, static_cast<int>(std::ceil(length / options_.piece_length_m)));
   for (int i = 1; i <= parts; ++i) {
@@ -200,7 +204,7 @@ void InitialWay::build(const map::DistanceField& field,
     spline.knots.push_back(knotAt(length * i / parts));
   }
   Knot& brake = spline.knots.back();
-  brake.state << to, kBrakeMps * ends.arrive, -1.0 * ends.arrive, Eigen::Vector2d::Zero();
+  brake.state << to, brake_mps * ends.arrive, -1.0 * ends.arrive, Eigen::Vector2d::Zero();
   brake.direction = ends.arrive;
   brake.free = ends.goal_before_spin ? kSwings : kOnLine;
   brake.swing = ends.goal_before_spin ? -1.0 : 0.0;
@@ -208,7 +212,7 @@ void InitialWay::build(const map::DistanceField& field,
   if (!ends.goal_before_spin) {
     last.state.col(2) = -2.0 * ends.arrive;
   }
-  spline.spans.push_back({kBrakeS, true, true});
+  spline.spans.push_back({brake_share * kBrakeS, true, true});
   spline.knots.push_back(last);
 }
 

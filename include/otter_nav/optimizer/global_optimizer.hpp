@@ -41,7 +41,7 @@ struct GlobalOptions {
   double spin_angle_rad = 0.9;  // turns wider than this at an end at rest are spun on the spot
   // A trajectory that asks for this share too much of a thruster is slowed down to suit.
   double dilation_max = 0.06;
-  double piece_length_m = 9.0;
+  double piece_length_m = 10.0;
   // Weights: of a second, of a metre of way, and the paper's.
   double weight_time = 1.0;
   double weight_length = 0.1;

@@ -16,6 +16,7 @@ struct WayOptions {
   double piece_length_m = 6.0;
   double force_share = 0.85;  // of both thrusters together, for the first guess of the speed
   double speed_max_mps = 4.6;
+  double brake_m = 5.0;      // the last straight's first guess
   double clearance_m = 1.0;  // by DistanceField::smooth
 };
 
