@@ -3,8 +3,8 @@
 set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE} CACHE FILEPATH "Python for ament" FORCE)
 find_package(catkin REQUIRED COMPONENTS
   actionlib diagnostic_msgs diagnostic_updater geometry_msgs map_msgs message_generation
-  move_base_msgs nav_msgs rosbag roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs tf2 tf2_ros
-  visualization_msgs xmlrpcpp)
+  move_base_msgs nav_msgs rosbag roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs tf2 tf2_msgs
+  tf2_ros visualization_msgs xmlrpcpp)
 
 add_message_files(FILES
   ContactEvent.msg GuidePath.msg PlannerStatus.msg PlantState.msg ThrusterCommand.msg

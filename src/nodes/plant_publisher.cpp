@@ -54,7 +54,8 @@ PlantPublisher::PlantPublisher(ros::NodeHandle& node, const plant::LidarOptions&
       contact_(node.advertise<ContactEvent>("contact", kQueue, true)),
       wind_(node.advertise<geometry_msgs::Vector3Stamped>("wind", kQueue)),
       current_(node.advertise<geometry_msgs::Vector3Stamped>("current", kQueue)),
-      trail_(node, "trail") {
+      trail_(node, "trail"),
+      transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", kQueue, true)) {
   // A GNSS-aided navigation system is simulated, so odom and map coincide.
   static_transforms_.sendTransform(
       {transform(kMapFrame, kOdomFrame, Eigen::Vector3d::Zero(), ros::Time()),
@@ -97,14 +98,16 @@ void PlantPublisher::publishOdometry(const plant::Simulator& simulator, const ro
   set(level_from_body.transpose() * Eigen::Vector3d(0.0, 0.0, state[vessel::kYawRate]),
       message.twist.twist.angular);
 
-  geometry_msgs::TransformStamped& base = last_transform_;
+  geometry_msgs::TransformStamped base;
   base.header = message.header;
   base.child_frame_id = kBaseFrame;
   base.transform.translation.x = message.pose.pose.position.x;
   base.transform.translation.y = message.pose.pose.position.y;
   base.transform.translation.z = message.pose.pose.position.z;
   base.transform.rotation = message.pose.pose.orientation;
-  transforms_.sendTransform(base);
+  tf2_msgs::TFMessage transforms;
+  transforms.transforms.push_back(base);
+  transforms_.publish(transforms);
   odometry_.publish(message);
 }
 
@@ -178,7 +181,6 @@ void PlantPublisher::repeat() {
   rosgraph_msgs::Clock clock;
   clock.clock = last_odometry_.header.stamp;
   clock_.publish(clock);
-  transforms_.sendTransform(last_transform_);
   state_.publish(last_state_);
   odometry_.publish(last_odometry_);
   if (!last_scan_.header.frame_id.empty()) {

@@ -6,8 +6,8 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <sensor_msgs/LaserScan.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include "otter_nav/plant/simulator.hpp"
 #include "otter_nav/ros/trail.hpp"
@@ -21,7 +21,7 @@ class PlantPublisher {
   // Clock, transform, odometry and truth at `stamp`; contact when it begins and ends.
   void publish(const plant::Simulator& simulator, const ros::Time& stamp);
   void publishScan(const plant::Scan& scan, const ros::Time& stamp);
-  // The last of clock, transform, odometry, state and scan once more, for whoever was not there
+  // The last of clock, odometry, state and scan once more, for whoever was not there
   // yet.
   void repeat();
 
@@ -40,11 +40,10 @@ class PlantPublisher {
   ros::Publisher wind_;
   ros::Publisher current_;
   ros_bridge::Trail trail_;
-  tf2_ros::TransformBroadcaster transforms_;
+  ros::Publisher transforms_;  // latched, as time may stand still when somebody comes
   tf2_ros::StaticTransformBroadcaster static_transforms_;
 
   nav_msgs::Odometry last_odometry_;
-  geometry_msgs::TransformStamped last_transform_;
   sensor_msgs::LaserScan last_scan_;
   PlantState last_state_;
   bool in_contact_ = false;

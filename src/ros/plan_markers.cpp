@@ -15,9 +15,9 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 // Heights over the water that keep flat things from hiding one another.
-constexpr double kTreeHeightM = 0.05;
-constexpr double kGuideHeightM = 0.1;
-constexpr double kTrajectoryHeightM = 0.2;
+constexpr double kTreeHeightM = 0.02;
+constexpr double kGuideHeightM = 0.03;
+constexpr double kTrajectoryHeightM = 0.05;
 constexpr double kTrajectoryStepM = 0.5;
 constexpr int kCircleCorners = 24;
 
@@ -48,7 +48,7 @@ void addCircle(const geometry_msgs::Point& centre, double radius_m, Marker& line
 MarkerArray guidePathMarkers(const GuidePath& path) {
   MarkerArray array;
   array.markers.push_back(
-      lineStrip("guide path", 0, 0.35, color(0.95, 0.75, 0.1, 0.9), path.points, kGuideHeightM));
+      lineStrip("guide path", 0, 0.25, color(0.95, 0.75, 0.1, 0.9), path.points, kGuideHeightM));
   array.markers.push_back(
       lineStrip("dubins", 0, 0.15, color(0.5, 0.5, 0.5, 0.7), path.dubins, kTreeHeightM));
   Marker corridor =
@@ -90,7 +90,7 @@ MarkerArray treeMarkers(const planner::Plan& plan) {
 MarkerArray trajectoryMarkers(const trajectory::Trajectory& trajectory,
                               const vessel::Parameters& vessel) {
   MarkerArray array;
-  Marker ribbon = marker(kMapFrame, "trajectory", 0, Marker::LINE_STRIP, 0.45, color(1, 1, 1));
+  Marker ribbon = marker(kMapFrame, "trajectory", 0, Marker::LINE_STRIP, 0.3, color(1, 1, 1));
   double t_s = 0.0;
   while (!trajectory.empty()) {
     const vessel::FlatPoint flat = trajectory.flat(t_s);
