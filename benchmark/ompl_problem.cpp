@@ -10,7 +10,7 @@
 #include <ompl/control/planners/sst/SST.h>
 #include <ompl/control/spaces/RealVectorControlSpace.h>
 #include <ompl/geometric/SimpleSetup.h>
-#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/rrt/InformedRRTstar.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 #include <ompl/tools/benchmark/Benchmark.h>
@@ -211,6 +211,20 @@ void writeState(const vessel::State& x, ob::State* state) {
   }
 }
 
+// Where the vessel is: what KPIECE1 measures its coverage in.
+class PositionProjection : public ob::ProjectionEvaluator {
+ public:
+  explicit PositionProjection(const ob::StateSpace* space) : ob::ProjectionEvaluator(space) {}
+  [[nodiscard]] unsigned int getDimension() const override { return 2; }
+  void defaultCellSizes() override {
+    constexpr double kCellM = 5.0;
+    cellSizes_ = {kCellM, kCellM};
+  }
+  void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> projection) const override {
+    projection = readState(state).head<2>();
+  }
+};
+
 ob::StateSpacePtr vesselSpace(const OmplProblem& problem) {
   ob::RealVectorBounds velocities(3);
   velocities.setLow(-problem.vessel.top_speed_mps);
@@ -222,6 +236,7 @@ ob::StateSpacePtr vesselSpace(const OmplProblem& problem) {
   auto space = std::make_shared<ob::CompoundStateSpace>();
   space->addSubspace(poseSpace(problem.field), 1.0);
   space->addSubspace(velocity, 0.3);
+  space->registerDefaultProjection(std::make_shared<PositionProjection>(space.get()));
   return space;
 }
 
@@ -263,7 +278,7 @@ std::vector<OmplRow> runGeometric(const OmplProblem& problem, const OmplBudget& 
   const auto& space = setup.getSpaceInformation();
   return run(setup,
              {ours(space, problem, adapter), std::make_shared<og::RRTConnect>(space),
-              std::make_shared<og::BITstar>(space), std::make_shared<og::RRTstar>(space)},
+              std::make_shared<og::InformedRRTstar>(space), std::make_shared<og::RRTstar>(space)},
              problem, adapter, budget, "geometric");
 }
 

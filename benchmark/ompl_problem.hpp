@@ -36,7 +36,7 @@ struct OmplRow {
   double clearance_m = 0.0;  // least along the way
 };
 
-// RRTConnect, BIT*, RRT* in SE2, and ours.
+// RRTConnect, RRT*, Informed RRT* in SE2, and ours.
 [[nodiscard]] std::vector<OmplRow> runGeometric(const OmplProblem& problem,
                                                 const OmplBudget& budget);
 // KPIECE1, SST and RRT with the vessel's dynamics, and ours.

@@ -88,7 +88,7 @@ class Runner {
         result.seed = static_cast<std::uint64_t>(seed);
         result.method = method.name;
         result.shortest_m = shortest_m;
-        const auto status = runCase(ground, mission, method, result);
+        auto status = runCase(ground, mission, method, result);
         if (!status) {
           return status;
         }

@@ -128,7 +128,8 @@ void pullTaut(const DistanceField& field, double clearance_m,
       const Eigen::Vector2d chord = points[i + 1] - points[i - 1];
       const double share = (points[i] - points[i - 1]).dot(chord) / chord.squaredNorm();
       const Eigen::Vector2d target = points[i - 1] + std::clamp(share, 0.0, 1.0) * chord;
-      for (double step = 1.0; step > 0.02; step *= 0.5) {
+      double step = 1.0;
+      for (int halving = 0; halving < 6; ++halving, step *= 0.5) {
         const Eigen::Vector2d moved = points[i] + step * (target - points[i]);
         if (segmentIsClear(field, points[i - 1], moved, clearance_m) &&
             segmentIsClear(field, moved, points[i + 1], clearance_m)) {
