@@ -117,8 +117,7 @@ void LatticeSearch::forEachNeighbour(std::int32_t id, const Visit& visit) {
 }
 
 float LatticeSearch::totalOf(const Node& node) const {
-  return node.length +
-         static_cast<float>(query_.greed * (query_.goal - node.position).norm());
+  return node.length + static_cast<float>(query_.greed * (query_.goal - node.position).norm());
 }
 
 void LatticeSearch::push(std::int32_t id) {

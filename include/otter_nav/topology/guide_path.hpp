@@ -21,13 +21,13 @@ struct Options {
   double clearance_margin_m = 0.02;  // on top where there is room, for what rounds the path off
   double safe_distance_m = 1.6;      // collision points are pushed out to this
   double corridor_max_m = 6.0;       // corridor radii end here
-  double lattice_m = 1.0;        // spacing of the A* search's nodes
-  double long_way_m = 120.0;     // from this distance on the spacing is twice that
+  double lattice_m = 1.0;            // spacing of the A* search's nodes
+  double long_way_m = 120.0;         // from this distance on the spacing is twice that
   double greed = 1.01;           // the search's result may be this much longer than its shortest
   double local_window_m = 15.0;  // a repair looks this far around its stretch
-  int max_repairs = 2;       // with more colliding stretches the whole way is searched at once
-  double good_ratio = 1.01;  // a repaired path this close to the straight line is not improved
-  int max_expansions = 20000;  // then a flood makes sure that there is a way at all
+  int max_repairs = 2;           // with more colliding stretches the whole way is searched at once
+  double good_ratio = 1.01;      // a repaired path this close to the straight line is not improved
+  int max_expansions = 20000;    // then a flood makes sure that there is a way at all
 };
 [[nodiscard]] Result<Options> readOptions(config::Section section);
 
