@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/angles.hpp"
+
 namespace otter_nav::optimizer {
 namespace {
 
 constexpr double kSpacingM = 1.0;
 constexpr int kBandSteps = 60;
 constexpr double kSlowestMps = 0.8;
+constexpr int kMostArcPoints = 12;
+constexpr double kArcReachM = 12.0;  // an arc ends heading for the way this far on
+constexpr double kWideTurnRad = 0.9;
 // The straight ends' first guess.
 constexpr double kLaunchM = 1.2;
 constexpr double kLaunchS = 1.1;
@@ -63,7 +68,7 @@ void InitialWay::stretchBand(const map::DistanceField& field,
   band_.back() = to;
   next_ = band_;
   for (int step = 0; step < kBandSteps; ++step) {
-    for (std::size_t i = 1; i + 1 < band_.size(); ++i) {
+    for (std::size_t i = 1 + held_head_; i + 1 + held_tail_ < band_.size(); ++i) {
       Eigen::Vector2d p = 0.5 * band_[i] + 0.25 * (band_[i - 1] + band_[i + 1]);
       const map::DistanceField::Smooth d = field.smooth(p);
       if (d.distance_m < options_.clearance_m) {
@@ -142,15 +147,83 @@ Knot InitialWay::knotAt(double s) const {
   return knot;
 }
 
-double InitialWay::timeBetween(double s_from, double s_to) const {
-  constexpr int kParts = 8;
-  double time = 0.0;
-  for (int i = 0; i < kParts; ++i) {
-    const double s = s_from + (s_to - s_from) * (i + 0.5) / kParts;
-    const auto at = std::min(static_cast<std::size_t>(s / spacing_m_ + 0.5), speed_.size() - 1);
-    time += (s_to - s_from) / kParts / speed_[at];
+// Distances along the band that cut its time into equal parts.
+void InitialWay::cutTime(double part_s) {
+  const std::size_t n = band_.size();
+  time_.assign(n, 0.0);
+  for (std::size_t i = 1; i < n; ++i) {
+    time_[i] = time_[i - 1] + 2.0 * spacing_m_ / (speed_[i - 1] + speed_[i]);
   }
-  return time;
+  const int parts = std::max(2, static_cast<int>(std::ceil(time_.back() / part_s)));
+  part_s_ = time_.back() / parts;
+  cuts_.clear();
+  std::size_t i = 0;
+  for (int k = 0; k <= parts; ++k) {
+    const double t = part_s_ * k;
+    while (i + 2 < n && time_[i + 1] < t) {
+      ++i;
+    }
+    const double f = std::clamp((t - time_[i]) / (time_[i + 1] - time_[i]), 0.0, 1.0);
+    cuts_.push_back(spacing_m_ * (static_cast<double>(i) + f));
+  }
+}
+
+// A way that turns at speed: from `from` along `direction` on a circle until it heads for a point
+// of the polyline ahead, which it follows from there.
+void InitialWay::appendArc(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
+                           const Eigen::Vector2d& towards,
+                           std::vector<Eigen::Vector2d>& points) const {
+  const double step = kSpacingM / options_.turn_radius_m;
+  Eigen::Vector2d p = from;
+  double course = std::atan2(direction.y(), direction.x());
+  points.push_back(p);
+  for (int i = 0; i < kMostArcPoints; ++i) {
+    const Eigen::Vector2d leg = towards - p;
+    const double turn = wrapAngle(std::atan2(leg.y(), leg.x()) - course);
+    if (std::abs(turn) < step) {
+      return;
+    }
+    course += turn > 0.0 ? step : -step;
+    p += kSpacingM * Eigen::Vector2d(std::cos(course), std::sin(course));
+    points.push_back(p);
+  }
+}
+
+// The polyline between launch and last straight, with arcs where it leaves their directions.
+void InitialWay::turnAtEnds(const std::vector<Eigen::Vector2d>& polyline,
+                            const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                            const WayEnds& ends) {
+  const double length = lengthOf(polyline);
+  const double reach = std::min(kArcReachM, 0.3 * length);
+  std::vector<Eigen::Vector2d> tail;
+  held_head_ = held_tail_ = 0;
+  turned_.clear();
+  const auto wide = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.dot(b) < std::cos(kWideTurnRad) * a.norm() * b.norm();
+  };
+  const Eigen::Vector2d ahead = pointAlong(polyline, reach);
+  const Eigen::Vector2d behind = pointAlong(polyline, -reach);
+  const bool head = ends.start_at_rest && wide(ends.leave, ahead - from);
+  if (head) {
+    appendArc(from, ends.leave, ahead, turned_);
+    held_head_ = turned_.size() - 1;
+  } else {
+    turned_.push_back(from);
+  }
+  if (wide(ends.arrive, to - behind)) {
+    appendArc(to, -ends.arrive, behind, tail);
+    held_tail_ = tail.size() - 1;
+  } else {
+    tail.push_back(to);
+  }
+  double s = 0.0;
+  for (std::size_t i = 1; i + 1 < polyline.size(); ++i) {
+    s += (polyline[i] - polyline[i - 1]).norm();
+    if (s > (head ? reach : kSpacingM) && s < length - (held_tail_ > 0 ? reach : kSpacingM)) {
+      turned_.push_back(polyline[i]);
+    }
+  }
+  turned_.insert(turned_.end(), tail.rbegin(), tail.rend());
 }
 
 void InitialWay::build(const map::DistanceField& field,
@@ -195,13 +268,13 @@ void InitialWay::build(const map::DistanceField& field,
   spline.knots.push_back(first);
 
   const Eigen::Vector2d to = p1 - brake_m * ends.arrive;
-  stretchBand(field, polyline, from, to);
+  turnAtEnds(polyline, from, to, ends);
+  stretchBand(field, turned_, from, to);
   paceBand(speed_from, brake_mps);
-  const double length = spacing_m_ * static_cast<double>(band_.size() - 1);
-  const int parts = std::max(2, static_cast<int>(std::ceil(length / options_.piece_length_m)));
-  for (int i = 1; i <= parts; ++i) {
-    spline.spans.push_back({timeBetween(length * (i - 1) / parts, length * i / parts)});
-    spline.knots.push_back(knotAt(length * i / parts));
+  cutTime(options_.piece_length_m / options_.speed_max_mps);
+  for (std::size_t i = 1; i < cuts_.size(); ++i) {
+    spline.spans.push_back({part_s_});
+    spline.knots.push_back(knotAt(cuts_[i]));
   }
   Knot& brake = spline.knots.back();
   brake.state << to, brake_mps * ends.arrive, -1.0 * ends.arrive, Eigen::Vector2d::Zero();

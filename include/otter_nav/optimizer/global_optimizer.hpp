@@ -29,8 +29,8 @@
 namespace otter_nav::optimizer {
 
 struct GlobalOptions {
-  double clearance_m = 0.8;         // what verification asks for
-  double clearance_margin_m = 0.1;  // beyond it, aimed at
+  double clearance_m = 0.8;          // what verification asks for
+  double clearance_margin_m = 0.05;  // beyond it, aimed at
   bool keep_hull_clear = true;
   double thrust_share = 0.96;   // of each thruster's limits, verified; the rest is for control
   double thrust_margin = 0.02;  // of the limits, below that share: aimed at
@@ -53,7 +53,7 @@ struct GlobalOptions {
   double weight_smooth_first = 0.1;      // ls then
   double weight_growth = 1.5;            // of lc and ld from round to round where they fail
   int rounds = 5;
-  int quicken_rounds = 3;       // after the first sound result
+  int quicken_rounds = 4;       // after the first sound result
   double quicken_growth = 1.6;  // of weight_time, in each of them
   int iterations_per_round = 12;
 };

@@ -16,8 +16,9 @@ struct WayOptions {
   double piece_length_m = 6.0;
   double force_share = 0.85;  // of both thrusters together, for the first guess of the speed
   double speed_max_mps = 4.6;
-  double brake_m = 5.0;      // the last straight's first guess
-  double clearance_m = 1.0;  // by DistanceField::smooth
+  double turn_radius_m = 2.5;  // of turns at speed next to the ends
+  double brake_m = 5.0;        // the last straight's first guess
+  double clearance_m = 1.0;    // by DistanceField::smooth
 };
 
 // How the way leaves its start and reaches its goal.
@@ -53,7 +54,11 @@ class InitialWay {
   void paceBand(double speed_from, double speed_to);
   [[nodiscard]] double speedIn(double curvature_per_m) const;
   [[nodiscard]] Knot knotAt(double s) const;
-  [[nodiscard]] double timeBetween(double s_from, double s_to) const;
+  void cutTime(double part_s);
+  void appendArc(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
+                 const Eigen::Vector2d& towards, std::vector<Eigen::Vector2d>& points) const;
+  void turnAtEnds(const std::vector<Eigen::Vector2d>& polyline, const Eigen::Vector2d& from,
+                  const Eigen::Vector2d& to, const WayEnds& ends);
 
   WayOptions options_;
   vessel::Parameters vessel_;
@@ -63,6 +68,12 @@ class InitialWay {
   std::vector<Eigen::Vector2d> tangent_;
   std::vector<double> curvature_;
   std::vector<double> speed_;
+  std::vector<double> time_;
+  std::vector<double> cuts_;
+  double part_s_ = 1.0;
+  std::vector<Eigen::Vector2d> turned_;
+  std::size_t held_head_ = 0;  // points of the band on arcs, not stretched
+  std::size_t held_tail_ = 0;
 };
 
 }  // namespace otter_nav::optimizer
