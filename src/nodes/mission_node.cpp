@@ -121,7 +121,9 @@ void MissionNode::onState(const PlantState& message) {
                                                message.header.stamp <= last_state_->header.stamp;
   if (!repeated) {
     states_.push_back(message);
+    last_state_time_s_ = message.header.stamp.toSec();
     last_sign_ = ros::WallTime::now();
+    goOn();
   }
 }
 
@@ -134,13 +136,29 @@ void MissionNode::onTrajectory(const Trajectory& message) {
 }
 
 void MissionNode::onPlannerStatus(const PlannerStatus& message) {
-  planner_ = message;
-  if (!goal_sent_ || message.state == "idle") {
-    return;  // the goal is not there yet
+  if (goal_sent_ && over()) {
+    return;  // what comes after the end does not count
   }
-  openGate();
-  if (references_.latestId() >= message.trajectory_id) {
-    recordUntil(message.header.stamp.toSec());
+  planner_ = message;
+  if (goal_sent_ && message.state != "idle") {
+    openGate();
+    goOn();
+  }
+}
+
+bool MissionNode::over() const {
+  return planner_.state == "arrived" || planner_.state == "failed";
+}
+
+// Goes on to the planner's last decision, once the trajectory it speaks of is known here; to the
+// mission's end only with the whole motion up to it.
+void MissionNode::goOn() {
+  if (!gate_open_ || finished_ || references_.latestId() < planner_.trajectory_id) {
+    return;
+  }
+  const double decided_s = planner_.header.stamp.toSec();
+  recordUntil(decided_s);
+  if (!over() || last_state_time_s_ >= decided_s) {
     judge();
   }
 }

@@ -54,6 +54,8 @@ class MissionNode {
   void sendGoal();
   // Time may go on: the first plan stands, or there will be none.
   void openGate();
+  void goOn();
+  [[nodiscard]] bool over() const;
   // The motion up to a time at which all that was decided is known here.
   void recordUntil(double time_s);
   void record(const PlantState& state);
@@ -72,6 +74,7 @@ class MissionNode {
   std::deque<PlantState> states_;  // not recorded yet
   std::optional<PlantState> last_state_;
   double first_time_s_ = -1.0;
+  double last_state_time_s_ = -1.0;
   double next_track_s_ = 0.0;
   PlannerStatus planner_;
   TrackerStatus tracker_;

@@ -26,16 +26,18 @@ def free_port():
         return listener.getsockname()[1]
 
 
-def processes_of(uri):
-    """Processes that have this ROS master in their environment, this test's own apart."""
+def processes_of(port):
+    """Processes with the ROS master of this port in their environment, the launch's own too."""
     found = []
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
             with open(f"/proc/{pid}/environ", "rb") as environment:
-                if f"ROS_MASTER_URI={uri}".encode() in environment.read().split(b"\0"):
-                    found.append(int(pid))
+                variables = environment.read().decode(errors="replace").split("\0")
         except OSError:
             continue
+        master = next((v for v in variables if v.startswith("ROS_MASTER_URI=")), "")
+        if master.rstrip("/").endswith(f":{port}"):
+            found.append(int(pid))
     return found
 
 
@@ -55,14 +57,13 @@ class Mission(unittest.TestCase):
 
     def start(self, **arguments):
         port = free_port()
-        uri = f"http://localhost:{port}"
         launch = subprocess.Popen(
             ["roslaunch", "-p", str(port), "otter_nav", "mission.launch"]
             + [f"{key}:={value}" for key, value in arguments.items()],
-            env={**os.environ, "ROS_MASTER_URI": uri}, stdout=subprocess.PIPE,
+            env={**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}"}, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, text=True, start_new_session=True)
         self.addCleanup(self.kill, launch)
-        return launch, uri
+        return launch, port
 
     @staticmethod
     def kill(launch):
@@ -73,10 +74,10 @@ class Mission(unittest.TestCase):
     def sail(self, name, **arguments):
         """The result of a mission, its track, and that nothing runs on after it."""
         result = os.path.join(self.folder.name, name + ".json")
-        launch, uri = self.start(result=result, speed=0, **arguments)
+        launch, port = self.start(result=result, speed=0, **arguments)
         output, _ = launch.communicate(timeout=PATIENCE_S)
         self.assertTrue(os.path.exists(result), output)
-        self.assertTrue(wait_until(lambda: not processes_of(uri), 20), processes_of(uri))
+        self.assertTrue(wait_until(lambda: not processes_of(port), 20), processes_of(port))
         with open(result) as file:
             mission = json.load(file)["missions"][0]
         with open(mission["track"]) as file:
@@ -99,16 +100,16 @@ class Mission(unittest.TestCase):
         self.assertEqual(track, again)
 
     def test_killed_launch_leaves_no_process(self):
-        launch, uri = self.start(scenario=POND, speed=0.2)
-        self.assertTrue(wait_until(lambda: self.running(uri) == set(NODES), 60), self.running(uri))
+        launch, port = self.start(scenario=POND, speed=0.2)
+        self.assertTrue(wait_until(lambda: self.running(port) == set(NODES), 60), self.running(port))
         launch.send_signal(signal.SIGINT)
         launch.communicate(timeout=60)
-        self.assertTrue(wait_until(lambda: not processes_of(uri), 20), processes_of(uri))
+        self.assertTrue(wait_until(lambda: not processes_of(port), 20), processes_of(port))
 
     @staticmethod
-    def running(uri):
+    def running(port):
         names = set()
-        for pid in processes_of(uri):
+        for pid in processes_of(port):
             try:
                 names.add(os.path.basename(os.readlink(f"/proc/{pid}/exe")))
             except OSError:
