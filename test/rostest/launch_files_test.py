@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+"""Every shipped launch file: sound for roslaunch-check, its arguments documented, its files there."""
+import glob
+import os
+import sys
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import rospkg
+import roslaunch.config
+import roslaunch.rlutil
+import rostest
+
+PACKAGE = rospkg.RosPack().get_path("otter_nav")
+LAUNCH_FILES = sorted(glob.glob(os.path.join(PACKAGE, "launch", "*.launch")))
+# Arguments without a default need a value to be loaded with.
+ARGUMENTS = {"collect.launch": ["bag:=/tmp/none.bag"], "record.launch": ["file:=/tmp/none.bag"]}
+
+
+class LaunchFiles(unittest.TestCase):
+    def test_there_are_some(self):
+        names = {os.path.basename(path) for path in LAUNCH_FILES}
+        self.assertLessEqual({"mission.launch", "map.launch", "planning.launch", "tracking.launch",
+                              "plant.launch", "rviz.launch", "record.launch"}, names)
+
+    def test_roslaunch_check(self):
+        for path in LAUNCH_FILES:
+            self.assertIsNone(roslaunch.rlutil.check_roslaunch(path, ignore_unset_args=True), path)
+
+    def test_nodes_and_parameters_load(self):
+        for path in LAUNCH_FILES:
+            arguments = ARGUMENTS.get(os.path.basename(path), [])
+            config = roslaunch.config.load_config_default([(path, arguments)], None)
+            self.assertEqual(config.config_errors, [], path)
+            self.assertTrue(config.nodes, path)
+
+    def test_arguments_are_documented(self):
+        for path in LAUNCH_FILES:
+            for argument in ElementTree.parse(path).getroot().findall("arg"):
+                self.assertTrue(argument.get("doc"), f"{path}: {argument.get('name')}")
+
+
+if __name__ == "__main__":
+    rostest.rosrun("otter_nav", "launch_files_test", LaunchFiles, sys.argv)
