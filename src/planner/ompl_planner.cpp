@@ -2,6 +2,9 @@
 
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/control/PathControl.h>
+#include <ompl/control/SpaceInformation.h>
+#include <ompl/control/spaces/RealVectorControlSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 
 #include <chrono>
@@ -14,6 +17,7 @@ namespace otter_nav::planner {
 namespace {
 
 namespace ob = ompl::base;
+namespace oc = ompl::control;
 constexpr double kPathStepS = 0.1;
 
 // OMPL's condition as the planner's clock: past every budget once the condition holds.
@@ -94,17 +98,47 @@ ob::PlannerStatus OmplPlanner::solve(const ob::PlannerTerminationCondition& stop
   query.seed = seed_;
   plan_ = planner_.plan(*field_, query, fromOmpl(stop));
   if (plan_.outcome == Outcome::kSolved) {
-    auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
-    const double duration = plan_.trajectory.duration();
-    const int steps = static_cast<int>(std::ceil(duration / kPathStepS));
-    ob::ScopedState<> state(si_);
-    for (int i = 0; i <= steps; ++i) {
-      adapter_.write(plan_.trajectory.sample(duration * i / steps, vessel_), state.get());
-      path->append(state.get());
-    }
+    const ob::PathPtr path = dynamic_cast<const oc::SpaceInformation*>(si_.get()) != nullptr
+                                 ? controlPath()
+                                 : statePath();
     pdef_->addSolutionPath(path, false, 0.0, getName());
   }
   return statusOf(plan_.outcome);
+}
+
+ob::PathPtr OmplPlanner::statePath() const {
+  auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
+  const double duration = plan_.trajectory.duration();
+  const int steps = static_cast<int>(std::ceil(duration / kPathStepS));
+  ob::ScopedState<> state(si_);
+  for (int i = 0; i <= steps; ++i) {
+    adapter_.write(plan_.trajectory.sample(duration * i / steps, vessel_), state.get());
+    path->append(state.get());
+  }
+  return path;
+}
+
+// Thrusts in the middle of each step, as the benchmark expects where planners choose controls.
+ob::PathPtr OmplPlanner::controlPath() const {
+  auto path = std::make_shared<oc::PathControl>(si_);
+  const auto* space = static_cast<const oc::SpaceInformation*>(si_.get());
+  const double duration = plan_.trajectory.duration();
+  const int steps = static_cast<int>(std::ceil(duration / kPathStepS));
+  ob::ScopedState<> state(si_);
+  oc::Control* control = space->allocControl();
+  for (int i = 0; i < steps; ++i) {
+    adapter_.write(plan_.trajectory.sample(duration * i / steps, vessel_), state.get());
+    const vessel::Thrusts thrusts =
+        plan_.trajectory.sample(duration * (i + 0.5) / steps, vessel_).thrusts;
+    double* values = control->as<oc::RealVectorControlSpace::ControlType>()->values;
+    values[0] = thrusts[vessel::kLeft];
+    values[1] = thrusts[vessel::kRight];
+    path->append(state.get(), control, duration / steps);
+  }
+  adapter_.write(plan_.trajectory.sample(duration, vessel_), state.get());
+  path->append(state.get());
+  space->freeControl(control);
+  return path;
 }
 
 void OmplPlanner::clear() {

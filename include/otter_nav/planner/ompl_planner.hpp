@@ -24,7 +24,8 @@ struct StateAdapter {
 class OmplPlanner : public ompl::base::Planner {
  public:
   // `field` must outlive the planner. Rest to rest between the first start state and the goal,
-  // which must be a GoalState.
+  // which must be a GoalState. In a control space (two thrusts, RealVectorControlSpace) the
+  // solution is a PathControl, else a PathGeometric.
   OmplPlanner(const ompl::base::SpaceInformationPtr& space, const Options& options,
               const vessel::Parameters& vessel, const map::DistanceField& field,
               StateAdapter adapter);
@@ -38,6 +39,9 @@ class OmplPlanner : public ompl::base::Planner {
   [[nodiscard]] const Plan& plan() const { return plan_; }
 
  private:
+  [[nodiscard]] ompl::base::PathPtr statePath() const;
+  [[nodiscard]] ompl::base::PathPtr controlPath() const;
+
   vessel::Parameters vessel_;
   planner::Planner planner_;
   const map::DistanceField* field_;
