@@ -18,8 +18,8 @@ GoalServer::GoalServer(ros::NodeHandle& node, OnGoal on_goal, OnCancel on_cancel
       on_cancel_(std::move(on_cancel)),
       action_goal_(node.advertise<move_base_msgs::MoveBaseActionGoal>("move_base/goal", 1)),
       server_(
-          node, "move_base", [this](Handle handle) { onActionGoal(std::move(handle)); },
-          [this](Handle handle) { onActionCancel(std::move(handle)); }, false) {
+          node, "move_base", [this](const Handle& handle) { onActionGoal(handle); },
+          [this](const Handle& handle) { onActionCancel(handle); }, false) {
   // rviz's goal takes the way of the action, so that there is one way only.
   simple_goal_ = node.subscribe<geometry_msgs::PoseStamped>(
       "move_base_simple/goal", 1, [this](const geometry_msgs::PoseStampedConstPtr& goal) {
@@ -31,19 +31,19 @@ GoalServer::GoalServer(ros::NodeHandle& node, OnGoal on_goal, OnCancel on_cancel
   server_.start();
 }
 
-void GoalServer::onActionGoal(Handle handle) {
+void GoalServer::onActionGoal(const Handle& handle) {
   if (!ready_) {
     abortWaiting("replaced by another goal");
-    waiting_ = std::move(handle);
+    waiting_ = handle;
     return;
   }
-  take(std::move(handle));
+  take(handle);
 }
 
 void GoalServer::retryWaiting() {
   if (ready_ && waiting_) {
-    Handle handle = *std::exchange(waiting_, std::nullopt);
-    take(std::move(handle));
+    const Handle handle = *std::exchange(waiting_, std::nullopt);
+    take(handle);
   }
 }
 
@@ -67,10 +67,10 @@ void GoalServer::take(Handle handle) {
   if (under_way_) {
     under_way_->setCanceled(Result(), "replaced by another goal");
   }
-  under_way_ = std::move(handle);
+  under_way_ = handle;
 }
 
-void GoalServer::onActionCancel(Handle handle) {
+void GoalServer::onActionCancel(const Handle& handle) {
   if (waiting_ && *waiting_ == handle) {
     waiting_->setCanceled(Result(), "cancelled");
     waiting_.reset();

@@ -40,8 +40,8 @@ class GoalServer {
   using Server = actionlib::ActionServer<move_base_msgs::MoveBaseAction>;
   using Handle = Server::GoalHandle;
 
-  void onActionGoal(Handle handle);
-  void onActionCancel(Handle handle);
+  void onActionGoal(const Handle& handle);
+  void onActionCancel(const Handle& handle);
   void take(Handle handle);
 
   OnGoal on_goal_;

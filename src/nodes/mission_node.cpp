@@ -116,10 +116,7 @@ MissionNode::~MissionNode() {
 }
 
 void MissionNode::onState(const PlantState& message) {
-  const bool repeated = !states_.empty() ? message.header.stamp <= states_.back().header.stamp
-                                         : last_state_.has_value() &&
-                                               message.header.stamp <= last_state_->header.stamp;
-  if (!repeated) {
+  if (message.header.stamp.toSec() > last_state_time_s_) {
     states_.push_back(message);
     last_state_time_s_ = message.header.stamp.toSec();
     last_sign_ = ros::WallTime::now();

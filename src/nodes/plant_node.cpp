@@ -32,8 +32,8 @@ Result<std::unique_ptr<PlantNode>> PlantNode::create(config::Section section) {
     }
     world = std::move(*loaded);
   }
-  Result<plant::Simulator> simulator = plant::Simulator::create(
-      setup->plant, std::move(world), static_cast<std::uint64_t>(setup->node.seed));
+  Result<plant::Simulator> simulator =
+      plant::Simulator::create(setup->plant, world, static_cast<std::uint64_t>(setup->node.seed));
   if (!simulator) {
     return failure(simulator.error().message);
   }
