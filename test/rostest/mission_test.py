@@ -62,14 +62,20 @@ class Mission(unittest.TestCase):
             + [f"{key}:={value}" for key, value in arguments.items()],
             env={**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}"}, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, text=True, start_new_session=True)
-        self.addCleanup(self.kill, launch)
+        self.addCleanup(self.kill, launch, port)
         return launch, port
 
     @staticmethod
-    def kill(launch):
+    def kill(launch, port):
+        """What a failed test left; roslaunch starts its nodes in sessions of their own."""
         if launch.poll() is None:
             os.killpg(launch.pid, signal.SIGKILL)
             launch.wait()
+        for pid in processes_of(port):
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                continue
 
     def sail(self, name, **arguments):
         """The result of a mission, its track, and that nothing runs on after it."""
