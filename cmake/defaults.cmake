@@ -23,7 +23,7 @@ if(OTTER_NAV_WERROR)
 endif()
 if(OTTER_NAV_SANITIZE)
   add_compile_options(-O1 -fsanitize=address,undefined -fno-sanitize-recover=undefined
-                      -fno-omit-frame-pointer)
+                      -fno-omit-frame-pointer -Wno-mismatched-new-delete)
   add_link_options(-fsanitize=address,undefined)
 endif()
 if(OTTER_NAV_NATIVE)

@@ -9,4 +9,4 @@ cd "$top"
 colcon --log-base log build --base-paths "$top" --build-base build --install-base install \
   --merge-install --event-handlers console_cohesion- desktop_notification- status- \
   --cmake-args -DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3 \
-  -DCATKIN_ENABLE_TESTING=$testing -DOTTER_NAV_WERROR=$testing
+  -DCATKIN_ENABLE_TESTING=$testing

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Format and clang-tidy on the core's and the nodes' sources: check_style.sh [BUILD_WITH_COMPILE_COMMANDS]
+# Format of all sources, clang-tidy on some: check_style.sh [BUILD_WITH_COMPILE_COMMANDS [FOLDER...]]
 # --fix formats in place instead of complaining.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -14,7 +14,8 @@ echo "format: ${#files[@]} files are clean"
 
 build=${1:-}
 [ -n "$build" ] || exit 0
-mapfile -t sources < <(git ls-files 'src/*.cpp' 'tools/*.cpp' 'benchmark/*.cpp')
+shift
+mapfile -t sources < <(git ls-files "${@:-src}" | grep '\.cpp$')
 mapfile -t known < <(/usr/bin/python3 - "$build/compile_commands.json" "${sources[@]}" <<'PY'
 import json, os, sys
 compiled = {os.path.realpath(entry["file"]) for entry in json.load(open(sys.argv[1]))}

@@ -30,8 +30,8 @@ bool convert(const YAML::Node& node, T& value) {
 
 }  // namespace
 
-Section::Section(YAML::Node node, std::string where)
-    : node_(std::move(node)), where_(std::move(where)) {
+Section::Section(const YAML::Node& node, std::string where)
+    : node_(node), where_(std::move(where)) {
   if (!node_ || !node_.IsMap()) {
     first_error_ = where_ + ": expected a mapping of parameters";
   }

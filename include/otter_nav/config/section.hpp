@@ -26,7 +26,7 @@ struct Range {
 class Section {
  public:
   // `where` is what messages name: a file, or a node's private namespace.
-  Section(YAML::Node node, std::string where);
+  Section(const YAML::Node& node, std::string where);
 
   // Required values. Errors are collected; the first is reported by finish().
   void read(const std::string& key, double& value, Range range);
