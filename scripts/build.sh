@@ -1,12 +1,27 @@
 #!/usr/bin/env bash
 # Builds the package with colcon into build/ and install/ beside the sources: build.sh [--tests]
+# The compiler's output goes to build/build.log; its end is shown if the build fails.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 testing=OFF
 [ "${1:-}" = "--tests" ] && testing=ON
 
+# On a terminal: make's percentage on one refreshed line, so a newcomer sees that it goes on.
+show_progress() {
+  if [ -t 1 ]; then
+    awk '/^\[ *[0-9]+%\]/ {printf "\r%.78s\033[K", $0; fflush()} END {printf "\r\033[K"}'
+  else
+    cat >/dev/null
+  fi
+}
+
 cd "$top"
-colcon --log-base log build --base-paths "$top" --build-base build --install-base install \
-  --merge-install --event-handlers console_cohesion- desktop_notification- status- \
-  --cmake-args -DCMAKE_BUILD_TYPE=Release -DPYTHON_EXECUTABLE=/usr/bin/python3 \
-  -DCATKIN_ENABLE_TESTING=$testing
+mkdir -p build
+if ! colcon --log-base log build --base-paths "$top" --build-base build --install-base install \
+  --merge-install --cmake-args -DCMAKE_BUILD_TYPE=Release \
+  -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=$testing 2>&1 |
+  tee build/build.log | show_progress; then
+  tail -n 60 build/build.log >&2
+  echo "build: failed; build/build.log has all of it" >&2
+  exit 1
+fi

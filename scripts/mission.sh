@@ -65,7 +65,7 @@ if $build; then
   groups=(build)
   if $rviz; then groups+=(rviz); fi
   "$top/scripts/install_dependencies.sh" "${groups[@]}"
-  echo "Building (log/latest_build has the details)"
+  echo "Building (build/build.log has the details)"
   "$top/scripts/build.sh"
 fi
 [ -f "$top/install/setup.bash" ] || die "nothing is built yet: run without --no-build"

@@ -4,7 +4,7 @@
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 "$top/scripts/install_dependencies.sh" build test
-echo "Building with tests (log/latest_build has the details)"
+echo "Building with tests (build/build.log has the details)"
 "$top/scripts/build.sh" --tests
 
 cd "$top"
