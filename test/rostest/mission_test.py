@@ -16,6 +16,8 @@ import rostest
 
 PACKAGE = rospkg.RosPack().get_path("otter_nav")
 POND = os.path.join(PACKAGE, "test", "rostest", "data", "pond.yaml")
+# By its path: beside an installed package of the same name, the name alone means two files.
+LAUNCH = os.path.join(PACKAGE, "launch", "mission.launch")
 NODES = ("map_node", "topology_node", "planner_node", "tracker_node", "plant_node", "mission_node")
 PATIENCE_S = 240
 
@@ -58,7 +60,7 @@ class Mission(unittest.TestCase):
     def start(self, **arguments):
         port = free_port()
         launch = subprocess.Popen(
-            ["roslaunch", "-p", str(port), "otter_nav", "mission.launch"]
+            ["roslaunch", "-p", str(port), LAUNCH]
             + [f"{key}:={value}" for key, value in arguments.items()],
             env={**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}"}, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, text=True, start_new_session=True)
