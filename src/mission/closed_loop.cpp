@@ -164,9 +164,9 @@ void ClosedLoop::Impl::obey(const Orders& orders) {
     const Stopwatch watch;
     planner::Termination termination;
     termination.max_iterations = options_.planning_iterations;
-    PlanDesk::Answer answer = desk_.answer(*orders.plan, sensing_.field(), termination);
+    const planner::Plan plan = desk_.plan(*orders.plan, sensing_.field(), {}, termination);
     recorder_.addPlanning(watch.milliseconds());
-    reply_ = std::move(answer.reply);
+    reply_ = replyTo(*orders.plan, plan);
     // A little before the new trajectory begins, as in life.
     constexpr double kEarlyS = 0.05;
     reply_time_s_ = time() + options_.supervisor.planning_latency_s - kEarlyS;
@@ -178,6 +178,7 @@ Situation ClosedLoop::Impl::situation() const {
   situation.state = plant_.odometry().state;
   situation.odometry_stamp_s = plant_.odometry().stamp_s;
   situation.tracking_error_m = command_.tracking_error_m;
+  situation.disturbance_n = command_.disturbance.force_n.norm();
   using tracker::Mode;
   const bool braking = command_.mode == Mode::kStopping || command_.mode == Mode::kStopped;
   situation.tracker_fault = command_.mode == Mode::kFault || (braking && !stop_ordered_);

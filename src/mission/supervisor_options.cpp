@@ -18,6 +18,9 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   section.read("stop_reserve_s", o.stop_reserve_s, {0.0, 10.0});
   section.read("brake_horizon_s", o.brake_horizon_s, {1.0, 100.0});
   section.read("brake_thrust_share", o.brake_thrust_share, {0.1, 1.0});
+  section.read("thrust_share", o.thrust_share, {0.2, 1.0});
+  section.read("thrust_share_min", o.thrust_share_min, {0.2, 1.0});
+  section.read("thrust_share_step", o.thrust_share_step, {0.0, 1.0});
   section.read("tracking_error_max_m", o.tracking_error_max_m, {0.1, 100.0});
   section.read("odometry_timeout_s", o.odometry_timeout_s, {0.05, 60.0});
   section.read("arrival_distance_m", o.arrival_distance_m, {0.01, 100.0});
@@ -33,6 +36,10 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   if (!std::is_sorted(rungs.begin(), rungs.end(), std::greater<>())) {
     return failure(section.where() +
                    ": parameter 'plan_clearances_m' must fall from first to last");
+  }
+  if (o.thrust_share_min > o.thrust_share) {
+    return failure(section.where() +
+                   ": parameter 'thrust_share_min' must not be above 'thrust_share'");
   }
   return o;
 }

@@ -41,6 +41,15 @@ void Supervisor::chooseRung(const Eigen::Vector2d& start, const map::DistanceFie
   }
 }
 
+// In steps, so that one planner serves many requests.
+double Supervisor::freeThrustShare(const Situation& situation) const {
+  constexpr double kStep = 0.05;
+  const double reserve = situation.disturbance_n / (2.0 * vessel_.thrusters.ahead_max_n);
+  const double behind = times_left_behind_ * options_.thrust_share_step;
+  const double share = options_.thrust_share - reserve - behind;
+  return std::max(options_.thrust_share_min, kStep * std::floor(share / kStep + 1e-9));
+}
+
 Orders Supervisor::post(double now_s, PlanRequest request, From from,
                         const map::DistanceField& field) {
   chooseRung(request.start.position, field);
@@ -61,6 +70,7 @@ Orders Supervisor::requestFromRest(double now_s, const Situation& situation,
   request.start.position = situation.state.head<2>();
   request.start_psi_rad = situation.state[vessel::kPsi];
   request.start_time_s = now_s;
+  request.thrust_share = freeThrustShare(situation);
   return post(now_s, std::move(request), From::kRest, field);
 }
 
@@ -79,14 +89,20 @@ Orders Supervisor::requestFromSailed(double now_s, const map::DistanceField& fie
     request.start.position = sample.flat.position;
   }
   request.start_time_s = sailed_.start_time_s + *at;
+  // The force it begins with is one of the plan being sailed.
+  request.thrust_share = sailed_thrust_share_;
   request.warm_start = remainder(sailed_.trajectory, *at);
   return post(now_s, std::move(request), From::kSailed, field);
 }
 
 Orders Supervisor::requestFromVessel(double now_s, const Situation& situation,
                                      const map::DistanceField& field) {
+  constexpr double kStartShare = 0.9;  // of the plan's thrust, at its beginning
   PlanRequest request;
-  request.start = flatFromState(situation.state, vessel_.paper);
+  request.thrust_share = freeThrustShare(situation);
+  request.start =
+      flatFromState(situation.state, vessel_.paper,
+                    kStartShare * request.thrust_share * 2.0 * vessel_.thrusters.ahead_max_n);
   request.start.position += latency_s_ * request.start.velocity;
   request.start_psi_rad = situation.state[vessel::kPsi];
   request.start_time_s = now_s + latency_s_;
@@ -129,7 +145,7 @@ Orders Supervisor::takeFromRest(double now_s, const PlanReply& reply, const Pend
     return requestFromRest(now_s, situation, field);
   }
   replans_ += phase_ == Phase::kStopped ? 1 : 0;
-  sail({reply.trajectory, now_s}, asked.request.clearance_m, now_s);
+  sail({reply.trajectory, now_s}, asked.request, now_s);
   return Orders{std::nullopt, sailed_, false};
 }
 
@@ -149,21 +165,21 @@ Orders Supervisor::takeMoving(double now_s, const PlanReply& reply, const Pendin
   }
   ++replans_;
   latency_s_ = options_.planning_latency_s;
-  const double clearance = asked.request.clearance_m;
   if (asked.from == From::kVessel) {
-    sail({reply.trajectory, asked.request.start_time_s}, clearance, now_s);
+    sail({reply.trajectory, asked.request.start_time_s}, asked.request, now_s);
   } else {
     const double began = sailed_.start_time_s;
     Spliced way = splice(sailed_.trajectory, now_s - began, asked.request.start_time_s - began,
                          reply.trajectory);
-    sail({std::move(way.trajectory), began + way.start_s}, clearance, now_s);
+    sail({std::move(way.trajectory), began + way.start_s}, asked.request, now_s);
   }
   return Orders{std::nullopt, sailed_, false};
 }
 
-void Supervisor::sail(SailOrder order, double clearance_m, double now_s) {
+void Supervisor::sail(SailOrder order, const PlanRequest& request, double now_s) {
   sailed_ = std::move(order);
-  sailed_clearance_m_ = clearance_m;
+  sailed_clearance_m_ = request.clearance_m;
+  sailed_thrust_share_ = request.thrust_share;
   plan_time_s_ = now_s;
   rung_ = 0;
   enter(Phase::kSailing);

@@ -78,6 +78,7 @@ Orders Supervisor::replanIfNeeded(double now_s, const Situation& situation,
   if (situation.tracking_error_m > options_.tracking_error_max_m) {
     enter(Phase::kReplanning, "far off the trajectory");
     for_clearance_ = false;
+    ++times_left_behind_;
     return requestFromVessel(now_s, situation, field);
   }
   if (phase_ == Phase::kReplanning) {

@@ -39,7 +39,7 @@ geometry_msgs::PoseStamped poseMessage(const Eigen::Vector2d& position, double p
 
 PlanWorker::PlanWorker(const Options& options, const vessel::Parameters& vessel, OnDone on_done)
     : options_(options),
-      planner_(options.planner, vessel),
+      desk_(options.planner, vessel),
       on_done_(std::move(on_done)),
       thread_([this] { run(); }) {}
 
@@ -76,15 +76,6 @@ void PlanWorker::run() {
 
 PlanDone PlanWorker::plan(const PlanTask& task) {
   const auto begin = std::chrono::steady_clock::now();
-  planner::Query query;
-  query.start = task.request.start;
-  query.start_psi_rad = task.request.start_psi_rad;
-  query.goal = task.request.goal.position;
-  query.goal_psi_rad = task.request.goal.psi_rad;
-  query.seed = task.request.seed;
-  query.clearance_m = task.request.clearance_m;
-  query.warm_start = task.request.warm_start.empty() ? nullptr : &task.request.warm_start;
-  query.guide_path = guidePath(task);
   planner::Termination termination;
   if (options_.budget_s) {
     termination = planner::wallClock(*options_.budget_s, options_.max_iterations);
@@ -93,7 +84,7 @@ PlanDone PlanWorker::plan(const PlanTask& task) {
   }
   PlanDone done;
   done.request = task.request;
-  done.plan = planner_.plan(task.field, query, termination);
+  done.plan = desk_.plan(task.request, task.field, guidePath(task), termination);
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   done.wall_ms = taken.count();
   return done;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/mission/plan_desk.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/planner/planner.hpp"
 
@@ -54,7 +55,7 @@ class PlanWorker {
   [[nodiscard]] std::vector<Eigen::Vector2d> guidePath(const PlanTask& task);
 
   Options options_;
-  planner::Planner planner_;
+  mission::PlanDesk desk_;
   OnDone on_done_;
   ros::NodeHandle node_;
   ros::ServiceClient topology_;

@@ -148,11 +148,7 @@ void PlannerNode::onCancel() {
 
 void PlannerNode::onPlanDone(const PlanDone& done) {
   publisher_.publishPlan(done);
-  mission::PlanReply reply;
-  reply.id = done.request.id;
-  reply.solved = done.plan.outcome == planner::Outcome::kSolved;
-  reply.reason = done.plan.reason;
-  reply.trajectory = done.plan.trajectory;
+  const mission::PlanReply reply = mission::replyTo(done.request, done.plan);
   if (!reply.solved) {
     ROS_INFO_STREAM("No plan at clearance " << done.request.clearance_m
                                             << " m: " << done.plan.reason);
@@ -237,6 +233,7 @@ mission::Situation PlannerNode::situation() const {
         sailed.trajectory.flat(vessel_.stamp_s - sailed.start_time_s);
     situation.tracking_error_m = (reference.position - vessel_.state.head<2>()).norm();
   }
+  situation.disturbance_n = tracker_.disturbance();
   situation.tracker_fault = tracker_.gaveUp();
   situation.tracker_reason = tracker_.reason();
   return situation;

@@ -3,6 +3,7 @@
 
 #include <otter_nav/TrackerStatus.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -18,6 +19,7 @@ class TrackerWatch {
         status.state == "fault" || status.state == "stopping" || status.state == "stopped";
     faults_ = gave_up && status.trajectory_id == sailing_id_ ? faults_ + 1 : 0;
     reason_ = status.reason;
+    disturbance_n_ = std::hypot(status.disturbance[0], status.disturbance[1]);
   }
 
   // The trajectory to be sailed from now on; `stop` for an order to stop.
@@ -35,6 +37,8 @@ class TrackerWatch {
   [[nodiscard]] const std::string& reason() const {
     return refused_id_ == sailing_id_ ? refused_reason_ : reason_;
   }
+  // The force of wind and current it estimates, N.
+  [[nodiscard]] double disturbance() const { return disturbance_n_; }
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -44,6 +48,7 @@ class TrackerWatch {
   std::uint32_t refused_id_ = 0;
   std::uint32_t sailing_id_ = kNone;
   int faults_ = 0;
+  double disturbance_n_ = 0.0;
   std::string reason_;
   std::string refused_reason_;
 };

@@ -110,6 +110,14 @@ Result<Parameters> loadParameters(const std::string& path) {
   return readParameters(config::Section(*node, path));
 }
 
+Parameters withThrustShare(const Parameters& parameters, double share) {
+  Parameters less = parameters;
+  less.thrusters.ahead_max_n *= share;
+  less.thrusters.astern_max_n *= share;
+  less.top_speed_mps *= share;
+  return less;
+}
+
 std::string toYaml(const Parameters& p) {
   std::ostringstream out;
   out << "name: " << p.name << "\ntop_speed_mps: " << text(p.top_speed_mps);

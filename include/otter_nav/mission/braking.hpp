@@ -58,8 +58,9 @@ struct Spliced {
                                                double at_s);
 
 // The flat point of a vessel as it moves: velocity from the state, acceleration and jerk those of
-// a steady surge force and yaw rate (inverse of vessel/flatness.hpp).
+// a steady surge force and yaw rate (inverse of vessel/flatness.hpp). The force keeps the speed, or
+// is `force_max_n` where that takes more.
 [[nodiscard]] vessel::FlatPoint flatFromState(const vessel::State& state,
-                                              const vessel::PaperModel& model);
+                                              const vessel::PaperModel& model, double force_max_n);
 
 }  // namespace otter_nav::mission

@@ -1,8 +1,10 @@
-// Answers the supervisor's requests with the planner: one planner for each clearance asked for, as
-// a planner keeps its clearance for life.
+// Answers the supervisor's requests with the planner: one planner for each share of the thrust
+// asked for, as a planner knows its vessel for life.
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
+#include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/mission/supervisor.hpp"
@@ -13,21 +15,21 @@ namespace otter_nav::mission {
 
 class PlanDesk {
  public:
-  // `options.clearance_m` is replaced by each request's.
   PlanDesk(const planner::Options& options, const vessel::Parameters& vessel);
 
-  struct Answer {
-    PlanReply reply;
-    planner::Plan plan;  // its trajectory is moved into the reply
-  };
-  // One thread at a time.
-  [[nodiscard]] Answer answer(const PlanRequest& request, const map::DistanceField& field,
-                              const planner::Termination& termination);
+  // `guide_path`: key points found elsewhere (a topology node); empty: found here. One thread at a
+  // time.
+  [[nodiscard]] planner::Plan plan(const PlanRequest& request, const map::DistanceField& field,
+                                   std::vector<Eigen::Vector2d> guide_path,
+                                   const planner::Termination& termination);
 
  private:
   planner::Options options_;
   vessel::Parameters vessel_;
   std::map<double, planner::Planner> planners_;
 };
+
+// What the supervisor gets of a plan.
+[[nodiscard]] PlanReply replyTo(const PlanRequest& request, const planner::Plan& plan);
 
 }  // namespace otter_nav::mission

@@ -63,8 +63,14 @@ struct SupervisorOptions {
   double stop_reserve_s = 0.3;
   double brake_horizon_s = 8.0;
   double brake_thrust_share = 0.9;  // of the limits, astern
+  // Share of the thrust that plans may use; the rest is for what the plan doesn't know. Less by
+  // the disturbance the tracker reports, and by `thrust_share_step` each time the vessel couldn't
+  // follow, but never less than `thrust_share_min`.
+  double thrust_share = 0.95;
+  double thrust_share_min = 0.5;
+  double thrust_share_step = 0.1;
   // Tracking error from which the plan starts at the vessel itself again, m.
-  double tracking_error_max_m = 2.5;
+  double tracking_error_max_m = 1.2;
   // Odometry older than this is no ground for sailing on, s.
   double odometry_timeout_s = 1.0;
   // Arrived within these of the goal.
@@ -88,6 +94,7 @@ struct Situation {
   vessel::State state = vessel::State::Zero();  // latest odometry, map frame
   double odometry_stamp_s = 0.0;
   double tracking_error_m = 0.0;  // as the tracker reports it
+  double disturbance_n = 0.0;     // magnitude of the force that wind and current exert, estimated
   bool tracker_fault = false;     // the tracker can't follow and brakes by itself
   std::string tracker_reason;
 };
@@ -100,6 +107,7 @@ struct PlanRequest {
   bool moving = false;        // false: from rest, whenever the answer comes
   double start_time_s = 0.0;  // moving: when the vessel passes `start`
   double clearance_m = 0.0;
+  double thrust_share = 1.0;  // of the vessel's limits, for the plan
   std::uint64_t seed = 0;
   // What is left of the sailed trajectory from `start` on; empty if there is none.
   trajectory::Trajectory warm_start;
@@ -171,6 +179,7 @@ class Supervisor {
   [[nodiscard]] Orders post(double now_s, PlanRequest request, From from,
                             const map::DistanceField& field);
   void chooseRung(const Eigen::Vector2d& start, const map::DistanceField& field);
+  [[nodiscard]] double freeThrustShare(const Situation& situation) const;
 
   [[nodiscard]] Orders watchTheWay(double now_s, const Situation& situation,
                                    const map::DistanceField& field);
@@ -192,7 +201,7 @@ class Supervisor {
                                   const map::DistanceField& field);
   [[nodiscard]] Orders planFailed(double now_s, const std::string& why, const Pending& asked);
   [[nodiscard]] double timeLeft(double now_s) const;
-  void sail(SailOrder order, double clearance_m, double now_s);
+  void sail(SailOrder order, const PlanRequest& request, double now_s);
   void enter(Phase phase, std::string reason = {});
 
   SupervisorOptions options_;
@@ -203,7 +212,9 @@ class Supervisor {
   std::string reason_;
   Goal goal_;
   SailOrder sailed_;
-  double sailed_clearance_m_ = 0.0;  // what the sailed trajectory was planned for
+  double sailed_clearance_m_ = 0.0;   // what the sailed trajectory was planned for
+  double sailed_thrust_share_ = 1.0;  // and with
+  int times_left_behind_ = 0;         // the vessel couldn't follow, on the way to this goal
 
   std::optional<Pending> pending_;
   double latency_s_ = 0.0;  // grows when answers come late

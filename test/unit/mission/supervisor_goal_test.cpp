@@ -122,5 +122,41 @@ TEST(Options, ShippedFileLoads) {
   EXPECT_FALSE(readSupervisorOptions(config::Section(broken, "broken")).has_value());
 }
 
+TEST(Supervisor, KeepsThrustForTheDisturbance) {
+  ScriptedMission mission;
+  const auto calm = mission.goTo({20.0, 0.0});
+  ASSERT_TRUE(calm && calm->plan);
+  EXPECT_DOUBLE_EQ(calm->plan->thrust_share, mission.options.thrust_share);
+  Situation windy = mission.situation();
+  windy.disturbance_n = 22.0;  // of 100 N
+  const auto orders =
+      mission.supervisor.setGoal(mission.now_s, {{20.0, 0.0}, 0.0}, windy, mission.field);
+  ASSERT_TRUE(orders && orders->plan);
+  EXPECT_NEAR(orders->plan->thrust_share, 0.7, 1e-9);
+  windy.disturbance_n = 90.0;
+  const auto storm =
+      mission.supervisor.setGoal(mission.now_s, {{20.0, 0.0}, 0.0}, windy, mission.field);
+  ASSERT_TRUE(storm && storm->plan);
+  EXPECT_DOUBLE_EQ(storm->plan->thrust_share, mission.options.thrust_share_min);
+}
+
+TEST(Supervisor, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  Situation behind = mission.situation();
+  behind.state.x() -= 2.0;
+  behind.tracking_error_m = 2.0;
+  const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
+  ASSERT_TRUE(orders.plan);
+  EXPECT_NEAR(orders.plan->thrust_share,
+              mission.options.thrust_share - mission.options.thrust_share_step, 1e-9);
+  // It begins where the vessel is, with no more force than the plan may use.
+  EXPECT_LT((orders.plan->start.position - behind.state.head<2>()).norm(), 2.0);
+  const vessel::Parameters otter;
+  const Eigen::Vector2d force = otter.paper.m1_kg * orders.plan->start.acceleration +
+                                otter.paper.d2_kgps * orders.plan->start.velocity;
+  EXPECT_LE(force.norm(), 2.0 * otter.thrusters.ahead_max_n * orders.plan->thrust_share);
+}
+
 }  // namespace
 }  // namespace otter_nav::mission

@@ -17,6 +17,17 @@ TEST(LoadParameters, ShippedVesselRoundTrips) {
   EXPECT_EQ(toYaml(*again), toYaml(*loaded));
 }
 
+TEST(WithThrustShare, LeavesEverythingButThrustAndSpeed) {
+  const Parameters whole;
+  Parameters less = withThrustShare(whole, 0.8);
+  EXPECT_DOUBLE_EQ(less.thrusters.ahead_max_n, 40.0);
+  EXPECT_DOUBLE_EQ(less.thrusters.astern_max_n, 40.0);
+  EXPECT_DOUBLE_EQ(less.top_speed_mps, 4.0);
+  less.thrusters = whole.thrusters;
+  less.top_speed_mps = whole.top_speed_mps;
+  EXPECT_EQ(toYaml(less), toYaml(whole));
+}
+
 TEST(LoadParameters, NamesTheOffender) {
   const auto message = [](const std::string& from, const std::string& to) {
     std::string text = toYaml(Parameters{});
