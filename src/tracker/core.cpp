@@ -32,6 +32,8 @@ OcpOptions ocpOptions(const Options& o, const vessel::Parameters& vessel) {
   ocp.weights.thrusts = vessel::Thrusts::Constant(w.thrust * ocp.step_s);
   ocp.lower_n.setConstant(-o.thrust_share * vessel.thrusters.astern_max_n);
   ocp.upper_n.setConstant(o.thrust_share * vessel.thrusters.ahead_max_n);
+  ocp.far_m = o.far_m;
+  ocp.heading_step_rad = o.heading_step_rad;
   return ocp;
 }
 

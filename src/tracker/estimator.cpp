@@ -22,14 +22,19 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::ManoeuvringM
       o.velocity_sigma_mps, o.velocity_sigma_mps, o.yaw_rate_sigma_radps;
   measurement_variance_ = measurement_variance_.cwiseAbs2();
   walk_variance_ << 0.0, 0.0, 0.0, o.velocity_walk_mps, o.velocity_walk_mps, o.yaw_rate_walk_radps,
-      o.force_walk_n, o.force_walk_n, o.moment_walk_nm, o.current_walk_mps, o.current_walk_mps;
+      o.force_walk_n, o.force_walk_n, o.moment_walk_nm, o.current_walk_mps, o.current_walk_mps,
+      o.wind_walk_m2ps2, o.wind_walk_m2ps2;
   walk_variance_ = walk_variance_.cwiseAbs2().eval();
   if (o.enabled) {
-    covariance_.diagonal().tail<5>() << o.force_sigma_n, o.force_sigma_n, o.moment_sigma_nm,
-        o.current_sigma_mps, o.current_sigma_mps;
+    covariance_.diagonal().tail<7>() << o.force_sigma_n, o.force_sigma_n, o.moment_sigma_nm,
+        o.current_sigma_mps, o.current_sigma_mps, o.wind_sigma_m2ps2, o.wind_sigma_m2ps2;
     covariance_ = covariance_.cwiseAbs2().eval();
   } else {
-    walk_variance_.tail<5>().setZero();
+    walk_variance_.tail<7>().setZero();
+  }
+  if (!model.feelsWind()) {
+    walk_variance_.tail<2>().setZero();
+    covariance_.diagonal().tail<2>().setZero();
   }
 }
 
@@ -44,6 +49,33 @@ vessel::State Estimator::innovation(const vessel::State& measured) const {
   vessel::State difference = measured - state_;
   difference[kPsi] = wrapAngle(difference[kPsi]);
   return difference;
+}
+
+// Loads k |q_i| q_i / |q| and k q_x q_y / |q| over q, seen from the body.
+Eigen::Matrix<double, 3, 2> Estimator::fromWind() const {
+  constexpr double kCalm = 1.0;  // m^2/s^2: below, the loads count as k q_i
+  const vessel::ManoeuvringModel& m = model_;
+  const double c = std::cos(state_[kPsi]);
+  const double s = std::sin(state_[kPsi]);
+  Eigen::Matrix2d body_from_earth;
+  body_from_earth << c, s, -s, c;
+  const double size = wind_pressure_.norm();
+  Eigen::Matrix<double, 3, 2> d;
+  if (size < kCalm) {
+    d << m.wind_surge_kgpm, 0.0, 0.0, m.wind_sway_kgpm, 0.0, 0.0;
+  } else {
+    const Eigen::Vector2d n = body_from_earth * wind_pressure_ / size;
+    const double along = m.wind_surge_kgpm * std::abs(n.x());
+    const double across = m.wind_sway_kgpm * std::abs(n.y());
+    d << along * (2.0 - n.x() * n.x()), -along * n.x() * n.y(),  //
+        -across * n.x() * n.y(), across * (2.0 - n.y() * n.y()),
+        m.wind_yaw_kg * n.y() * (1.0 - n.x() * n.x()),
+        m.wind_yaw_kg * n.x() * (1.0 - n.y() * n.y());
+  }
+  d.row(0) /= m.surge_inertia_kg;
+  d.row(1) /= m.sway_inertia_kg;
+  d.row(2) /= m.yaw_inertia_kgm2;
+  return d * body_from_earth;
 }
 
 // I + dt * Jacobian: over 10 ms the next order is below the noise.
@@ -66,6 +98,7 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   from_current(0, 1) += state_[kYawRate];
   from_current(1, 0) -= state_[kYawRate];
   f.block<3, 2>(kSurge, kCurrent) = dt_s * from_current * body_from_earth;
+  f.block<3, 2>(kSurge, kWind) = dt_s * fromWind();
   return f;
 }
 
@@ -95,6 +128,7 @@ void Estimator::update(const vessel::State& measured) {
     disturbance_.force_n += step.segment<2>(kForce);
     disturbance_.moment_nm += step[kMoment];
     disturbance_.current_mps += step.segment<2>(kCurrent);
+    wind_pressure_ += step.segment<2>(kWind);
     limit();
   }
 }
@@ -108,6 +142,9 @@ void Estimator::limit() {
   };
   clampNorm(disturbance_.force_n, options_.force_max_n);
   clampNorm(disturbance_.current_mps, options_.current_max_mps);
+  clampNorm(wind_pressure_, options_.wind_max_mps * options_.wind_max_mps);
+  const double size = wind_pressure_.norm();
+  disturbance_.wind_mps = size > 0.0 ? (wind_pressure_ / std::sqrt(size)).eval() : wind_pressure_;
   disturbance_.moment_nm =
       std::clamp(disturbance_.moment_nm, -options_.moment_max_nm, options_.moment_max_nm);
 }

@@ -32,12 +32,15 @@ Status readEstimator(config::Section section, EstimatorOptions& o) {
   section.read("force_walk_n", o.force_walk_n, kNotNegative);
   section.read("moment_walk_nm", o.moment_walk_nm, kNotNegative);
   section.read("current_walk_mps", o.current_walk_mps, kNotNegative);
+  section.read("wind_walk_m2ps2", o.wind_walk_m2ps2, kNotNegative);
   section.read("force_sigma_n", o.force_sigma_n, kNotNegative);
   section.read("moment_sigma_nm", o.moment_sigma_nm, kNotNegative);
   section.read("current_sigma_mps", o.current_sigma_mps, kNotNegative);
+  section.read("wind_sigma_m2ps2", o.wind_sigma_m2ps2, kNotNegative);
   section.read("force_max_n", o.force_max_n, kNotNegative);
   section.read("moment_max_nm", o.moment_max_nm, kNotNegative);
   section.read("current_max_mps", o.current_max_mps, kNotNegative);
+  section.read("wind_max_mps", o.wind_max_mps, kNotNegative);
   return section.finish();
 }
 
@@ -76,6 +79,8 @@ Result<Options> readOptions(config::Section section) {
   section.read("thrust_share", o.thrust_share, kShare);
   section.read("thrust_rate_nps", o.thrust_rate_nps, kPositive);
   section.read("keep_plan_s", o.keep_plan_s, {0.0, 2.0});
+  section.read("far_m", o.far_m, kPositive);
+  section.read("heading_step_rad", o.heading_step_rad, kPositive);
   section.read("leash_m", o.leash_m, kPositive);
   section.read("catch_up_rate", o.catch_up_rate, {0.0, 10.0});
   section.read("join_offset_m", o.join_offset_m, kPositive);

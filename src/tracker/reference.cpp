@@ -16,9 +16,14 @@ using vessel::kSurge;
 using vessel::kSway;
 using vessel::kYawRate;
 
-// Below this slope of the sway balance over the heading, N per rad, the position hardly says where
-// the bow should point (at rest, coasting, braking): the trajectory's own heading is taken.
+// The sway balance's slope over the heading, N per rad, is about the thrust ahead that the way asks
+// for. Below the least (at rest, coasting, braking, wind from astern as strong as the drag) the
+// position hardly says where the bow should point, and the trajectory's own heading is taken.
+// Under more than a light load that heading is only a wish: the plan finds its own from the
+// position, and more and more the flat one as the slope grows by kSteadySlopeN.
 constexpr double kLeastSlopeN = 10.0;
+constexpr double kSteadySlopeN = 30.0;
+constexpr double kLightLoadN = 5.0;
 constexpr double kSlowMps = 0.05;
 constexpr double kLeastWaitingSpeedMps = 0.3;
 
@@ -121,32 +126,37 @@ ReferenceSource::Course ReferenceSource::course(double time_s) const {
   return c;
 }
 
-double ReferenceSource::heading(const Course& c, double psi_rad, double dt_s,
-                                const vessel::Disturbance& d) const {
+ReferenceSource::Heading ReferenceSource::heading(const Course& c, double psi_rad, double dt_s,
+                                                  const vessel::Disturbance& d) const {
   const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
   const Vector2d w = c.flat.velocity - d.current_mps;
   double psi = unwrapNear(psi_rad, c.psi_rad);
   const double before = psi;
   if (c.spins) {
-    return c.psi_rad;
+    return {c.psi_rad, 1.0};
   }
+  double slope = 0.0;
   for (int iteration = 0; iteration < 3; ++iteration) {
     const Vector2d e(std::cos(psi), std::sin(psi));
     const double u = e.dot(w);
     const double v = cross(e, w);
     const double drag = m.sway_drag_kgps + m.sway_drag_quadratic_kgpm * std::abs(v);
     const double drag_slope = m.sway_drag_kgps + 2.0 * m.sway_drag_quadratic_kgpm * std::abs(v);
+    const vessel::OutsideLoad load = vessel::outsideLoad(psi, m, d);
     const double balance =
-        cross(e, d.force_n) - drag * v - m.sway_inertia_kg * cross(e, c.flat.acceleration);
-    const double slope =
-        drag_slope * u + m.sway_inertia_kg * e.dot(c.flat.acceleration) - e.dot(d.force_n);
+        load.sway_n - drag * v - m.sway_inertia_kg * cross(e, c.flat.acceleration);
+    slope = drag_slope * u + m.sway_inertia_kg * e.dot(c.flat.acceleration) + load.sway_slope_n;
     const double turning = (m.sway_centripetal_kg - m.sway_inertia_kg) * u + m.sway_from_yaw_kgmps;
     if (slope < kLeastSlopeN || turning > 0.0) {
-      return c.psi_rad;
+      psi = c.psi_rad;
+      break;
     }
     psi -= (turning * (psi - before) / dt_s - balance) / (turning / dt_s - slope);
   }
-  return psi;
+  const vessel::OutsideLoad load = vessel::outsideLoad(psi, m, d);
+  const double calm = 2.0 - std::hypot(load.surge_n, load.sway_n) / kLightLoadN;
+  const double steady = (slope - kLeastSlopeN) / kSteadySlopeN;
+  return {psi, std::clamp(std::max(calm, steady), 0.0, 1.0)};
 }
 
 // Surge and sway from the heading, thrusts from the equations of motion.
@@ -161,11 +171,12 @@ void ReferenceSource::setDynamics(const Course& c, double yaw_acceleration,
   const double v = cross(e, w);
   x[kSurge] = e.dot(c.flat.velocity);
   x[kSway] = cross(e, c.flat.velocity);
+  const vessel::OutsideLoad load = vessel::outsideLoad(x[kPsi], m, d);
   vessel::Tau tau;
   tau.surge_n = m.surge_inertia_kg * (e.dot(c.flat.acceleration) + r * v) -
-                m.surge_centripetal_kg * v * r - e.dot(d.force_n) +
+                m.surge_centripetal_kg * v * r - load.surge_n +
                 (m.surge_drag_kgps + m.surge_drag_quadratic_kgpm * std::abs(u)) * u;
-  tau.yaw_nm = m.yaw_inertia_kgm2 * yaw_acceleration - d.moment_nm + m.munk_kg * u * v +
+  tau.yaw_nm = m.yaw_inertia_kgm2 * yaw_acceleration - load.yaw_nm + m.munk_kg * u * v +
                m.yaw_from_sway_kgmps * v +
                (m.yaw_drag_kgm2ps + m.yaw_drag_quadratic_kgm2 * std::abs(r)) * r;
   thrusts = vessel::clampThrusts(vessel::thrustsFromTau(tau, vessel_.thrusters), vessel_.thrusters);
@@ -177,17 +188,20 @@ void ReferenceSource::fillFlat(double start_s, double step_s, int stages,
   courses[0] = course(start_s);
   const double elapsed = start_s - psi_time_s_;
   if (elapsed > 0.0) {
-    psi_rad_ = heading(courses[0], psi_rad_, elapsed, disturbance);
+    psi_rad_ = heading(courses[0], psi_rad_, elapsed, disturbance).psi_rad;
     psi_time_s_ = start_s;
   }
   double psi = psi_rad_;
   for (int k = 0; k <= stages; ++k) {
     if (k > 0) {
       courses[k] = course(start_s + k * step_s);
-      psi = unwrapNear(heading(courses[k], psi, step_s, disturbance), psi);
+      const Heading next = heading(courses[k], psi, step_s, disturbance);
+      psi = unwrapNear(next.psi_rad, psi);
+      reference.attitude[k] = next.trust;
     }
     reference.states[k] << courses[k].flat.position, psi, 0.0, 0.0, 0.0;
   }
+  reference.attitude[0] = reference.attitude[1];
   // Yaw rate and acceleration by differences: central, one-sided at the ends.
   const auto psiAt = [&](int k) { return reference.states[k][kPsi]; };
   for (int k = 0; k <= stages; ++k) {
@@ -212,6 +226,7 @@ void ReferenceSource::fillFlat(double start_s, double step_s, int stages,
 void ReferenceSource::fillPlain(double start_s, double step_s, int stages,
                                 OcpReference& reference) const {
   double psi = psi_rad_;
+  reference.attitude.fill(1.0);
   for (int k = 0; k <= stages; ++k) {
     const Course c = course(start_s + k * step_s);
     const double speed = c.flat.velocity.norm();

@@ -5,6 +5,10 @@
 
 namespace otter_nav::tracker {
 
+double nearness(const vessel::State& x, const vessel::State& reference, double far_m) {
+  return 1.0 / std::sqrt(1.0 + (x - reference).head<2>().squaredNorm() / (far_m * far_m));
+}
+
 RtiSolver::RtiSolver(const OcpOptions& options, const vessel::ManoeuvringModel& model,
                      const vessel::Thrusters& thrusters)
     : options_(options), model_(model, thrusters) {
@@ -46,7 +50,9 @@ void RtiSolver::shift(double fraction) {
 void RtiSolver::setCosts(const OcpReference& reference) {
   const int n = options_.stages;
   for (int k = 0; k <= n; ++k) {
-    const vessel::State& w = k == n ? options_.weights.terminal : options_.weights.state;
+    vessel::State w = k == n ? options_.weights.terminal : options_.weights.state;
+    w.segment<3>(vessel::kPsi) *= reference.attitude[k];
+    w.head<2>() *= nearness(states_[k], reference.states[k], options_.far_m);
     const vessel::State g = w.cwiseProduct(states_[k] - reference.states[k]);
     StateCost& cost = state_costs_[k];
     cost.weight_q = Pack{w[2], w[3], w[4], w[5]};
@@ -188,14 +194,19 @@ void RtiSolver::accept() {
   const int n = options_.stages;
   const vessel::Thrusts range = options_.upper_n - options_.lower_n;
   last_step_ = 0.0;
+  double turn = 0.0;
   for (int k = 0; k <= n; ++k) {
-    states_[k] += Eigen::Map<const vessel::State>(dx_[k]);
+    turn = std::max(turn, std::abs(dx_[k][vessel::kPsi]));
+  }
+  const double share = std::min(1.0, options_.heading_step_rad / std::max(turn, 1e-9));
+  for (int k = 0; k <= n; ++k) {
+    states_[k] += share * Eigen::Map<const vessel::State>(dx_[k]);
   }
   for (int k = 0; k < n; ++k) {
     for (int i = 0; i < 2; ++i) {
       last_step_ = std::max(last_step_, std::abs(du_[k][i]) / range[i]);
       thrusts_[k][i] =
-          std::clamp(thrusts_[k][i] + du_[k][i], options_.lower_n[i], options_.upper_n[i]);
+          std::clamp(thrusts_[k][i] + share * du_[k][i], options_.lower_n[i], options_.upper_n[i]);
     }
   }
 }

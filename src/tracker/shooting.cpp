@@ -40,7 +40,10 @@ StageModel::StageModel(const vessel::ManoeuvringModel& m, const vessel::Thruster
       surge_mobility_(1.0 / m.surge_inertia_kg),
       sway_mobility_(1.0 / m.sway_inertia_kg),
       yaw_mobility_(1.0 / m.yaw_inertia_kgm2),
-      lever_(thrusters.lever_arm_m) {}
+      lever_(thrusters.lever_arm_m),
+      wind_surge_(m.wind_surge_kgpm / m.surge_inertia_kg),
+      wind_sway_(m.wind_sway_kgpm / m.sway_inertia_kg),
+      wind_yaw_(m.wind_yaw_kg / m.yaw_inertia_kgm2) {}
 
 void StageModel::setDisturbance(const vessel::Disturbance& disturbance) {
   current_x_ = disturbance.current_mps.x();
@@ -48,6 +51,8 @@ void StageModel::setDisturbance(const vessel::Disturbance& disturbance) {
   force_x_ = disturbance.force_n.x();
   force_y_ = disturbance.force_n.y();
   moment_ = disturbance.moment_nm;
+  wind_x_ = disturbance.wind_mps.x();
+  wind_y_ = disturbance.wind_mps.y();
 }
 
 // vessel::stateDerivative and its Jacobian, see vessel/model.cpp for the derivation.
@@ -59,6 +64,10 @@ void StageModel::differentiate(const Pack (&q)[4], Pack surge_acceleration, Pack
   const Pack current_v = d.cosine * current_y_ - d.sine * current_x_;
   const Pack force_u = d.cosine * force_x_ + d.sine * force_y_;
   const Pack force_v = d.cosine * force_y_ - d.sine * force_x_;
+  const Pack wind_u = d.cosine * wind_x_ + d.sine * wind_y_;
+  const Pack wind_v = d.cosine * wind_y_ - d.sine * wind_x_;
+  const Pack gust_u = wind_surge_ * abs(wind_u);
+  const Pack gust_v = wind_sway_ * abs(wind_v);
   const Pack u = q[kRowU] - current_u;
   const Pack v = q[kRowV] - current_v;
   const Pack drag2_u = surge_drag2_ * abs(u);
@@ -68,29 +77,30 @@ void StageModel::differentiate(const Pack (&q)[4], Pack surge_acceleration, Pack
   d.rate[0] = d.cosine * q[kRowU] - d.sine * q[kRowV];
   d.rate[1] = d.sine * q[kRowU] + d.cosine * q[kRowV];
   d.rate[2] = r;
-  d.rate[3] = surge_centripetal_ * v * r + surge_acceleration + force_u * surge_mobility_ -
-              (surge_drag_ + drag2_u) * u + r * current_v;
-  d.rate[4] = force_v * sway_mobility_ - sway_centripetal_ * u * r - (sway_drag_ + drag2_v) * v -
-              sway_from_yaw_ * r - r * current_u;
-  d.rate[5] = yaw_acceleration + moment_ * yaw_mobility_ - (yaw_drag_ + drag2_r) * r -
-              munk_ * u * v - yaw_from_sway_ * v;
+  d.rate[3] = surge_centripetal_ * v * r + surge_acceleration + force_u * surge_mobility_ +
+              gust_u * wind_u - (surge_drag_ + drag2_u) * u + r * current_v;
+  d.rate[4] = force_v * sway_mobility_ + gust_v * wind_v - sway_centripetal_ * u * r -
+              (sway_drag_ + drag2_v) * v - sway_from_yaw_ * r - r * current_u;
+  d.rate[5] = yaw_acceleration + moment_ * yaw_mobility_ + wind_yaw_ * wind_u * wind_v -
+              (yaw_drag_ + drag2_r) * r - munk_ * u * v - yaw_from_sway_ * v;
 
   d.x_psi = -d.rate[1];
   d.y_psi = d.rate[0];
   d.u[kRowU] = -surge_drag_ - 2.0 * drag2_u;
   d.u[kRowV] = surge_centripetal_ * r;
   d.u[kRowR] = surge_centripetal_ * v + current_v;
-  d.u[kRowPsi] =
-      d.u[kRowV] * current_u - d.u[kRowU] * current_v + force_v * surge_mobility_ - r * current_u;
+  d.u[kRowPsi] = d.u[kRowV] * current_u - d.u[kRowU] * current_v + force_v * surge_mobility_ -
+                 r * current_u + 2.0 * gust_u * wind_v;
   d.v[kRowU] = -sway_centripetal_ * r;
   d.v[kRowV] = -sway_drag_ - 2.0 * drag2_v;
   d.v[kRowR] = -sway_centripetal_ * u - sway_from_yaw_ - current_u;
-  d.v[kRowPsi] =
-      d.v[kRowV] * current_u - d.v[kRowU] * current_v - force_u * sway_mobility_ - r * current_v;
+  d.v[kRowPsi] = d.v[kRowV] * current_u - d.v[kRowU] * current_v - force_u * sway_mobility_ -
+                 r * current_v - 2.0 * gust_v * wind_u;
   d.r[kRowU] = -munk_ * v;
   d.r[kRowV] = -munk_ * u - yaw_from_sway_;
   d.r[kRowR] = -yaw_drag_ - 2.0 * drag2_r;
-  d.r[kRowPsi] = d.r[kRowV] * current_u - d.r[kRowU] * current_v;
+  d.r[kRowPsi] = d.r[kRowV] * current_u - d.r[kRowU] * current_v +
+                 wind_yaw_ * (wind_v * wind_v - wind_u * wind_u);
 }
 
 void StageModel::propagate(const Derivative& d, const Sensitivity& s, Sensitivity& rate) const {

@@ -35,6 +35,11 @@ Status readManoeuvring(config::Section section, ManoeuvringModel& model) {
   section.read("yaw_drag_quadratic_kgm2", model.yaw_drag_quadratic_kgm2, kNotNegative);
   section.read("sway_from_yaw_kgmps", model.sway_from_yaw_kgmps, kAny);
   section.read("yaw_from_sway_kgmps", model.yaw_from_sway_kgmps, kAny);
+  if (section.has("wind_surge_kgpm")) {
+    section.read("wind_surge_kgpm", model.wind_surge_kgpm, kNotNegative);
+    section.read("wind_sway_kgpm", model.wind_sway_kgpm, kNotNegative);
+    section.read("wind_yaw_kg", model.wind_yaw_kg, kAny);
+  }
   return section.finish();
 }
 
@@ -138,6 +143,11 @@ std::string toYaml(const Parameters& p) {
       << "\n  yaw_drag_quadratic_kgm2: " << text(m.yaw_drag_quadratic_kgm2)
       << "\n  sway_from_yaw_kgmps: " << text(m.sway_from_yaw_kgmps)
       << "\n  yaw_from_sway_kgmps: " << text(m.yaw_from_sway_kgmps);
+  if (m.feelsWind()) {
+    out << "\n  wind_surge_kgpm: " << text(m.wind_surge_kgpm)
+        << "\n  wind_sway_kgpm: " << text(m.wind_sway_kgpm)
+        << "\n  wind_yaw_kg: " << text(m.wind_yaw_kg);
+  }
   out << "\nthrusters:\n  lever_arm_m: " << text(p.thrusters.lever_arm_m)
       << "\n  ahead_max_n: " << text(p.thrusters.ahead_max_n)
       << "\n  astern_max_n: " << text(p.thrusters.astern_max_n)

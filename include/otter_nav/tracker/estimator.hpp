@@ -1,5 +1,6 @@
 // Extended Kalman filter for the vessel's state and what pushes it: a force fixed in the earth
-// frame, a yaw moment and, if asked for, a current.
+// frame, a yaw moment, the wind if the vessel's model knows wind loads and, if asked for, a
+// current.
 //
 // Force and current are told apart only by how they change with heading and speed (a hull with the
 // same linear drag ahead and abeam shows no difference at all), so the current is off by default
@@ -32,11 +33,14 @@ class Estimator {
   [[nodiscard]] vessel::State innovation(const vessel::State& measured) const;
 
  private:
-  // The state, then force x, y, moment, current x, y.
-  static constexpr int kForce = 6, kMoment = 8, kCurrent = 9, kSize = 11;
+  // The state, then force x, y, moment, current x, y, wind x, y. The wind's state is q = |w| w:
+  // the loads are of the first degree in it, so it has no dead spot in calm air.
+  static constexpr int kForce = 6, kMoment = 8, kCurrent = 9, kWind = 11, kSize = 13;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
 
   [[nodiscard]] Covariance transition(const vessel::Thrusts& thrusts, double dt_s) const;
+  // Of surge, sway and yaw acceleration over q.
+  [[nodiscard]] Eigen::Matrix<double, 3, 2> fromWind() const;
   void limit();
 
   EstimatorOptions options_;
@@ -44,6 +48,7 @@ class Estimator {
   vessel::Thrusters thrusters_;
   vessel::State state_ = vessel::State::Zero();
   vessel::Disturbance disturbance_;
+  Eigen::Vector2d wind_pressure_ = Eigen::Vector2d::Zero();  // q, m^2/s^2
   Covariance covariance_ = Covariance::Zero();
   vessel::State measurement_variance_;
   Eigen::Matrix<double, kSize, 1> walk_variance_;

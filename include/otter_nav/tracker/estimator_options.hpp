@@ -18,13 +18,17 @@ struct EstimatorOptions {
   double force_walk_n = 5.0;
   double moment_walk_nm = 2.0;
   double current_walk_mps = 0.0;  // 0: the current is not estimated, the force carries it
+  // |w| w of the wind, for vessels that know its loads.
+  double wind_walk_m2ps2 = 10.0;
   // What is not known of them at the start.
   double force_sigma_n = 10.0;
   double moment_sigma_nm = 5.0;
   double current_sigma_mps = 0.0;
+  double wind_sigma_m2ps2 = 30.0;
   double force_max_n = 80.0;
   double moment_max_nm = 20.0;
   double current_max_mps = 1.5;
+  double wind_max_mps = 20.0;
 };
 
 }  // namespace otter_nav::tracker

@@ -59,12 +59,14 @@ struct Options {
   double thrust_share = 1.0;  // of the thrusters' limits the tracker may use
   // Of either thrust's command, N/s; the plan may use whole limits, the command never jumps.
   double thrust_rate_nps = 1000.0;
-  double keep_plan_s = 0.3;  // how long the last good plan stands in for a failing solver
-  // A reference further from the vessel than this is approached along a joining curve.
+  double keep_plan_s = 0.3;       // how long the last good plan stands in for a failing solver
+  double far_m = 0.5;             // position errors beyond weigh in proportion, not squared
+  double heading_step_rad = 0.5;  // most that one iteration turns the plan's headings
   // The reference waits for a vessel that falls behind it by more than this (at the start, or where
   // the thrust is spent), and catches up by at most this share of time when it can.
   double leash_m = 1.0;
   double catch_up_rate = 0.5;
+  // A reference further from the vessel than this is approached along a joining curve.
   double join_offset_m = 0.5;
   double join_speed_mps = 0.7;
   double arrival_radius_m = 1.0;  // for `at goal` in the status

@@ -44,9 +44,13 @@ class ReferenceSource {
  private:
   struct Course;
   [[nodiscard]] Course course(double time_s) const;
-  // The heading a step of `dt_s` after `psi_rad`.
-  [[nodiscard]] double heading(const Course& course, double psi_rad, double dt_s,
-                               const vessel::Disturbance& disturbance) const;
+  // The heading a step of `dt_s` after `psi_rad`, and how far it is to be trusted, 0 to 1.
+  struct Heading {
+    double psi_rad;
+    double trust;
+  };
+  [[nodiscard]] Heading heading(const Course& course, double psi_rad, double dt_s,
+                                const vessel::Disturbance& disturbance) const;
   void fillFlat(double start_s, double step_s, int stages, const vessel::Disturbance& disturbance,
                 OcpReference& reference);
   void fillPlain(double start_s, double step_s, int stages, OcpReference& reference) const;

@@ -36,15 +36,28 @@ struct OcpOptions {
   vessel::Thrusts lower_n = vessel::Thrusts::Constant(-50.0);
   vessel::Thrusts upper_n = vessel::Thrusts::Constant(50.0);
   double regularization = 1e-9;  // added to the thrusts' Hessian
+  // Position errors e cost far_m^2 (sqrt(1 + (e / far_m)^2) - 1) times their weight (Charbonnier's
+  // loss): as e^2 / 2 when near, in proportion when far, so that a vessel blown off its way does
+  // not make the problem ever stiffer. x and y weigh alike.
+  double far_m = 1e3;
+  // The most a step may turn any stage's heading; beyond, the plan takes a share of the step.
+  double heading_step_rad = 1e3;
   int active_set_iterations = 6;
   int interior_point_iterations = 30;
 };
 
-// psi of all states is continuous along the horizon and near the measured one.
+// psi of all states is continuous along the horizon and near the measured one. `attitude` in [0, 1]
+// scales the weights of a stage's heading, surge and sway: how far the reference means them.
 struct OcpReference {
+  OcpReference() { attitude.fill(1.0); }
+
   std::array<vessel::State, kMaxStages + 1> states;
+  std::array<double, kMaxStages + 1> attitude;
   std::array<vessel::Thrusts, kMaxStages> thrusts;
 };
+
+// What the loss above leaves of the position's weight at an error, 0 to 1.
+[[nodiscard]] double nearness(const vessel::State& x, const vessel::State& reference, double far_m);
 
 class RtiSolver {
  public:

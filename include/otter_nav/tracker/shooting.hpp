@@ -41,6 +41,8 @@ class StageModel {
   double surge_mobility_, sway_mobility_, yaw_mobility_;  // 1 / inertia
   double lever_;
   double current_x_ = 0.0, current_y_ = 0.0, force_x_ = 0.0, force_y_ = 0.0, moment_ = 0.0;
+  double wind_x_ = 0.0, wind_y_ = 0.0;
+  double wind_surge_, wind_sway_, wind_yaw_;
 };
 
 }  // namespace otter_nav::tracker

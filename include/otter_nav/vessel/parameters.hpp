@@ -40,7 +40,16 @@ struct ManoeuvringModel {
   double yaw_drag_quadratic_kgm2 = 0.0;
   double sway_from_yaw_kgmps = 0.0;
   double yaw_from_sway_kgmps = 0.0;
+  // Wind w over the water, seen from the body: wind_surge |wx| wx ahead, wind_sway |wy| wy to port
+  // and wind_yaw wx wy about the yaw axis (Fossen 2021, section 10.1, written without angles; the
+  // hull's own speed is small beside the wind's). Zero, and optional in files: no wind loads.
+  double wind_surge_kgpm = 0.0;
+  double wind_sway_kgpm = 0.0;
+  double wind_yaw_kg = 0.0;
 
+  [[nodiscard]] bool feelsWind() const {
+    return wind_surge_kgpm != 0.0 || wind_sway_kgpm != 0.0 || wind_yaw_kg != 0.0;
+  }
   static ManoeuvringModel fromPaper(const PaperModel& paper);
 };
 

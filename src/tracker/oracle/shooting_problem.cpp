@@ -1,6 +1,7 @@
 #include "shooting_problem.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "otter_nav/base/rk4.hpp"
 
@@ -31,8 +32,10 @@ Thrusts ShootingProblem::thrustsAt(const Number* x, int k) const {
   return Eigen::Map<const Thrusts>(x + thrustIndex(k));
 }
 
-const State& ShootingProblem::weight(int k) const {
-  return k == options_.stages ? options_.weights.terminal : options_.weights.state;
+State ShootingProblem::weight(int k) const {
+  State w = k == options_.stages ? options_.weights.terminal : options_.weights.state;
+  w.segment<3>(vessel::kPsi) *= reference_.attitude[k];
+  return w;
 }
 
 ShootingProblem::Step ShootingProblem::step(const State& x, const Thrusts& thrusts) const {
@@ -99,7 +102,11 @@ bool ShootingProblem::get_starting_point(Index /*n*/, bool /*init_x*/, Number* x
 bool ShootingProblem::eval_f(Index /*n*/, const Number* x, bool /*fresh*/, Number& value) {
   value = 0.0;
   for (int k = 0; k <= options_.stages; ++k) {
-    value += 0.5 * weight(k).dot((stateAt(x, k) - reference_.states[k]).cwiseAbs2());
+    const State off = stateAt(x, k) - reference_.states[k];
+    const State w = weight(k);
+    const double far = options_.far_m;
+    value += 0.5 * w.tail<4>().dot(off.tail<4>().cwiseAbs2()) +
+             w[0] * far * far * (std::hypot(1.0, off.head<2>().norm() / far) - 1.0);
   }
   for (int k = 0; k < options_.stages; ++k) {
     value +=
@@ -110,8 +117,10 @@ bool ShootingProblem::eval_f(Index /*n*/, const Number* x, bool /*fresh*/, Numbe
 
 bool ShootingProblem::eval_grad_f(Index /*n*/, const Number* x, bool /*fresh*/, Number* gradient) {
   for (int k = 0; k <= options_.stages; ++k) {
-    Eigen::Map<State>(gradient + 6 * k) =
-        weight(k).cwiseProduct(stateAt(x, k) - reference_.states[k]);
+    const State off = stateAt(x, k) - reference_.states[k];
+    Eigen::Map<State> part(gradient + 6 * k);
+    part = weight(k).cwiseProduct(off);
+    part.head<2>() /= std::hypot(1.0, off.head<2>().norm() / options_.far_m);
   }
   for (int k = 0; k < options_.stages; ++k) {
     Eigen::Map<Thrusts>(gradient + thrustIndex(k)) =

@@ -50,7 +50,7 @@ class ShootingProblem : public Ipopt::TNLP {
   [[nodiscard]] vessel::State stateAt(const Number* x, int k) const;
   [[nodiscard]] vessel::Thrusts thrustsAt(const Number* x, int k) const;
   [[nodiscard]] Index thrustIndex(int k) const { return 6 * (options_.stages + 1) + 2 * k; }
-  [[nodiscard]] const vessel::State& weight(int k) const;
+  [[nodiscard]] vessel::State weight(int k) const;
 
   OcpOptions options_;
   vessel::ManoeuvringModel model_;

@@ -23,6 +23,9 @@ inline Problem circle(int stages, double aside_m) {
   Problem p;
   p.vessel.manoeuvring.sway_centripetal_kg = 30.0;
   p.vessel.manoeuvring.munk_kg = 3.0;
+  p.vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  p.vessel.manoeuvring.wind_sway_kgpm = 0.4;
+  p.vessel.manoeuvring.wind_yaw_kg = -0.3;
   p.vessel.manoeuvring.surge_drag_quadratic_kgpm = 2.0;
   p.options.stages = stages;
   p.options.step_s = 2.0 / stages;
@@ -36,11 +39,13 @@ inline Problem circle(int stages, double aside_m) {
   p.disturbance.force_n = {3.0, 8.0};
   p.disturbance.current_mps = {0.3, -0.2};
   p.disturbance.moment_nm = 1.0;
+  p.disturbance.wind_mps = {1.5, -4.0};
   p.measured << 20.0 - aside_m, 0.02, 1.57, 2.98, 0.05, 0.15;
   for (int k = 0; k <= stages; ++k) {
     const double angle = 0.15 * k * p.options.step_s;
     p.reference->states[k] << 20.0 * std::cos(angle), 20.0 * std::sin(angle), 1.5707963 + angle,
         3.0, 0.0, 0.15;
+    p.reference->attitude[k] = k % 3 == 0 ? 0.2 : 1.0;
     if (k < stages) {
       p.reference->thrusts[k] << 30.0, 32.0;
     }

@@ -53,6 +53,25 @@ TEST_P(AgainstIpopt, ConvergedPlansAgree) {
   }
 }
 
+// The reference two metres aside and a loss that turns linear at half a metre; Gauss and Newton's
+// steps shortened as in the tracker.
+TEST(RtiSolver, AgreesWithIpoptFarFromTheReference) {
+  Problem p = circle(20, 2.0);
+  p.options.far_m = 0.5;
+  p.options.heading_step_rad = 0.5;
+  int bounds_met = 0;
+  const auto ours = converge(p, bounds_met);
+  IpoptSolver oracle(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  const auto theirs = oracle.solve(p.measured, *p.reference, p.disturbance);
+  ASSERT_TRUE(theirs) << theirs.error().message;
+  const double range = p.options.upper_n[0] - p.options.lower_n[0];
+  for (int k = 0; k < p.options.stages; ++k) {
+    const vessel::Thrusts difference =
+        ours->thrusts()[k] - theirs->thrusts[static_cast<std::size_t>(k)];
+    EXPECT_LT(difference.cwiseAbs().maxCoeff() / range, 1e-6) << "stage " << k;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Problems, AgainstIpopt,
                          ::testing::Values(std::pair{20, 0.0}, std::pair{20, 2.0},
                                            std::pair{40, 0.0}, std::pair{40, 2.0},

@@ -24,6 +24,9 @@ ManoeuvringModel everyTermModel() {
   m.yaw_drag_quadratic_kgm2 = 200.0;
   m.sway_from_yaw_kgmps = 5.0;
   m.yaw_from_sway_kgmps = -4.0;
+  m.wind_surge_kgpm = 0.4;
+  m.wind_sway_kgpm = 0.6;
+  m.wind_yaw_kg = -0.7;
   return m;
 }
 
@@ -67,6 +70,7 @@ TEST(Linearize, AgreesWithCentralDifferences) {
     d.current_mps = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
     d.force_n = {random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0)};
     d.moment_nm = random.uniform(-5.0, 5.0);
+    d.wind_mps = {random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0)};
     const Linearization l = linearize(x, f, m, thrusters, d);
     EXPECT_TRUE(l.derivative.isApprox(stateDerivative(x, f, m, thrusters, d)));
     constexpr double kStep = 1e-6;
