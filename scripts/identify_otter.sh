@@ -23,6 +23,6 @@ export OTTER_NAV_SHARE=$top
 cd "$work"
 "$(program excitation_run)" --vessel otter --out excitation.csv
 "$(program identify)" --csv excitation.csv --vessel-guess otter_textbook --name otter \
-  --paper-speed 1.0 2.7 --out otter.yaml --report "$top/build/identification_otter" \
+  --out otter.yaml --report "$top/build/identification_otter" \
   --origin "the excitation manoeuvres on the plant otter (scripts/identify_otter.sh)"
 cp otter.yaml "$out"

@@ -1,8 +1,10 @@
 #include "otter_nav/identification/data_set.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/identification/thrust_history.hpp"
@@ -69,18 +71,60 @@ Status check(const Recording& recording) {
       kThrustNames.data(), true);
 }
 
-std::vector<Stretch> stretchesOf(const std::vector<Sample>& samples, double max_gap_s) {
-  std::vector<Stretch> stretches;
+// Of how many records one is kept, so that they stand about `interval_s` apart.
+std::size_t strideOf(const std::vector<OdometryRecord>& records, double interval_s) {
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < records.size(); ++i) {
+    spacings.push_back(records[i].stamp_s - records[i - 1].stamp_s);
+  }
+  if (spacings.empty()) {
+    return 1;
+  }
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return static_cast<std::size_t>(std::max(1.0, std::round(interval_s / *middle)));
+}
+
+Sample sampleOf(const OdometryRecord& record, const std::vector<Sample>& before) {
+  Sample sample;
+  sample.time_s = record.stamp_s;
+  sample.state = record.state;
+  if (!before.empty()) {
+    sample.state[vessel::kPsi] =
+        unwrapNear(sample.state[vessel::kPsi], before.back().state[vessel::kPsi]);
+  }
+  return sample;
+}
+
+// Samples from `from_s` to `to_s`, cut where the odometry pauses.
+DataSet samplesOf(const std::vector<OdometryRecord>& records, double from_s, double to_s,
+                  const DataOptions& options) {
+  const std::size_t stride = strideOf(records, options.sample_interval_s);
+  DataSet data;
   std::size_t begin = 0;
-  for (std::size_t i = 1; i <= samples.size(); ++i) {
-    if (i == samples.size() || samples[i].time_s - samples[i - 1].time_s > max_gap_s) {
-      if (i - begin > 1) {
-        stretches.push_back({begin, i});
-      }
-      begin = i;
+  std::size_t count = 0;
+  double last_s = from_s;
+  const auto close = [&] {
+    if (data.samples.size() - begin > 1) {
+      data.stretches.push_back({begin, data.samples.size()});
+    }
+    begin = data.samples.size();
+    count = 0;
+  };
+  for (const OdometryRecord& record : records) {
+    if (record.stamp_s < from_s || record.stamp_s > to_s) {
+      continue;
+    }
+    if (record.stamp_s - last_s > options.max_gap_s) {
+      close();
+    }
+    last_s = record.stamp_s;
+    if (count++ % stride == 0) {
+      data.samples.push_back(sampleOf(record, data.samples));
     }
   }
-  return stretches;
+  close();
+  return data;
 }
 
 double usableDuration(const DataSet& data) {
@@ -102,20 +146,7 @@ Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
   // Only where both streams speak is the thrust known.
   const double from_s = recording.commands.front().stamp_s;
   const double to_s = recording.commands.back().stamp_s + options.command_timeout_s;
-  DataSet data;
-  for (const OdometryRecord& record : recording.odometry) {
-    if (record.stamp_s < from_s || record.stamp_s > to_s) {
-      continue;
-    }
-    Sample sample;
-    sample.time_s = record.stamp_s;
-    sample.state = record.state;
-    if (!data.samples.empty()) {
-      sample.state[vessel::kPsi] =
-          unwrapNear(sample.state[vessel::kPsi], data.samples.back().state[vessel::kPsi]);
-    }
-    data.samples.push_back(sample);
-  }
+  DataSet data = samplesOf(recording.odometry, from_s, to_s, options);
   ThrustHistory history(recording.commands, thrust_lag_s, options.command_timeout_s);
   for (std::size_t i = 0; i + 1 < data.samples.size(); ++i) {
     data.samples[i].thrusts = history.mean(data.samples[i].time_s, data.samples[i + 1].time_s);
@@ -123,7 +154,6 @@ Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
   if (data.samples.size() > 1) {  // no interval follows the last
     data.samples.back().thrusts = data.samples[data.samples.size() - 2].thrusts;
   }
-  data.stretches = stretchesOf(data.samples, options.max_gap_s);
   const double duration_s = usableDuration(data);
   if (duration_s < options.min_duration_s) {
     std::ostringstream out;

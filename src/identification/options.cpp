@@ -5,6 +5,7 @@ namespace {
 
 Status readData(config::Section section, DataOptions& o) {
   section.read("min_duration_s", o.min_duration_s, {10.0, 1e5});
+  section.read("sample_interval_s", o.sample_interval_s, {0.001, 1.0});
   section.read("max_gap_s", o.max_gap_s, {0.001, 60.0});
   section.read("command_timeout_s", o.command_timeout_s, {0.01, 1e5});
   return section.finish();
@@ -27,7 +28,6 @@ Status readDeviations(config::Section section, Deviations& o) {
 }
 
 Status readProblem(config::Section section, ProblemOptions& o) {
-  section.read("residual_interval_s", o.residual_interval_s, {0.001, 10.0});
   section.read("free_initial_states", o.free_initial_states);
   section.read("estimate_current", o.estimate_current);
   section.read("max_current_mps", o.max_current_mps, {0.01, 10.0});

@@ -42,13 +42,8 @@ Problem::Problem(const DataSet& data, std::vector<Stretch> windows, ParameterSet
   const Deviations& d = options.deviations;
   inverse_deviation_ << 1.0 / d.position_m, 1.0 / d.position_m, 1.0 / d.heading_rad,
       1.0 / d.velocity_mps, 1.0 / d.velocity_mps, 1.0 / d.yaw_rate_radps;
-  const Stretch& first = windows_.front();
-  const double spacing_s = (data.samples[first.end - 1].time_s - data.samples[first.begin].time_s) /
-                           static_cast<double>(first.end - 1 - first.begin);
-  stride_ =
-      static_cast<std::size_t>(std::max(1.0, std::round(options.residual_interval_s / spacing_s)));
   for (const Stretch& w : windows_) {
-    residual_count_ += kStateSize * ((w.end - 1 - w.begin) / stride_ + 1);
+    residual_count_ += kStateSize * (w.end - w.begin);
   }
 }
 
@@ -109,14 +104,12 @@ double Problem::evaluateWindow(std::size_t window, const Eigen::VectorXd& variab
   double cost = 0.0;
   for (std::size_t i = w.begin; i < w.end; ++i) {
     const Sample& sample = data_.samples[i];
-    if ((i - w.begin) % stride_ == 0) {
-      const vessel::State error = residual(state, sample);
-      cost += 0.5 * error.squaredNorm();
-      if (terms != nullptr) {
-        const Sensitivity j = inverse_deviation_.asDiagonal() * sensitivity;
-        terms->gradient.noalias() += j.transpose().lazyProduct(error);
-        terms->hessian.noalias() += j.transpose().lazyProduct(j);
-      }
+    const vessel::State error = residual(state, sample);
+    cost += 0.5 * error.squaredNorm();
+    if (terms != nullptr) {
+      const Sensitivity j = inverse_deviation_.asDiagonal() * sensitivity;
+      terms->gradient.noalias() += j.transpose().lazyProduct(error);
+      terms->hessian.noalias() += j.transpose().lazyProduct(j);
     }
     if (i + 1 < w.end) {
       advance(model, sample, data_.samples[i + 1].time_s - sample.time_s, state,

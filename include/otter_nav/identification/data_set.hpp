@@ -50,13 +50,14 @@ struct DataSet {
 };
 
 struct DataOptions {
-  double min_duration_s = 30.0;    // shorter recordings are refused
-  double max_gap_s = 0.5;          // a longer pause of the odometry splits the recording
-  double command_timeout_s = 0.5;  // thrust is zero this long after the last command
+  double min_duration_s = 30.0;     // shorter recordings are refused
+  double sample_interval_s = 0.05;  // faster odometry is thinned to this, its thrusts averaged
+  double max_gap_s = 0.5;           // a longer pause of the odometry splits the recording
+  double command_timeout_s = 0.5;   // thrust is zero this long after the last command
 };
 
 // Checks a recording (finite values, time going forward, both streams there and overlapping, long
-// enough) and puts both streams on the odometry's stamps. Errors name the stream and the row or
+// enough) and puts both streams on stamps of the odometry. Errors name the stream and the row or
 // stamp. Acting thrust follows the commands with the thrusters' lag.
 [[nodiscard]] Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
                                        double thrust_lag_s);

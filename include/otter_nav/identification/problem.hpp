@@ -20,9 +20,8 @@ struct Deviations {
 
 struct ProblemOptions {
   Deviations deviations;
-  double residual_interval_s = 0.05;  // a residual each so many seconds
-  bool free_initial_states = true;    // estimated beside the parameters; else as measured
-  bool estimate_current = false;      // one steady current over the whole recording
+  bool free_initial_states = true;  // estimated beside the parameters; else as measured
+  bool estimate_current = false;    // one steady current over the whole recording
   double max_current_mps = 2.0;
 };
 
@@ -72,7 +71,6 @@ class Problem {
   vessel::Thrusters thrusters_;
   ProblemOptions options_;
   vessel::State inverse_deviation_;
-  std::size_t stride_ = 1;
   std::size_t residual_count_ = 0;
 };
 

@@ -94,7 +94,7 @@ TEST(Recovery, ManoeuvringModelPredictsWhatItWasMadeFrom) {
   const Recording recording = testing::record(
       model, [&](double t) { return steps.at(t); }, 150.0, 0.01, testing::odometryNoise(), 9);
   Options options;
-  options.problem.residual_interval_s = 0.1;
+  options.data.sample_interval_s = 0.1;
   const auto result = identify(recording, guessOff(), options);
   ASSERT_TRUE(result) << result.error().message;
   const auto error = [&](const Model& m) {
