@@ -68,6 +68,22 @@ TEST(Recovery, FromMeasuredInitialStates) {
   expectWithin(result->paper, 0.001);
 }
 
+TEST(Recovery, WindLoadsOfTheGuessStay) {
+  vessel::Parameters guess = guessOff();
+  guess.manoeuvring.wind_surge_kgpm = 0.4;
+  guess.manoeuvring.wind_sway_kgpm = 0.6;
+  guess.manoeuvring.wind_yaw_kg = -0.2;
+  for (const bool fit_manoeuvring : {false, true}) {
+    Options options;
+    options.fit_manoeuvring = fit_manoeuvring;
+    const auto result = identify(recordTruth(60.0, {}, 11), guess, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->vessel.manoeuvring.wind_surge_kgpm, 0.4);
+    EXPECT_EQ(result->vessel.manoeuvring.wind_sway_kgpm, 0.6);
+    EXPECT_EQ(result->vessel.manoeuvring.wind_yaw_kg, -0.2);
+  }
+}
+
 TEST(Recovery, CurrentIsFoundBeside) {
   Model model = testing::paperModel(kTruth);
   model.current_mps = {0.3, -0.4};
