@@ -83,23 +83,46 @@ bool keepsAsternShare(const Trajectory& trajectory, const vessel::Parameters& ve
   return true;
 }
 
-// Where a sailed trajectory comes to rest by itself soon: its end, or the next spin's.
+bool endsAtRest(const Piece& piece) {
+  constexpr double kRest = 1e-3;  // m/s and rad/s
+  const double end = piece.duration_s;
+  return piece.flat(end).velocity.norm() < kRest &&
+         (piece.kind != PieceKind::kSpin || std::abs(piece.spinHeading(end)[1]) < kRest);
+}
+
+// Where a sailed trajectory comes to rest by itself soon.
 std::optional<Trajectory> ownRest(const Trajectory& sailed, double at_s, double within_s) {
-  const std::size_t now = sailed.pieceAt(at_s);
   std::vector<Piece> pieces = remainder(sailed, at_s).pieces();
-  const bool spinning = sailed.pieces()[now].kind == PieceKind::kSpin;
   double duration = 0.0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    if (pieces[k].kind == PieceKind::kSpin) {
-      pieces.resize(spinning ? k + 1 : k);
-      break;
-    }
     duration += pieces[k].duration_s;
+    if (duration > within_s) {
+      return std::nullopt;
+    }
+    if (endsAtRest(pieces[k])) {
+      pieces.resize(k + 1);
+      return Trajectory(std::move(pieces));
+    }
   }
-  if (!spinning && duration > within_s) {
-    return std::nullopt;
-  }
-  return Trajectory(std::move(pieces));
+  return std::nullopt;
+}
+
+// A turn on the spot brought to an end.
+Trajectory stopTurning(const Piece& spin, double t_s) {
+  constexpr double kTurnsOnS = 0.8;
+  const Eigen::Vector3d psi = spin.spinHeading(t_s);
+  FlatPoint from;
+  from.position.x() = psi[0];
+  from.velocity.x() = psi[1];
+  from.acceleration.x() = psi[2];
+  FlatPoint to;
+  to.position.x() = psi[0] + 0.5 * kTurnsOnS * psi[1];
+  Piece stop;
+  stop.kind = PieceKind::kSpin;
+  stop.duration_s = kTurnsOnS;
+  stop.position.col(0) = spin.flat(t_s).position;
+  stop.heading = trajectory::hermitePiece(from, to, kTurnsOnS).position.row(0);
+  return Trajectory({stop});
 }
 
 // From gentle to hard, by the way they need.
@@ -124,16 +147,20 @@ std::vector<Trajectory> candidates(const Trajectory& sailed, double at_s) {
   std::vector<Trajectory> all;
   if (std::optional<Trajectory> rest = ownRest(sailed, at_s, kSlowS.front())) {
     all.push_back(std::move(*rest));
-    if (all.front().pieces().front().kind == PieceKind::kSpin) {
-      return all;
+  }
+  const FlatPoint from = sailed.flat(at_s);
+  const std::size_t now = sailed.pieceAt(at_s);
+  if (sailed.pieces()[now].kind == PieceKind::kSpin && from.velocity.norm() < kUnderWayMps) {
+    if (all.empty()) {
+      all.push_back(stopTurning(sailed.pieces()[now], at_s - sailed.startOf(now)));
     }
+    return all;
   }
   for (const double duration : kSlowS) {
     if (!ownRest(sailed, at_s, 0.5 * duration)) {
       all.push_back(slowed(sailed, at_s, duration));
     }
   }
-  const FlatPoint from = sailed.flat(at_s);
   if (from.velocity.norm() > kUnderWayMps) {
     for (const StraightStop& stop : kStraight) {
       all.push_back(straightStop(from, stop));

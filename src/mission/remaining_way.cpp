@@ -13,7 +13,6 @@ namespace {
 using trajectory::kCoefficients;
 using trajectory::kDegree;
 using trajectory::Piece;
-using trajectory::PieceKind;
 using trajectory::Trajectory;
 
 double binomial(int n, int k) {
@@ -62,7 +61,7 @@ Conflict firstConflict(const Trajectory& trajectory, double from_s, const map::D
   }
   for (std::size_t i = trajectory.pieceAt(from_s); i < trajectory.pieces().size(); ++i) {
     const Piece& piece = trajectory.pieces()[i];
-    const double bound = piece.kind == PieceKind::kSpin ? 0.0 : speedBound(piece);
+    const double bound = speedBound(piece);
     double t = std::clamp(from_s - trajectory.startOf(i), 0.0, piece.duration_s);
     while (true) {
       const Eigen::Vector2d position = piece.flat(t).position;

@@ -14,17 +14,16 @@ constexpr double kAtRestMps = 1e-3;
 // A plan that starts at walking pace has a heading that hardly counts and turns at once.
 constexpr double kLeastSpeedMps = 0.4;
 
-// From `at_s` on, the first time at which a new trajectory can begin: well under way, or at rest.
+// From `at_s` on, the first time at which a new trajectory can begin: well under way, and with a
+// heading that follows from the way.
 std::optional<double> joiningTime(const trajectory::Trajectory& sailed, double at_s) {
   constexpr double kStepS = 0.1;
   const int steps = static_cast<int>(std::ceil((sailed.duration() - at_s) / kStepS));
   for (int k = 0; k < steps; ++k) {
     const double t = at_s + k * kStepS;
-    const std::size_t piece = sailed.pieceAt(t);
-    if (sailed.pieces()[piece].kind == trajectory::PieceKind::kSpin) {
-      return sailed.startOf(piece + 1);
-    }
-    if (sailed.flat(t).velocity.norm() >= kLeastSpeedMps) {
+    const trajectory::Piece& piece = sailed.pieces()[sailed.pieceAt(t)];
+    if (piece.kind != trajectory::PieceKind::kSpin &&
+        sailed.flat(t).velocity.norm() >= kLeastSpeedMps) {
       return t;
     }
   }

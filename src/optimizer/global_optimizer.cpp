@@ -4,13 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "otter_nav/base/angles.hpp"
 #include "otter_nav/optimizer/initial_way.hpp"
-#include "otter_nav/optimizer/spin.hpp"
 #include "otter_nav/optimizer/spline_problem.hpp"
 #include "piece_check.hpp"
 #include "spline_solver.hpp"
 #include "stop_and_spin.hpp"
+#include "way_ends.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -18,17 +17,8 @@ namespace {
 // A cell's square reaches this far beyond its centre, in cells (DistanceField::smooth measures to
 // centres), as seen from most directions.
 constexpr double kSquareCells = 0.7;
-constexpr double kBrakeM = 5.0;  // the last straight's first guess, at full piece length
+constexpr double kArrivalSpeedMaxShare = 0.9;  // of the speed aimed at
 constexpr double kHullMarginM = 0.03;
-constexpr double kLookAheadM = 8.0;  // how far the way's first direction is taken
-
-Eigen::Vector2d unit(double angle_rad) {
-  return {std::cos(angle_rad), std::sin(angle_rad)};
-}
-
-double angleOf(const Eigen::Vector2d& v) {
-  return std::atan2(v.y(), v.x());
-}
 
 }  // namespace
 
@@ -61,14 +51,16 @@ class GlobalOptimizer::Solver {
     budget_ = &budget;
     check_ = checkOptions(clearance_m);
     result_ = Optimized();
-    for (const Manner& manner : {Manner{false, 1.0, 1.0, 1.0}, Manner{false, 1.0, 1.0, 0.7},
-                                 Manner{true, 1.0, 3.0, 0.9}, Manner{true, 0.8, 10.0, 0.7}}) {
-      if (attempt(way, manner)) {
+    for (int i = 0; i < std::min(budget.max_attempts, kManners); ++i) {
+      if (attempt(way, mannerOf(i))) {
         return std::move(result_);
       }
       if (outOfTime()) {
         break;
       }
+    }
+    if (budget.max_attempts < kManners) {
+      return failure("optimisation failed: " + result_.verification.reason);
     }
     return lastResort(way);
   }
@@ -78,11 +70,26 @@ class GlobalOptimizer::Solver {
 
   // How an attempt is made; later ones are more careful.
   struct Manner {
-    bool spin_always;
+    bool careful;
     double thrust_factor;
     double weight_factor;
-    double length_factor;  // of the pieces
+    double length_factor;   // of the pieces
+    double arrival_factor;  // of the speed at which the arrival begins
   };
+
+  static constexpr int kManners = 4;
+  [[nodiscard]] static Manner mannerOf(int attempt) {
+    switch (attempt) {
+      case 0:
+        return {false, 1.0, 1.0, 1.0, 1.0};
+      case 1:
+        return {false, 1.0, 1.0, 0.7, 0.7};
+      case 2:
+        return {true, 1.0, 3.0, 0.9, 0.5};
+      default:
+        return {true, 0.8, 10.0, 0.7, 0.3};
+    }
+  }
 
   [[nodiscard]] bool outOfTime() const {
     return result_.iterations >= budget_->max_iterations ||
@@ -112,7 +119,6 @@ class GlobalOptimizer::Solver {
     weights.time = options_.weight_time;
     weights.length = options_.weight_length;
     weights.smooth = options_.weight_smooth;
-    weights.smooth_straight = options_.weight_smooth_straight;
     weights.clearance = options_.weight_clearance * manner.weight_factor;
     weights.dynamics = options_.weight_dynamics * manner.weight_factor;
     weights.original = 0.0;
@@ -121,36 +127,36 @@ class GlobalOptimizer::Solver {
     way.piece_length_m = options_.piece_length_m * manner.length_factor;
     way.force_share = 0.9 * share;
     way.speed_max_mps = 0.97 * limits.speed_mps;
-    way.brake_m = kBrakeM * manner.length_factor * manner.length_factor;
     way.clearance_m = limits.clearance_m;
+    aimEnds(share, manner);
   }
 
-  void chooseEnds(const std::vector<Eigen::Vector2d>& way, const Manner& manner) {
-    ends_.start = *start_;
-    ends_.goal = *goal_;
-    ends_.start_at_rest = atRest(*start_);
-    const double threshold = manner.spin_always ? 0.02 : options_.spin_angle_rad;
-    const double leave = angleOf(pointAlong(way, kLookAheadM) - start_->flat.position);
-    const double arrive = angleOf(goal_->flat.position - pointAlong(way, -kLookAheadM));
-    start_turn_ = wrapAngle(leave - start_->psi_rad);
-    goal_turn_ = wrapAngle(goal_->psi_rad - arrive);
-    ends_.start_after_spin = ends_.start_at_rest && std::abs(start_turn_) > threshold;
-    ends_.goal_before_spin = std::abs(goal_turn_) > threshold;
-    ends_.leave = unit(ends_.start_after_spin ? leave : start_->psi_rad);
-    ends_.arrive = unit(ends_.goal_before_spin ? arrive : goal_->psi_rad);
+  void aimEnds(double thrust_share, const Manner& manner) {
+    end_options_.limits.thrust_share = thrust_share;
+    end_options_.limits.yaw_rate_max_radps = options_.spin_rate_max_radps;
+    end_options_.limits.drift_mps = options_.drift_mps;
+    end_options_.turn_least_rad = options_.spin_angle_rad;
+    end_options_.careful = manner.careful;
+    const double top =
+        std::min(2.0 * thrust_share * vessel_.thrusters.ahead_max_n / vessel_.paper.d1_kgps,
+                 options_.speed_max_mps);
+    end_options_.arrival_speed_mps = options_.arrival_speed_share * manner.arrival_factor * top;
+    end_options_.arrival_speed_max_mps = kArrivalSpeedMaxShare * top;
   }
 
   bool attempt(const std::vector<Eigen::Vector2d>& way, const Manner& manner) {
     aim(manner);
-    chooseEnds(way, manner);
+    chosen_ = chooser_.choose(*field_, way, *start_, *goal_);
     solver_.restart();
-    way_.build(*field_, way, ends_, spline_);
+    way_.build(*field_, way, chooser_.wayEnds(chosen_, *start_), spline_);
     SplineSolver::Stop stop;
     stop.max_iterations = options_.iterations_per_round;
     stop.out_of_time = [this] { return outOfTime(); };
     smoothFirst(stop);
+    chooser_.guide(chosen_, spline_);
     for (int round = 0; round < options_.rounds; ++round) {
       result_.iterations += solver_.improve(problem_, stop, spline_);
+      chooser_.follow(spline_, chosen_);
       const bool last = round + 1 == options_.rounds;
       verifyDilated(last ? 2.0 * options_.dilation_max : options_.dilation_max);
       if (result_.verification.ok) {
@@ -175,7 +181,7 @@ class GlobalOptimizer::Solver {
       }
       problem_.weights.time *= options_.quicken_growth;
       best.iterations += solver_.improve(problem_, stop, spline_);
-      const Spline shape = spline_;
+      chooser_.follow(spline_, chosen_);
       verifyDilated(options_.dilation_max);
       if (result_.verification.ok && rank(result_.trajectory) < rank(best.trajectory)) {
         best.trajectory = std::move(result_.trajectory);
@@ -183,7 +189,6 @@ class GlobalOptimizer::Solver {
       } else if (!result_.verification.ok) {
         tighten();
       }
-      spline_ = shape;
     }
     result_ = std::move(best);
   }
@@ -209,7 +214,6 @@ class GlobalOptimizer::Solver {
     problem_.weights.dynamics = options_.weight_dynamics * 1e-3;
     problem_.weights.original = options_.weight_original;
     problem_.weights.smooth = options_.weight_smooth_first;
-    problem_.weights.smooth_straight = options_.weight_smooth_first;
     problem_.originals = &originals_;
     stop.max_iterations = 4;
     stop.relative_decrease = 0.05;
@@ -221,12 +225,13 @@ class GlobalOptimizer::Solver {
     }
   }
 
-  // Verifies; from rest to rest, what asks for a little too much thrust is slowed down: time runs
-  // slower by a factor everywhere, which leaves the shape as it is.
+  // Verifies; what asks for a little too much thrust is slowed down: between the manoeuvres time
+  // runs slower by a factor, which leaves the shape as it is but for the pieces next to them.
   void verifyDilated(double dilation_max) {
     constexpr int kTries = 3;
+    const Spline shape = spline_;
     result_.trajectory = assemble();
-    for (int i = 0; i < kTries && ends_.start_at_rest; ++i) {
+    for (int i = 0; i < kTries; ++i) {
       const double excess = worstExcess();
       if (excess <= 0.0 || excess > dilation_max) {
         break;
@@ -235,6 +240,23 @@ class GlobalOptimizer::Solver {
       result_.trajectory = assemble();
     }
     result_.verification = verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
+    spline_ = shape;
+  }
+
+  void dilate(double factor) {
+    const std::size_t last = spline_.knots.size() - 1;
+    const auto slows = [&](std::size_t k) { return k > 1 && k + 1 < last; };
+    for (std::size_t k = 0; k < last; ++k) {
+      const int slow = (slows(k) ? 1 : 0) + (slows(k + 1) ? 1 : 0);
+      spline_.spans[k].duration_s *= slow == 2 ? factor : slow == 1 ? std::sqrt(factor) : 1.0;
+    }
+    double scale = 1.0;
+    for (int m = 1; m < 4; ++m) {
+      scale /= factor;
+      for (std::size_t k = 2; k + 1 < last; ++k) {
+        spline_.knots[k].state.col(m) *= scale;
+      }
+    }
   }
 
   // The largest share by which a limit of thrust or speed is exceeded anywhere.
@@ -256,19 +278,6 @@ class GlobalOptimizer::Solver {
            1.0;
   }
 
-  void dilate(double factor) {
-    double scale = 1.0;
-    for (int m = 1; m < 4; ++m) {
-      scale /= factor;
-      for (Knot& knot : spline_.knots) {
-        knot.state.col(m) *= scale;
-      }
-    }
-    for (Span& span : spline_.spans) {
-      span.duration_s *= factor;
-    }
-  }
-
   // What failed is aimed at more strictly, and its weight raised.
   void tighten() {
     const Verification& v = result_.verification;
@@ -286,49 +295,11 @@ class GlobalOptimizer::Solver {
     }
   }
 
-  // A straight piece exactly along the line: its coefficients are numbers times one direction.
-  static trajectory::Piece straightPiece(const Knot& from, const Knot& to,
-                                         const Eigen::Vector2d& direction, double duration_s) {
-    const auto along = [&](const Knot& knot) {
-      const Eigen::Vector4d s = (direction.transpose() * knot.state).transpose();
-      vessel::FlatPoint z;
-      z.position.x() = direction.dot(knot.state.col(0) - from.state.col(0));
-      z.velocity.x() = s[1];
-      z.acceleration.x() = s[2];
-      z.jerk.x() = s[3];
-      return z;
-    };
-    trajectory::Piece piece = trajectory::hermitePiece(along(from), along(to), duration_s);
-    const Eigen::Matrix<double, 1, trajectory::kCoefficients> c = piece.position.row(0);
-    piece.position = direction * c;
-    piece.position.col(0) = from.state.col(0);
-    return piece;
-  }
-
-  // Rounding aside, line knots are on their lines already; the pieces beside share the same state.
-  static void snapToLine(const Eigen::Vector2d& anchor, Knot& knot) {
-    const Eigen::Vector2d& e = knot.direction;
-    knot.state.col(0) = anchor + e.dot(knot.state.col(0) - anchor) * e;
-    for (int m = 1; m < 4; ++m) {
-      knot.state.col(m) = e.dot(knot.state.col(m)) * e;
-    }
-  }
-
-  trajectory::Trajectory assemble() {
+  [[nodiscard]] trajectory::Trajectory assemble() const {
+    const std::vector<trajectory::Piece>& before = chosen_.start.manoeuvre.pieces;
+    const std::vector<trajectory::Piece>& after = chosen_.goal.manoeuvre.pieces;
     std::vector<trajectory::Piece> pieces;
-    pieces.reserve(spline_.spans.size() + 12);
-    const SpinLimits limits = spinLimits();
-    if (ends_.start_after_spin) {
-      start_turn_ = wrapAngle(angleOf(lineOf(spline_, 0)) - start_->psi_rad);
-      appendSpin(start_->flat.position, start_->psi_rad, start_turn_, vessel_, limits, pieces);
-    }
-    const std::size_t last = spline_.spans.size() - 1;
-    if (ends_.start_at_rest) {
-      snapToLine(start_->flat.position, spline_.knots[0]);
-      snapToLine(start_->flat.position, spline_.knots[1]);
-    }
-    snapToLine(goal_->flat.position, spline_.knots[last]);
-    snapToLine(goal_->flat.position, spline_.knots[last + 1]);
+    pieces.reserve(before.size() + spline_.spans.size() + after.size());
     const auto point = [](const Knot& knot) {
       vessel::FlatPoint z;
       z.position = knot.state.col(0);
@@ -337,19 +308,12 @@ class GlobalOptimizer::Solver {
       z.jerk = knot.state.col(3);
       return z;
     };
-    for (std::size_t i = 0; i <= last; ++i) {
-      const Knot& a = spline_.knots[i];
-      const Knot& b = spline_.knots[i + 1];
-      const double duration = spline_.spans[i].duration_s;
-      pieces.push_back(spline_.spans[i].straight
-                           ? straightPiece(a, b, lineOf(spline_, i), duration)
-                           : trajectory::hermitePiece(point(a), point(b), duration));
+    pieces.insert(pieces.end(), before.begin(), before.end());
+    for (std::size_t i = 0; i < spline_.spans.size(); ++i) {
+      pieces.push_back(trajectory::hermitePiece(
+          point(spline_.knots[i]), point(spline_.knots[i + 1]), spline_.spans[i].duration_s));
     }
-    if (ends_.goal_before_spin) {
-      goal_turn_ = wrapAngle(goal_->psi_rad - angleOf(lineOf(spline_, last)));
-      appendSpin(goal_->flat.position, goal_->psi_rad - goal_turn_, goal_turn_, vessel_, limits,
-                 pieces);
-    }
+    pieces.insert(pieces.end(), after.begin(), after.end());
     return trajectory::Trajectory(std::move(pieces));
   }
 
@@ -377,9 +341,9 @@ class GlobalOptimizer::Solver {
   SplineSolver solver_;
   Spline spline_;
   Originals originals_;
-  WayEnds ends_;
-  double start_turn_ = 0.0;
-  double goal_turn_ = 0.0;
+  EndOptions end_options_;
+  EndChooser chooser_{vessel_, check_, end_options_};
+  ChosenEnds chosen_;
   Optimized result_;
   CheckOptions check_;
   const map::DistanceField* field_ = nullptr;

@@ -13,14 +13,8 @@ constexpr int kBandSteps = 60;
 constexpr double kSlowestMps = 0.8;
 constexpr int kMostArcPoints = 12;
 constexpr double kArcReachM = 12.0;  // an arc ends heading for the way this far on
+constexpr double kEndShare = 0.35;   // of the other parts' duration, the ones next to the ends last
 constexpr double kWideTurnRad = 0.9;
-// The straight ends' first guess.
-constexpr double kLaunchM = 1.2;
-constexpr double kLaunchS = 1.1;
-constexpr double kLaunchMps = 2.0;
-constexpr double kBrakeS = 2.3;    // from kBrakeMps over kBrakeM; shorter ones in proportion to
-constexpr double kBrakeMps = 4.0;  // constant deceleration
-constexpr double kBrakeM = 5.0;
 
 double lengthOf(const std::vector<Eigen::Vector2d>& polyline) {
   double length = 0.0;
@@ -29,12 +23,6 @@ double lengthOf(const std::vector<Eigen::Vector2d>& polyline) {
   }
   return length;
 }
-
-constexpr std::array<bool, 8> kAllFree = {true, true, true, true, true, true, true, true};
-constexpr std::array<bool, 8> kOnLine = {true, false, true, false, true, false, true, false};
-constexpr std::array<bool, 8> kSwings = {true, true, true, false, true, false, true, false};
-constexpr std::array<bool, 8> kAtRest = {false, false, false, false, true, false, true, false};
-constexpr std::array<bool, 8> kFixed = {};
 
 }  // namespace
 
@@ -143,11 +131,10 @@ Knot InitialWay::knotAt(double s) const {
   knot.state.col(0) = (1.0 - f) * band_[i] + f * band_[i + 1];
   knot.state.col(1) = v * along;
   knot.state.col(2) = v * slope * along + v * v * k * Eigen::Vector2d(-along.y(), along.x());
-  knot.free = kAllFree;
   return knot;
 }
 
-// Distances along the band that cut its time into equal parts.
+// Distances along the band that cut its time into equal parts, with shorter ones next to the ends.
 void InitialWay::cutTime(double part_s) {
   const std::size_t n = band_.size();
   time_.assign(n, 0.0);
@@ -155,11 +142,16 @@ void InitialWay::cutTime(double part_s) {
     time_[i] = time_[i - 1] + 2.0 * spacing_m_ / (speed_[i - 1] + speed_[i]);
   }
   const int parts = std::max(2, static_cast<int>(std::ceil(time_.back() / part_s)));
-  part_s_ = time_.back() / parts;
+  const double even_s = time_.back() / parts;
+  times_ = {0.0, kEndShare * even_s};
+  for (int k = 1; k < parts; ++k) {
+    times_.push_back(even_s * k);
+  }
+  times_.push_back(time_.back() - kEndShare * even_s);
+  times_.push_back(time_.back());
   cuts_.clear();
   std::size_t i = 0;
-  for (int k = 0; k <= parts; ++k) {
-    const double t = part_s_ * k;
+  for (const double t : times_) {
     while (i + 2 < n && time_[i + 1] < t) {
       ++i;
     }
@@ -189,7 +181,7 @@ void InitialWay::appendArc(const Eigen::Vector2d& from, const Eigen::Vector2d& d
   }
 }
 
-// The polyline between launch and last straight, with arcs where it leaves their directions.
+// The polyline between both ends, with arcs where it leaves their directions.
 void InitialWay::turnAtEnds(const std::vector<Eigen::Vector2d>& polyline,
                             const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                             const WayEnds& ends) {
@@ -201,9 +193,11 @@ void InitialWay::turnAtEnds(const std::vector<Eigen::Vector2d>& polyline,
   const auto wide = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.dot(b) < std::cos(kWideTurnRad) * a.norm() * b.norm();
   };
-  const Eigen::Vector2d ahead = pointAlong(polyline, reach);
-  const Eigen::Vector2d behind = pointAlong(polyline, -reach);
-  const bool head = ends.start_at_rest && wide(ends.leave, ahead - from);
+  const double lead = (from - polyline.front()).norm();
+  const double trail = (to - polyline.back()).norm();
+  const Eigen::Vector2d ahead = pointAlong(polyline, lead + reach);
+  const Eigen::Vector2d behind = pointAlong(polyline, -trail - reach);
+  const bool head = wide(ends.leave, ahead - from);
   if (head) {
     appendArc(from, ends.leave, ahead, turned_);
     held_head_ = turned_.size() - 1;
@@ -219,7 +213,8 @@ void InitialWay::turnAtEnds(const std::vector<Eigen::Vector2d>& polyline,
   double s = 0.0;
   for (std::size_t i = 1; i + 1 < polyline.size(); ++i) {
     s += (polyline[i] - polyline[i - 1]).norm();
-    if (s > (head ? reach : kSpacingM) && s < length - (held_tail_ > 0 ? reach : kSpacingM)) {
+    if (s > lead + (head ? reach : kSpacingM) &&
+        s < length - trail - (held_tail_ > 0 ? reach : kSpacingM)) {
       turned_.push_back(polyline[i]);
     }
   }
@@ -229,64 +224,25 @@ void InitialWay::turnAtEnds(const std::vector<Eigen::Vector2d>& polyline,
 void InitialWay::build(const map::DistanceField& field,
                        const std::vector<Eigen::Vector2d>& polyline, const WayEnds& ends,
                        Spline& spline) {
-  const Eigen::Vector2d p0 = ends.start.flat.position;
-  const Eigen::Vector2d p1 = ends.goal.flat.position;
-  const double room = 0.25 * (p1 - p0).norm();
-  const double brake_m = std::min(options_.brake_m, room);
-  const double launch_m = std::min(kLaunchM, room);
-  const double brake_share = std::sqrt(brake_m / kBrakeM);
-  const double brake_mps = brake_share * kBrakeMps;
-  Knot first;
-  Knot last;
-  first.state.col(0) = p0;
-  last.state.col(0) = p1;
-  last.direction = ends.arrive;
-  last.free = ends.goal_before_spin ? kFixed : kAtRest;
-  spline.knots.clear();
-  spline.spans.clear();
-
-  Eigen::Vector2d from = p0;
-  double speed_from = ends.start.flat.velocity.norm();
-  if (ends.start_at_rest) {
-    first.direction = ends.leave;
-    first.free = ends.start_after_spin ? kFixed : kAtRest;
-    if (!ends.start_after_spin) {
-      first.state.col(2) = 2.2 * ends.leave;
-    }
-    from = p0 + launch_m * ends.leave;
-    speed_from = kLaunchMps;
-    spline.knots.push_back(first);
-    spline.spans.push_back({kLaunchS, true, true});
-    first.state << from, kLaunchMps * ends.leave, 1.0 * ends.leave, Eigen::Vector2d::Zero();
-    first.free = ends.start_after_spin ? kSwings : kOnLine;
-    first.swing = ends.start_after_spin ? 1.0 : 0.0;
-    first.pivot = p0;
-  } else {
-    first.state << p0, ends.start.flat.velocity, ends.start.flat.acceleration, ends.start.flat.jerk;
-    first.free = kFixed;
-  }
-  spline.knots.push_back(first);
-
-  const Eigen::Vector2d to = p1 - brake_m * ends.arrive;
+  const Eigen::Vector2d& from = ends.start.position;
+  const Eigen::Vector2d& to = ends.goal.position;
+  const auto fixedKnot = [](const vessel::FlatPoint& z) {
+    Knot knot;
+    knot.state << z.position, z.velocity, z.acceleration, z.jerk;
+    knot.free = false;
+    return knot;
+  };
   turnAtEnds(polyline, from, to, ends);
   stretchBand(field, turned_, from, to);
-  paceBand(speed_from, brake_mps);
+  paceBand(ends.start.velocity.norm(), ends.goal.velocity.norm());
   cutTime(options_.piece_length_m / options_.speed_max_mps);
+  spline.knots = {fixedKnot(ends.start)};
+  spline.spans.clear();
   for (std::size_t i = 1; i < cuts_.size(); ++i) {
-    spline.spans.push_back({part_s_});
+    spline.spans.push_back({times_[i] - times_[i - 1]});
     spline.knots.push_back(knotAt(cuts_[i]));
   }
-  Knot& brake = spline.knots.back();
-  brake.state << to, brake_mps * ends.arrive, -1.0 * ends.arrive, Eigen::Vector2d::Zero();
-  brake.direction = ends.arrive;
-  brake.free = ends.goal_before_spin ? kSwings : kOnLine;
-  brake.swing = ends.goal_before_spin ? -1.0 : 0.0;
-  brake.pivot = p1;
-  if (!ends.goal_before_spin) {
-    last.state.col(2) = -2.0 * ends.arrive;
-  }
-  spline.spans.push_back({brake_share * kBrakeS, true, true});
-  spline.knots.push_back(last);
+  spline.knots.back() = fixedKnot(ends.goal);
 }
 
 }  // namespace otter_nav::optimizer

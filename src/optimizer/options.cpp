@@ -25,13 +25,15 @@ Result<GlobalOptions> readGlobalOptions(config::Section section) {
   section.read("yaw_rate_max_radps", o.yaw_rate_max_radps, kYawRate);
   section.read("heading_force_min_n", o.heading_force_min_n, kForce);
   section.read("spin_thrust_share", o.spin_thrust_share, kShare);
+  section.read("spin_rate_max_radps", o.spin_rate_max_radps, kYawRate);
   section.read("spin_angle_rad", o.spin_angle_rad, {0.0, 3.2});
+  section.read("drift_mps", o.drift_mps, {0.0, 5.0});
+  section.read("arrival_speed_share", o.arrival_speed_share, kShare);
   section.read("dilation_max", o.dilation_max, {0.0, 0.5});
   section.read("piece_length_m", o.piece_length_m, {1.0, 50.0});
   section.read("weight_time", o.weight_time, kPositiveWeight);
   section.read("weight_length", o.weight_length, kWeight);
   section.read("weight_smooth", o.weight_smooth, kPositiveWeight);
-  section.read("weight_smooth_straight", o.weight_smooth_straight, kPositiveWeight);
   section.read("weight_clearance", o.weight_clearance, kPositiveWeight);
   section.read("weight_dynamics", o.weight_dynamics, kPositiveWeight);
   section.read("weight_original", o.weight_original, kWeight);

@@ -11,6 +11,7 @@ namespace {
 constexpr double kStraightShare = 1e-9;  // of a coefficient, that may point off the line
 constexpr double kSlowMps = 1e-3;        // below it a course says nothing of the heading
 constexpr double kLeastSlackM = 1e-3;    // nearer to the limit than this counts as a fault
+constexpr double kSwayN = 0.1;           // what pieces of degree 7 leave, next to the model
 constexpr double kAcrossCosine = 0.02;   // heading and course nearer to a right angle: a jump
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -92,7 +93,10 @@ double shareOf(double thrust_n, const vessel::Thrusters& limits) {
 
 struct PieceCheck::Point {
   Eigen::Vector2d velocity, w;
-  double thrust_left_n, thrust_right_n, yaw_rate_radps;
+  double thrust_left_n = 0.0;
+  double thrust_right_n = 0.0;
+  double yaw_rate_radps = 0.0;
+  double sway_n = 0.0;  // a force to port that no thruster gives
 };
 
 HullCircles hullCircles(const vessel::Hull& hull) {
@@ -147,6 +151,11 @@ double PieceCheck::heading(double t_s) const {
   return std::atan2(bow.y(), bow.x());
 }
 
+double PieceCheck::yawRate(double t_s) const {
+  return piece_.kind == trajectory::PieceKind::kSpin ? piece_.spinHeading(t_s)[1]
+                                                     : at(t_s).yaw_rate_radps;
+}
+
 Eigen::Vector2d PieceCheck::bowAt(double t_s) const {
   if (piece_.kind == trajectory::PieceKind::kSpin) {
     const double psi = piece_.spinHeading(t_s)[0];
@@ -166,20 +175,42 @@ Eigen::Vector2d PieceCheck::bowAt(double t_s) const {
   return w.dot(ahead) >= 0.0 ? w.normalized() : Eigen::Vector2d(-w.normalized());
 }
 
+PieceCheck::Point PieceCheck::inSpin(double t_s) const {
+  const vessel::PaperModel& m = vessel_.paper;
+  const Eigen::Vector3d psi = piece_.spinHeading(t_s);
+  const Eigen::Vector2d bow(std::cos(psi[0]), std::sin(psi[0]));
+  Point p;
+  p.velocity = evaluate<7>(velocity_, t_s);
+  const Eigen::Vector2d a = evaluate<6>(acceleration_, t_s);
+  p.w = m.m1_kg * a + m.d2_kgps * p.velocity;
+  p.sway_n = cross(bow, p.w);
+  p.yaw_rate_radps = psi[1];
+  const double surge = bow.dot(m.m1_kg * a + m.d1_kgps * p.velocity);
+  const double difference =
+      (m.m2_kgm2 * psi[2] + m.d3_kgm2ps * psi[1]) / vessel_.thrusters.lever_arm_m;
+  p.thrust_left_n = 0.5 * (surge - difference);
+  p.thrust_right_n = 0.5 * (surge + difference);
+  return p;
+}
+
 void PieceCheck::checkSpin(PieceReport& report) const {
   const int steps = std::max(2, static_cast<int>(std::ceil(piece_.duration_s / options_.step_s)));
-  Sampled share;
+  Sampled left;
+  Sampled right;
   for (int i = 0; i <= steps && report.fault == Fault::kNone; ++i) {
     report.time_s = piece_.duration_s * i / steps;
-    const Eigen::Vector3d psi = piece_.spinHeading(report.time_s);
-    const double thrust = (vessel_.paper.m2_kgm2 * psi[2] + vessel_.paper.d3_kgm2ps * psi[1]) /
-                          (2.0 * vessel_.thrusters.lever_arm_m);
-    const double worst =
-        std::max(shareOf(thrust, vessel_.thrusters), shareOf(-thrust, vessel_.thrusters));
-    report.thrust_share = std::max(report.thrust_share, share.bound(worst));
-    report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(psi[1]));
-    if (report.thrust_share > options_.thrust_share) {
+    const Point p = inSpin(report.time_s);
+    report.thrust_share =
+        std::max({report.thrust_share, left.bound(shareOf(p.thrust_left_n, vessel_.thrusters)),
+                  right.bound(shareOf(p.thrust_right_n, vessel_.thrusters))});
+    report.speed_mps = std::max(report.speed_mps, p.velocity.norm());
+    report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
+    if (std::abs(p.sway_n) > kSwayN) {
+      report.fault = Fault::kSway;
+    } else if (report.thrust_share > options_.thrust_share) {
       report.fault = Fault::kThrust;
+    } else if (report.speed_mps > options_.speed_max_mps) {
+      report.fault = Fault::kSpeed;
     } else if (report.yaw_rate_radps > options_.yaw_rate_max_radps) {
       report.fault = Fault::kYawRate;
     }

@@ -27,6 +27,7 @@ enum class Fault {
   kHeadingUndefined,
   kHeadingJump,
   kAstern,
+  kSway,
   kClearance,
   kHull
 };
@@ -49,6 +50,7 @@ class PieceCheck {
   [[nodiscard]] bool straight() const { return straight_; }
   // The heading at an end of the piece (`t_s` is 0 or the duration), not wrapped.
   [[nodiscard]] double heading(double t_s) const;
+  [[nodiscard]] double yawRate(double t_s) const;
 
   // Fills all of the report but the clearance.
   void checkDynamics(PieceReport& report) const;
@@ -58,6 +60,7 @@ class PieceCheck {
  private:
   struct Point;
   [[nodiscard]] Point at(double t_s) const;
+  [[nodiscard]] Point inSpin(double t_s) const;
   void checkSpin(PieceReport& report) const;
   [[nodiscard]] Eigen::Vector2d bowAt(double t_s) const;
   [[nodiscard]] double speedBound() const;

@@ -14,7 +14,7 @@ constexpr double kMotionKnee = 1.0;    // of speed, m/s, and yaw rate, rad/s
 constexpr double kClearanceKneeM = 1.0;
 constexpr double kForceFloorN = 3.0;  // |w| below this is treated as this
 constexpr double kSlowMps = 0.5;      // below it the length's curvature is bounded
-constexpr double kLeastLeverM = 0.2;  // a swinging knot nearer to its pivot keeps its direction
+constexpr double kReach = 1.0;        // an end moved by its reach counts as this
 constexpr double kEvenness = 0.02;    // pieces shall last about as long as their neighbours
 
 using Rows = Eigen::Matrix<double, 2, kOrders>;  // derivatives by position ... snap
@@ -92,30 +92,6 @@ SplineProblem::SplineProblem(const vessel::Parameters& vessel) : vessel_(vessel)
   }
 }
 
-void SplineProblem::addStraight(const Rows& z, const Eigen::Vector2d& along, Local& local) const {
-  const vessel::PaperModel& m = vessel_.paper;
-  const double speed = along.dot(z.col(1));
-  const double force = m.m1_kg * along.dot(z.col(2)) + m.d1_kgps * speed;
-  const auto force_rows = [&](double sign) {
-    Rows rows = Rows::Zero();
-    rows.col(1) = sign / (2.0 * kForceScaleN) * m.d1_kgps * along;
-    rows.col(2) = sign / (2.0 * kForceScaleN) * m.m1_kg * along;
-    return rows;
-  };
-  const auto speed_rows = [&](double sign) {
-    Rows rows = Rows::Zero();
-    rows.col(1) = sign * along;
-    return rows;
-  };
-  const double weight = 2.0 * weights.dynamics;
-  local.hinge(weight, (0.5 * force - limits.thrust_ahead_n) / kForceScaleN, kForceKnee,
-              [&] { return force_rows(1.0); });
-  local.hinge(weight, (-0.5 * force - limits.thrust_astern_n) / kForceScaleN, kForceKnee,
-              [&] { return force_rows(-1.0); });
-  local.hinge(weight, speed - limits.speed_mps, kMotionKnee, [&] { return speed_rows(1.0); });
-  local.hinge(weight, -speed, kMotionKnee, [&] { return speed_rows(-1.0); });
-}
-
 void SplineProblem::addFree(const Rows& z, Local& local) const {
   vessel::FlatPoint flat;
   flat.velocity = z.col(1);
@@ -162,8 +138,7 @@ void SplineProblem::addFree(const Rows& z, Local& local) const {
   }
 }
 
-void SplineProblem::addQuadraturePoint(const Spline& spline, std::size_t i, int point,
-                                       Local& local) const {
+void SplineProblem::addQuadraturePoint(std::size_t i, int point, Local& local) const {
   const auto index = static_cast<std::size_t>(point);
   const Rows z = local.at(quadrature_[index]);
   const double share = quadratureWeights()[index];
@@ -171,15 +146,14 @@ void SplineProblem::addQuadraturePoint(const Spline& spline, std::size_t i, int 
   const double half_inverse = 0.5 / local.duration_s;
 
   const double speed = z.col(1).norm();
-  const double smooth = spline.spans[i].straight ? weights.smooth_straight : weights.smooth;
-  local.cost += smooth * dt * z.col(3).squaredNorm() + weights.length * dt * speed;
+  local.cost += weights.smooth * dt * z.col(3).squaredNorm() + weights.length * dt * speed;
   if (local.model) {
     for (int axis = 0; axis < 2; ++axis) {
       Rows rows = Rows::Zero();
       rows(axis, 3) = 1.0;
       Local::Vector j = local.chain(rows);
       j[Local::kDuration] += half_inverse * z(axis, 3);
-      local.addSquare(smooth * dt, z(axis, 3), j);
+      local.addSquare(weights.smooth * dt, z(axis, 3), j);
     }
     if (speed > 1e-6) {
       Rows rows = Rows::Zero();
@@ -201,15 +175,10 @@ void SplineProblem::addQuadraturePoint(const Spline& spline, std::size_t i, int 
       }
     }
   }
-  if (spline.spans[i].straight) {
-    addStraight(z, lineOf(spline, i), local);
-  } else {
-    addFree(z, local);
-  }
+  addFree(z, local);
 }
 
-void SplineProblem::addClearance(int point, bool straight, const Eigen::Vector2d& along,
-                                 Local& local) const {
+void SplineProblem::addClearance(int point, Local& local) const {
   const BasisMatrix& unit = clearance_[static_cast<std::size_t>(point)];
   // Position first, the rest only near obstacles.
   Eigen::Vector2d p = Eigen::Vector2d::Zero();
@@ -237,17 +206,15 @@ void SplineProblem::addClearance(int point, bool straight, const Eigen::Vector2d
   const vessel::PaperModel& m = vessel_.paper;
   const Eigen::Vector2d w = m.m1_kg * z.col(2) + m.d2_kgps * z.col(1);
   const double norm = std::max(w.norm(), kForceFloorN);
-  const Eigen::Vector2d bow = straight ? along : Eigen::Vector2d(w / norm);
+  const Eigen::Vector2d bow = w / norm;
   for (const double offset : {-limits.hull_offset_m, limits.hull_offset_m}) {
     const map::DistanceField::Smooth end = field->smooth(p + offset * bow);
     local.hinge(weights.clearance, limits.hull_clearance_m - end.distance_m, kClearanceKneeM, [&] {
       Rows rows = Rows::Zero();
       rows.col(0) = -end.gradient;
-      if (!straight) {
-        const Eigen::Vector2d turn = -offset / norm * (end.gradient - end.gradient.dot(bow) * bow);
-        rows.col(1) = m.d2_kgps * turn;
-        rows.col(2) = m.m1_kg * turn;
-      }
+      const Eigen::Vector2d turn = -offset / norm * (end.gradient - end.gradient.dot(bow) * bow);
+      rows.col(1) = m.d2_kgps * turn;
+      rows.col(2) = m.m1_kg * turn;
       return rows;
     });
   }
@@ -265,56 +232,22 @@ void SplineProblem::addPiece(const Spline& spline, std::size_t i, Local& local) 
     local.hessian(Local::kDuration, Local::kDuration) += 0.5 * weights.time / span.duration_s;
   }
   for (int point = 0; point < kQuadraturePoints; ++point) {
-    addQuadraturePoint(spline, i, point, local);
+    addQuadraturePoint(i, point, local);
   }
   if (field != nullptr) {
     for (int point = 0; point < kClearancePoints; ++point) {
-      addClearance(point, span.straight, lineOf(spline, i), local);
+      addClearance(point, local);
     }
   }
 }
 
 namespace {
 
-// Turns the four pairs starting at `first` of a piece's model into a knot's own frame.
-template <typename Vector, typename Matrix>
-void rotatePairs(const Eigen::Vector2d& direction, int first, Vector& gradient, Matrix& hessian) {
-  if (direction == Eigen::Vector2d::UnitX()) {
-    return;
-  }
-  Eigen::Matrix2d to_frame;
-  to_frame << direction.transpose(), across(direction).transpose();
-  for (int m = 0; m < 4; ++m) {
-    const int row = first + 2 * m;
-    gradient.template segment<2>(row) = (to_frame * gradient.template segment<2>(row)).eval();
-    hessian.template middleRows<2>(row) = (to_frame * hessian.template middleRows<2>(row)).eval();
-    hessian.template middleCols<2>(row) =
-        (hessian.template middleCols<2>(row) * to_frame.transpose()).eval();
-  }
-}
-
-// For a swinging knot, moving across by x turns its motion by x over the distance to the pivot: the
-// column of that position takes over its share of the columns of velocity, acceleration and jerk.
-template <typename Vector, typename Matrix>
-void swingColumns(const Knot& knot, int first, Vector& gradient, Matrix& hessian) {
-  if (knot.swing == 0.0) {
-    return;
-  }
-  const double lever = std::max((knot.state.col(0) - knot.pivot).norm(), kLeastLeverM) * knot.swing;
-  for (int m = 1; m < 4; ++m) {
-    const double share = knot.direction.dot(knot.state.col(m)) / lever;
-    const int from = first + 2 * m + 1;
-    gradient[first + 1] += share * gradient[from];
-    hessian.row(first + 1) += share * hessian.row(from);
-    hessian.col(first + 1) += share * hessian.col(from);
-  }
-}
-
 void addEvenness(const Spline& spline, double& cost, System* system) {
   for (std::size_t i = 0; i + 1 < spline.spans.size(); ++i) {
     const Span& a = spline.spans[i];
     const Span& b = spline.spans[i + 1];
-    if (a.straight || b.straight || !a.duration_free || !b.duration_free) {
+    if (!a.duration_free || !b.duration_free) {
       continue;
     }
     const double off = a.duration_s - b.duration_s;
@@ -341,12 +274,42 @@ void pin(System& system, std::size_t block, int row) {
   }
 }
 
+// An end that moves with its manoeuvre: two unknowns take the place of its state's eight.
+void guide(const EndFamily& family, std::size_t k, System& system) {
+  System::Block map = System::Block::Zero();
+  map.topLeftCorner<8, 2>() = family.state;
+  map(8, 8) = 1.0;
+  system.diagonal[k] = (map.transpose() * system.diagonal[k] * map).eval();
+  system.right[k] = (map.transpose() * system.right[k]).eval();
+  system.below[k] = (system.below[k] * map).eval();
+  if (k > 0) {
+    system.below[k - 1] = (map.transpose() * system.below[k - 1]).eval();
+  }
+}
+
+void addFamilies(const Spline& spline, double time_weight, double& cost, System* system) {
+  for (std::size_t k = 0; k < spline.knots.size(); ++k) {
+    if (!spline.knots[k].family) {
+      continue;
+    }
+    const EndFamily& family = *spline.knots[k].family;
+    const Eigen::Vector2d stretch = family.moved.cwiseQuotient(family.reach);
+    cost += time_weight * family.duration_s.dot(family.moved) + kReach * stretch.squaredNorm();
+    if (system != nullptr) {
+      guide(family, k, *system);
+      system->right[k].head<2>() -=
+          time_weight * family.duration_s + 2.0 * kReach * stretch.cwiseQuotient(family.reach);
+      system->diagonal[k].diagonal().head<2>() +=
+          2.0 * kReach * family.reach.cwiseAbs2().cwiseInverse();
+    }
+  }
+}
+
 void pinAll(const Spline& spline, System& system) {
   for (std::size_t k = 0; k < spline.knots.size(); ++k) {
-    for (int row = 0; row < 8; ++row) {
-      if (!spline.knots[k].free[static_cast<std::size_t>(row)]) {
-        pin(system, k, row);
-      }
+    const Knot& knot = spline.knots[k];
+    for (int row = knot.family ? 2 : 0; row < 8 && !knot.free; ++row) {
+      pin(system, k, row);
     }
     if (k == spline.spans.size() || !spline.spans[k].duration_free) {
       pin(system, k, 8);
@@ -367,10 +330,6 @@ double SplineProblem::evaluate(const Spline& spline, System* system) const {
     if (system == nullptr) {
       continue;
     }
-    rotatePairs(spline.knots[i].direction, 0, local.gradient, local.hessian);
-    rotatePairs(spline.knots[i + 1].direction, 9, local.gradient, local.hessian);
-    swingColumns(spline.knots[i], 0, local.gradient, local.hessian);
-    swingColumns(spline.knots[i + 1], 9, local.gradient, local.hessian);
     system->diagonal[i] += local.hessian.topLeftCorner<9, 9>();
     system->diagonal[i + 1].topLeftCorner<8, 8>() += local.hessian.bottomRightCorner<8, 8>();
     system->below[i].topRows<8>() += local.hessian.bottomLeftCorner<8, 9>();
@@ -378,39 +337,23 @@ double SplineProblem::evaluate(const Spline& spline, System* system) const {
     system->right[i + 1].head<8>() -= local.gradient.tail<8>();
   }
   addEvenness(spline, local.cost, system);
+  addFamilies(spline, weights.time, local.cost, system);
   if (system != nullptr) {
     pinAll(spline, *system);
   }
   return local.cost;
 }
 
-namespace {
-
-// Turns a swinging knot's motion into the direction its position gives.
-void swing(Knot& knot) {
-  const Eigen::Vector2d lever = knot.swing * (knot.state.col(0) - knot.pivot);
-  const double length = lever.norm();
-  if (length < kLeastLeverM || lever.dot(knot.direction) < 0.5 * length) {
-    return;
-  }
-  const Eigen::Vector2d direction = lever / length;
-  for (int m = 1; m < 4; ++m) {
-    knot.state.col(m) = knot.direction.dot(knot.state.col(m)) * direction;
-  }
-  knot.direction = direction;
-}
-
-}  // namespace
-
 void SplineProblem::apply(const std::vector<System::Vector>& step, double scale, Spline& spline) {
   for (std::size_t k = 0; k < spline.knots.size(); ++k) {
     Knot& knot = spline.knots[k];
-    const Eigen::Vector2d side = across(knot.direction);
-    for (int m = 0; m < 4; ++m) {
-      knot.state.col(m) += scale * (step[k][2 * m] * knot.direction + step[k][2 * m + 1] * side);
+    Eigen::Matrix<double, 8, 1> change = scale * step[k].head<8>();
+    if (knot.family) {
+      knot.family->moved += scale * step[k].head<2>();
+      change = knot.family->state * (scale * step[k].head<2>());
     }
-    if (knot.swing != 0.0) {
-      swing(knot);
+    for (int m = 0; m < 4; ++m) {
+      knot.state.col(m) += change.segment<2>(2 * m);
     }
     if (k < spline.spans.size()) {
       double& duration = spline.spans[k].duration_s;

@@ -127,15 +127,11 @@ class Verifier {
       fail(t, sentence("heading jumps", t, turn, kJumpRad));
       return;
     }
-    const bool spin = after.kind == trajectory::PieceKind::kSpin;
-    const bool spun = before.kind == trajectory::PieceKind::kSpin;
-    if (spin || spun) {
-      // A sailing piece that meets a spin is straight there, at rest, and does not turn.
-      const double rate = (spin ? after.spinHeading(0.0)[1] : 0.0) -
-                          (spun ? before.spinHeading(before.duration_s)[1] : 0.0);
-      if (std::abs(rate) > kJumpRadps) {
-        fail(t, sentence("yaw rate jumps", t, std::abs(rate), kJumpRadps));
-      }
+    const bool spins =
+        after.kind == trajectory::PieceKind::kSpin || before.kind == trajectory::PieceKind::kSpin;
+    const double rate = std::abs(check.yawRate(0.0) - yaw_rate_);
+    if (spins && rate > kJumpRadps) {
+      fail(t, sentence("yaw rate jumps", t, rate, kJumpRadps));
     }
   }
 
@@ -163,6 +159,7 @@ class Verifier {
       return;
     }
     heading_ = check.heading(piece.duration_s);
+    yaw_rate_ = check.yawRate(piece.duration_s);
   }
 
   void explain(const PieceReport& r, double t) {
@@ -187,6 +184,9 @@ class Verifier {
       case Fault::kAstern:
         fail(t, sentence("sails astern", t, 0.0, 0.0));
         break;
+      case Fault::kSway:
+        fail(t, sentence("slides without a force, N", t, 0.0, 0.0));
+        break;
       case Fault::kClearance:
         fail(t, sentence("too near an obstacle, m", t, r.clearance_m, o.clearance_m));
         break;
@@ -204,6 +204,7 @@ class Verifier {
   const CheckOptions& options_;
   Verification result_;
   double heading_ = 0.0;  // at the end of the piece before
+  double yaw_rate_ = 0.0;
 };
 
 }  // namespace

@@ -273,10 +273,13 @@ optimizer::Budget Planner::Pipeline::optimizerBudget(const Run& run) const {
   return budget;
 }
 
+// One attempt only: the guide path's way is a better second one.
 void Planner::Pipeline::optimizeWay(Run& run, const trajectory::Trajectory& way) {
   const double began = run.now();
-  auto optimized = optimizer_.optimize(run.field, way, run.start, run.goal, optimizerBudget(run),
-                                       run.clearance_m);
+  optimizer::Budget budget = optimizerBudget(run);
+  budget.max_attempts = 1;
+  auto optimized =
+      optimizer_.optimize(run.field, way, run.start, run.goal, budget, run.clearance_m);
   run.plan.figures.optimize_ms += 1e3 * (run.now() - began);
   if (optimized) {
     run.plan.figures.iterations += optimized->iterations;

@@ -116,8 +116,7 @@ trajectory::Trajectory assemble(const std::vector<Piece>& smooth, double slowdow
 double trajectoryCost(const trajectory::Trajectory& trajectory, double sigma) {
   double cost = 0.0;
   for (const Piece& piece : trajectory.pieces()) {
-    cost += piece.kind == trajectory::PieceKind::kSpin ? sigma * piece.duration_s
-                                                       : pieceCost(piece, sigma);
+    cost += pieceCost(piece, sigma);
   }
   return cost;
 }

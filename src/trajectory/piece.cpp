@@ -28,10 +28,6 @@ Taylor<Rows> expand(const Eigen::Matrix<double, Rows, kCoefficients>& c, double 
 
 vessel::FlatPoint Piece::flat(double t_s) const {
   vessel::FlatPoint z;
-  if (kind == PieceKind::kSpin) {
-    z.position = position.col(0);
-    return z;
-  }
   const Taylor<2> taylor = expand<2>(position, t_s);
   z.position = taylor.value[0];
   z.velocity = taylor.value[1];

@@ -26,12 +26,17 @@ Eigen::Vector2d aheadVector(const Piece& piece, double t, const vessel::FlatPoin
   return piece.flat(inside).velocity - current;
 }
 
-Sample sampleSpin(const Piece& piece, double t, const vessel::Parameters& vessel) {
+Sample sampleSpin(const Piece& piece, double t, const vessel::Parameters& vessel,
+                  const Eigen::Vector2d& current) {
   Sample s;
   s.flat = piece.flat(t);
   const Eigen::Vector3d psi = piece.spinHeading(t);
-  s.state << s.flat.position, wrapAngle(psi[0]), 0.0, 0.0, psi[1];
-  s.tau.yaw_nm = vessel.paper.m2_kgm2 * psi[2] + vessel.paper.d3_kgm2ps * psi[1];
+  const Eigen::Vector2d e(std::cos(psi[0]), std::sin(psi[0]));
+  const Eigen::Vector2d& v = s.flat.velocity;
+  const vessel::PaperModel& m = vessel.paper;
+  s.state << s.flat.position, wrapAngle(psi[0]), e.dot(v), e.x() * v.y() - e.y() * v.x(), psi[1];
+  s.tau.surge_n = m.m1_kg * e.dot(s.flat.acceleration) + m.d1_kgps * e.dot(v - current);
+  s.tau.yaw_nm = m.m2_kgm2 * psi[2] + m.d3_kgm2ps * psi[1];
   s.heading_force_n = std::numeric_limits<double>::infinity();
   return s;
 }
@@ -84,7 +89,7 @@ Sample Trajectory::sampleIn(std::size_t piece, double t_in_piece_s,
                             const vessel::Parameters& vessel,
                             const Eigen::Vector2d& current_mps) const {
   const Piece& p = pieces_[piece];
-  Sample s = p.kind == PieceKind::kSpin ? sampleSpin(p, t_in_piece_s, vessel)
+  Sample s = p.kind == PieceKind::kSpin ? sampleSpin(p, t_in_piece_s, vessel, current_mps)
                                         : sampleSail(p, t_in_piece_s, vessel, current_mps);
   s.t_s = starts_[piece] + t_in_piece_s;
   s.thrusts = vessel::thrustsFromTau(s.tau, vessel.thrusters);

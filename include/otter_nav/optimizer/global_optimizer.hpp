@@ -9,9 +9,8 @@
 // form: the Hessian is block-tridiagonal, so a step costs time linear in the number of pieces.
 // Weights of constraints that still fail are raised from round to round; the result is verified.
 //
-// Ends at rest: the first and the last piece are straight along start and goal heading (that is
-// where |w| vanishes, see vessel/flatness.hpp); before and after them the vessel may spin on the
-// spot. What costs least is chosen.
+// Ends at rest: there |w| vanishes (see vessel/flatness.hpp), so launch and arrival are manoeuvres
+// of their own (end_manoeuvre.hpp), and the spline between them is under way throughout.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,26 +31,28 @@ struct GlobalOptions {
   double clearance_m = 0.8;          // what verification asks for
   double clearance_margin_m = 0.05;  // beyond it, aimed at
   bool keep_hull_clear = true;
-  double thrust_share = 0.96;   // of each thruster's limits, verified; the rest is for control
+  double thrust_share = 0.97;   // of each thruster's limits, verified; the rest is for control
   double thrust_margin = 0.02;  // of the limits, below that share: aimed at
-  double speed_max_mps = 4.8;
+  double speed_max_mps = 4.85;
   double yaw_rate_max_radps = 1.8;   // under way; a spin is limited by its thrust alone
   double heading_force_min_n = 8.0;  // |w| while turning
   double spin_thrust_share = 0.94;
-  double spin_angle_rad = 0.9;  // turns wider than this at an end at rest are spun on the spot
+  double spin_rate_max_radps = 1.8;
+  double spin_angle_rad = 0.4;       // turns at the goal wider than this are spun where it stops
+  double drift_mps = 0.3;            // speed left when that begins
+  double arrival_speed_share = 0.6;  // of the speed aimed at, when the brake begins
   // A trajectory that asks for this share too much of a thruster is slowed down to suit.
   double dilation_max = 0.06;
   double piece_length_m = 10.0;
   // Weights: of a second, of a metre of way, and the paper's.
   double weight_time = 1.0;
   double weight_length = 0.1;
-  double weight_smooth = 0.1;            // ls, on the integral of squared jerk
-  double weight_smooth_straight = 0.02;  // ls on launch and brake, where no moment is at stake
-  double weight_clearance = 20.0;        // lc
-  double weight_dynamics = 5.0;          // ld
-  double weight_original = 0.3;          // lo, while the first shape is found
-  double weight_smooth_first = 0.1;      // ls then
-  double weight_growth = 1.5;            // of lc and ld from round to round where they fail
+  double weight_smooth = 0.1;        // ls, on the integral of squared jerk
+  double weight_clearance = 20.0;    // lc
+  double weight_dynamics = 5.0;      // ld
+  double weight_original = 0.3;      // lo, while the first shape is found
+  double weight_smooth_first = 0.1;  // ls then
+  double weight_growth = 1.5;        // of lc and ld from round to round where they fail
   int rounds = 5;
   int quicken_rounds = 4;       // after the first sound result
   double quicken_growth = 1.6;  // of weight_time, in each of them
@@ -67,6 +68,9 @@ struct Budget {
   std::function<double()> elapsed_s;
   double budget_s = 0.1;
   int max_iterations = 300;
+  // Attempts along the way given, each more careful than the one before; with fewer than all there
+  // is no last resort either.
+  int max_attempts = 4;
 };
 
 struct Optimized {

@@ -1,5 +1,5 @@
 // From a polyline to a first spline: an elastic band for the shape, a forward and backward pass
-// for the speed, knots at even distances.
+// for the speed, knots at even times.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/optimizer/spline_problem.hpp"
-#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/vessel/flatness.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::optimizer {
@@ -17,19 +17,15 @@ struct WayOptions {
   double force_share = 0.85;  // of both thrusters together, for the first guess of the speed
   double speed_max_mps = 4.6;
   double turn_radius_m = 2.5;  // of turns at speed next to the ends
-  double brake_m = 5.0;        // the last straight's first guess
   double clearance_m = 1.0;    // by DistanceField::smooth
 };
 
-// How the way leaves its start and reaches its goal.
+// Where the way begins and ends, under way. The directions count where there is little speed.
 struct WayEnds {
-  Boundary start;
-  Boundary goal;
-  bool start_at_rest = true;
-  bool start_after_spin = false;  // then acceleration and jerk vanish there too
-  bool goal_before_spin = false;
-  Eigen::Vector2d leave = Eigen::Vector2d::UnitX();   // direction of the launch
-  Eigen::Vector2d arrive = Eigen::Vector2d::UnitX();  // and of the last straight
+  vessel::FlatPoint start;
+  vessel::FlatPoint goal;
+  Eigen::Vector2d leave = Eigen::Vector2d::UnitX();
+  Eigen::Vector2d arrive = Eigen::Vector2d::UnitX();
 };
 
 // The point `distance_m` along a polyline, from its start or, negative, from its end.
@@ -44,7 +40,7 @@ class InitialWay {
 
   WayOptions& options() { return options_; }
 
-  // Fills `spline` (knots, what is free of them, durations, straight ends).
+  // Fills `spline` (knots, all free but the first and the last, and durations).
   void build(const map::DistanceField& field, const std::vector<Eigen::Vector2d>& polyline,
              const WayEnds& ends, Spline& spline);
 
@@ -70,7 +66,7 @@ class InitialWay {
   std::vector<double> speed_;
   std::vector<double> time_;
   std::vector<double> cuts_;
-  double part_s_ = 1.0;
+  std::vector<double> times_;  // of the cuts
   std::vector<Eigen::Vector2d> turned_;
   std::size_t held_head_ = 0;  // points of the band on arcs, not stretched
   std::size_t held_tail_ = 0;

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
@@ -25,24 +26,24 @@ namespace otter_nav::optimizer {
 constexpr int kBlockSize = 9;  // p, v, a, j of a knot (x and y each) and the duration
 using System = BlockTridiagonal<kBlockSize>;
 
-// A joint of two pieces. What is free is said along and across `direction`.
+// How an end's state depends, to first order, on the two parameters of the manoeuvre it joins.
+struct EndFamily {
+  Eigen::Matrix<double, 8, 2> state = Eigen::Matrix<double, 8, 2>::Zero();  // p, v, a, j
+  Eigen::Vector2d duration_s = Eigen::Vector2d::Zero();                     // of the manoeuvre
+  Eigen::Vector2d reach = Eigen::Vector2d::Ones();  // steps beyond this are not to be trusted
+  Eigen::Vector2d moved = Eigen::Vector2d::Zero();  // steps made so far
+};
+
+// A joint of two pieces.
 struct Knot {
   Eigen::Matrix<double, 2, 4> state = Eigen::Matrix<double, 2, 4>::Zero();  // p, v, a, j
-  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
-  // [p along, p across, v along, ..., j across]
-  std::array<bool, 8> free = {true, true, true, true, true, true, true, true};
-  // Not zero: the knot swings about `pivot` (a spin's place): its direction is `swing` (1 or -1)
-  // times that from the pivot to it, all its motion is along, and moving across turns it.
-  double swing = 0.0;
-  Eigen::Vector2d pivot = Eigen::Vector2d::Zero();
+  bool free = true;
+  std::optional<EndFamily> family;  // of a knot that is not free: fixed without
 };
 
 struct Span {
   double duration_s = 1.0;
   bool duration_free = true;
-  // Both knots lie on a line (lineOf), with all their derivatives: the
-  // heading does not turn, and |w| may vanish.
-  bool straight = false;
 };
 
 struct Spline {
@@ -50,16 +51,10 @@ struct Spline {
   std::vector<Span> spans;  // one less
 };
 
-// The direction of straight piece `i`: that of its knot that may swing.
-[[nodiscard]] inline const Eigen::Vector2d& lineOf(const Spline& spline, std::size_t i) {
-  return spline.knots[spline.knots[i + 1].swing > 0.0 ? i + 1 : i].direction;
-}
-
 struct SplineWeights {
   double time = 1.0;
   double length = 0.1;
   double smooth = 0.01;
-  double smooth_straight = 0.01;  // on straight pieces, which do not turn
   double clearance = 20.0;
   double dynamics = 20.0;
   double original = 0.0;
@@ -94,7 +89,7 @@ class SplineProblem {
   // negative gradient, with what is not free pinned to zero.
   double evaluate(const Spline& spline, System* system) const;
 
-  // Adds a step to the unknowns (in the knots' along-and-across frames).
+  // Adds a step to the unknowns.
   static void apply(const std::vector<System::Vector>& step, double scale, Spline& spline);
 
  private:
@@ -102,11 +97,9 @@ class SplineProblem {
   struct Local;
 
   void addPiece(const Spline& spline, std::size_t i, Local& local) const;
-  void addQuadraturePoint(const Spline& spline, std::size_t i, int point, Local& local) const;
+  void addQuadraturePoint(std::size_t i, int point, Local& local) const;
   void addFree(const Eigen::Matrix<double, 2, kOrders>& z, Local& local) const;
-  void addStraight(const Eigen::Matrix<double, 2, kOrders>& z, const Eigen::Vector2d& along,
-                   Local& local) const;
-  void addClearance(int point, bool straight, const Eigen::Vector2d& along, Local& local) const;
+  void addClearance(int point, Local& local) const;
 
   vessel::Parameters vessel_;
   std::array<BasisMatrix, kQuadraturePoints> quadrature_;

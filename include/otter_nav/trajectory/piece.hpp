@@ -1,5 +1,6 @@
-// One polynomial piece of a trajectory: sailing (position of degree 7 in time) or a spin on the
-// spot (position fixed, heading of degree 7), the one motion the flat output cannot express.
+// One polynomial piece of a trajectory: sailing (position of degree 7 in time, the heading follows
+// from it) or a spin (position and heading of degree 7), for what the flat output cannot express:
+// turning on the spot, and getting under way or stopping while turning.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +17,7 @@ enum class PieceKind { kSail, kSpin };
 struct Piece {
   PieceKind kind = PieceKind::kSail;
   double duration_s = 0.0;
-  // Sail: z(t) = sum of column k times t^k, t in [0, duration] s. Spin: column 0 is the position.
+  // z(t) = sum of column k times t^k, t in [0, duration] s; on the spot only column 0 is not zero.
   Eigen::Matrix<double, 2, kCoefficients> position =
       Eigen::Matrix<double, 2, kCoefficients>::Zero();
   // Spin only: psi(t), continuous (not wrapped), same form.

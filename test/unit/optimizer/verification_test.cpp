@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "otter_nav/optimizer/end_manoeuvre.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
-#include "otter_nav/optimizer/spin.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -46,7 +46,7 @@ class VerificationTest : public ::testing::Test {
     return verify(Trajectory(pieces), field, vessel, start, goal, options);
   }
   // A piece well under way.
-  Piece& middle() { return pieces[2]; }
+  Piece& middle() { return pieces[pieces.size() / 2]; }
 
   void expectFault(const std::string& word) const {
     const Verification v = check();
@@ -160,21 +160,38 @@ TEST_F(VerificationTest, TurnsWithoutForce) {
   EXPECT_FALSE(v.ok);
 }
 
-TEST_F(VerificationTest, ASpinMustStandStill) {
-  std::vector<Piece> spin;
-  appendSpin(pieces.back().flat(pieces.back().duration_s).position, goal.psi_rad, 1.0, vessel,
-             SpinLimits(), spin);
-  const std::vector<Piece> before(pieces);
-  pieces.insert(pieces.end(), spin.begin(), spin.end());
-  goal.psi_rad += 1.0;
-  EXPECT_TRUE(check().ok) << check().reason;
-  // A spin that begins elsewhere than the sailing ended with its heading.
-  pieces = before;
-  for (Piece& piece : spin) {
-    piece.heading[0] += 0.1;
+TEST_F(VerificationTest, ASpinMustMeetTheHeadingBefore) {
+  for (Piece& piece : pieces) {
+    if (&piece > &middle() && piece.kind == trajectory::PieceKind::kSpin) {
+      piece.heading[0] += 0.1;
+    }
   }
-  pieces.insert(pieces.end(), spin.begin(), spin.end());
   expectFault("heading");
+}
+
+TEST_F(VerificationTest, ASpinMustMeetTheYawRateBefore) {
+  // Half a second on the spot, at rest but for its heading, then a turn that is under way at once.
+  Piece still = trajectory::spinPiece(goal.flat.position, 0.0, 0.0, 0.5);
+  Piece turning = still;
+  turning.heading[1] = 0.3;
+  const Trajectory trajectory({still, turning});
+  const Verification v = verify(trajectory, field, vessel, options);
+  EXPECT_FALSE(v.ok);
+  EXPECT_NE(v.reason.find("yaw rate"), std::string::npos) << v.reason;
+}
+
+TEST_F(VerificationTest, ASpinSlidesOnlyAsTheModelLetsIt) {
+  const Manoeuvre stop =
+      arrival(goal.flat.position, goal.psi_rad, 1.0, 2.0, vessel, ManoeuvreLimits());
+  EXPECT_TRUE(verify(Trajectory(stop.pieces), field, vessel, options).ok);
+  // The same way with another heading would need a force from the side.
+  std::vector<Piece> turned = stop.pieces;
+  for (Piece& piece : turned) {
+    piece.heading[0] += 0.3;
+  }
+  const Verification v = verify(Trajectory(turned), field, vessel, options);
+  EXPECT_FALSE(v.ok);
+  EXPECT_NE(v.reason.find("slides"), std::string::npos) << v.reason;
 }
 
 }  // namespace

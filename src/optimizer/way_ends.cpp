@@ -1,0 +1,226 @@
+#include "way_ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "piece_check.hpp"
+
+namespace otter_nav::optimizer {
+namespace {
+
+constexpr double kLookAheadM = 5.0;  // beyond a manoeuvre, that the way's direction is taken over
+constexpr int kAimRounds = 4;
+constexpr double kAimedRad = 0.03;
+constexpr double kSlowestMps = 0.5;
+constexpr double kReachRad = 0.3;  // steps of a manoeuvre's parameters that are still nearly linear
+constexpr double kReachMps = 0.8;
+constexpr double kStep = 1e-3;          // of parameters, for differences
+constexpr double kLeastTurnRad = 0.02;  // that a turn shrinks to
+constexpr double kLongestShare = 0.3;   // of the way, for the arrival
+
+double angleOf(const Eigen::Vector2d& v) {
+  return std::atan2(v.y(), v.x());
+}
+
+double lengthOf(const std::vector<Eigen::Vector2d>& way) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    length += (way[i] - way[i - 1]).norm();
+  }
+  return length;
+}
+
+using StateVector = Eigen::Matrix<double, 8, 1>;
+
+StateVector stateOf(const vessel::FlatPoint& z) {
+  StateVector state;
+  state << z.position, z.velocity, z.acceleration, z.jerk;
+  return state;
+}
+
+Eigen::Vector2d directionOf(const vessel::FlatPoint& z, double psi_rad) {
+  constexpr double kSlowMps = 0.1;
+  return z.velocity.norm() > kSlowMps ? Eigen::Vector2d(z.velocity.normalized())
+                                      : Eigen::Vector2d(std::cos(psi_rad), std::sin(psi_rad));
+}
+
+}  // namespace
+
+bool EndChooser::clear(const map::DistanceField& field, const Manoeuvre& manoeuvre) const {
+  for (const trajectory::Piece& piece : manoeuvre.pieces) {
+    PieceReport report;
+    report.yaw_rate_radps = check_.yaw_rate_max_radps;
+    PieceCheck(piece, vessel_, check_).checkClearance(field, report);
+    if (report.fault != Fault::kNone) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void EndChooser::make(End& end) const {
+  end.manoeuvre =
+      end.kind == End::Kind::kLaunch
+          ? launch(end.position, end.psi_rad, end.turn_rad, vessel_, end.limits)
+          : arrival(end.position, end.psi_rad, end.turn_rad, end.speed_mps, vessel_, end.limits);
+}
+
+// The course is led from where the manoeuvre ends to a point of the way ahead.
+void EndChooser::leaveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const {
+  const Eigen::Vector2d ahead = pointAlong(way, kLookAheadM);
+  const double drifts_s = vessel_.paper.m1_kg / vessel_.paper.d2_kgps;
+  double leave = angleOf(ahead - end.position);
+  for (int round = 0; round < kAimRounds; ++round) {
+    end.turn_rad = wrapAngle(leave - end.psi_rad);
+    make(end);
+    const Eigen::Vector2d along(std::cos(leave), std::sin(leave));
+    const vessel::FlatPoint& z = end.manoeuvre.joint;
+    const Eigen::Vector2d aside = z.velocity - along.dot(z.velocity) * along;
+    const double next = angleOf(ahead - (z.position + drifts_s * aside));
+    const bool aimed = std::abs(wrapAngle(next - leave)) < kAimedRad;
+    leave = next;
+    if (aimed) {
+      break;
+    }
+  }
+}
+
+// The course is led from a point of the way to where the manoeuvre begins.
+void EndChooser::arriveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const {
+  const Eigen::Vector2d behind =
+      pointAlong(way, -kLookAheadM - arrivalLength(end.speed_mps, vessel_, end.limits));
+  end.turn_rad = wrapAngle(end.psi_rad - angleOf(end.position - behind));
+  if (std::abs(end.turn_rad) < options_.turn_least_rad && !options_.careful) {
+    end.turn_rad = 0.0;
+  }
+  for (int round = 0; round < kAimRounds; ++round) {
+    make(end);
+    const vessel::FlatPoint& z = end.manoeuvre.joint;
+    const double off = wrapAngle(angleOf(z.velocity) - angleOf(z.position - behind));
+    if (end.turn_rad == 0.0 || std::abs(off) < kAimedRad) {
+      break;
+    }
+    const double next = end.turn_rad + off;
+    end.turn_rad = next * end.turn_rad > 0.0 ? next : 0.0;
+  }
+}
+
+End EndChooser::chooseStart(const map::DistanceField& field,
+                            const std::vector<Eigen::Vector2d>& way, const Boundary& start) const {
+  End end;
+  end.manoeuvre.joint = start.flat;
+  if (!atRest(start)) {
+    return end;
+  }
+  end.kind = End::Kind::kLaunch;
+  end.position = start.flat.position;
+  end.psi_rad = start.psi_rad;
+  end.limits = options_.limits;
+  end.limits.settle = options_.careful;
+  leaveAlong(way, end);
+  if (!end.limits.settle && !clear(field, end.manoeuvre)) {
+    end.limits.settle = true;
+    leaveAlong(way, end);
+  }
+  return end;
+}
+
+End EndChooser::chooseGoal(const map::DistanceField& field, const std::vector<Eigen::Vector2d>& way,
+                           const Boundary& goal) const {
+  struct Choice {
+    double speed_share, drift_share;
+  };
+  const double longest = kLongestShare * lengthOf(way);
+  End end;
+  end.kind = End::Kind::kArrival;
+  end.position = goal.flat.position;
+  end.psi_rad = goal.psi_rad;
+  for (const Choice& choice : {Choice{1.0, 1.0}, Choice{0.7, 1.0}, Choice{0.5, 0.0}}) {
+    end.limits = options_.limits;
+    end.limits.drift_mps *= options_.careful ? 0.0 : choice.drift_share;
+    end.speed_mps = options_.arrival_speed_mps * choice.speed_share;
+    while (end.speed_mps > kSlowestMps &&
+           arrivalLength(end.speed_mps, vessel_, end.limits) > longest) {
+      end.speed_mps *= 0.9;
+    }
+    arriveAlong(way, end);
+    if (clear(field, end.manoeuvre)) {
+      break;
+    }
+  }
+  return end;
+}
+
+ChosenEnds EndChooser::choose(const map::DistanceField& field,
+                              const std::vector<Eigen::Vector2d>& way, const Boundary& start,
+                              const Boundary& goal) const {
+  return {chooseStart(field, way, start), chooseGoal(field, way, goal)};
+}
+
+WayEnds EndChooser::wayEnds(const ChosenEnds& chosen, const Boundary& start) const {
+  WayEnds ends;
+  ends.start = chosen.start.manoeuvre.joint;
+  ends.goal = chosen.goal.manoeuvre.joint;
+  ends.leave = directionOf(ends.start, start.psi_rad);
+  ends.arrive = directionOf(ends.goal, chosen.goal.psi_rad);
+  return ends;
+}
+
+// By differences.
+std::optional<EndFamily> EndChooser::familyOf(const End& end) const {
+  if (end.kind == End::Kind::kUnderWay) {
+    return std::nullopt;
+  }
+  EndFamily family;
+  family.reach = {kReachRad, kReachMps};
+  const StateVector now = stateOf(end.manoeuvre.joint);
+  const auto difference = [&](End moved, int column, double step) {
+    make(moved);
+    family.state.col(column) = (stateOf(moved.manoeuvre.joint) - now) / step;
+    family.duration_s[column] = (moved.manoeuvre.duration_s - end.manoeuvre.duration_s) / step;
+  };
+  if (end.turn_rad != 0.0) {
+    const double step = end.turn_rad > 0.0 ? kStep : -kStep;
+    End moved = end;
+    moved.turn_rad += step;
+    difference(moved, 0, step);
+  }
+  if (end.kind == End::Kind::kArrival) {
+    End moved = end;
+    moved.speed_mps += kStep;
+    difference(moved, 1, kStep);
+  }
+  return family;
+}
+
+void EndChooser::guide(const ChosenEnds& chosen, Spline& spline) const {
+  spline.knots.front().family = familyOf(chosen.start);
+  spline.knots.back().family = familyOf(chosen.goal);
+}
+
+void EndChooser::follow(Knot& knot, End& end) const {
+  if (!knot.family || knot.family->moved.isZero()) {
+    return;
+  }
+  // A turn keeps its side, and does not vanish.
+  const double side = end.turn_rad < 0.0 ? -1.0 : 1.0;
+  if (end.turn_rad != 0.0) {
+    end.turn_rad = side * std::max(side * (end.turn_rad + knot.family->moved[0]), kLeastTurnRad);
+  }
+  end.speed_mps = std::clamp(end.speed_mps + knot.family->moved[1], kSlowestMps,
+                             std::max(kSlowestMps, options_.arrival_speed_max_mps));
+  make(end);
+  const StateVector state = stateOf(end.manoeuvre.joint);
+  for (int m = 0; m < 4; ++m) {
+    knot.state.col(m) = state.segment<2>(2 * m);
+  }
+  knot.family = familyOf(end);
+}
+
+void EndChooser::follow(Spline& spline, ChosenEnds& chosen) const {
+  follow(spline.knots.front(), chosen.start);
+  follow(spline.knots.back(), chosen.goal);
+}
+
+}  // namespace otter_nav::optimizer

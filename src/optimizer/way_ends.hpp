@@ -1,0 +1,74 @@
+// How a way leaves its start and reaches its goal: manoeuvres at ends at rest, chosen so that they
+// point along the way and are clear of obstacles.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/optimizer/end_manoeuvre.hpp"
+#include "otter_nav/optimizer/initial_way.hpp"
+#include "otter_nav/optimizer/verification.hpp"
+
+namespace otter_nav::optimizer {
+
+struct EndOptions {
+  ManoeuvreLimits limits;
+  double arrival_speed_mps = 3.0;      // when full astern begins, at first
+  double arrival_speed_max_mps = 4.2;  // and after it was moved
+  double turn_least_rad = 0.3;         // turns at the goal narrower than this are made on the way
+  bool careful = false;                // turns at rest, slow arrival
+};
+
+// A manoeuvre with what it was made from, so that it can be made again a little different.
+struct End {
+  enum class Kind { kUnderWay, kLaunch, kArrival };
+  Kind kind = Kind::kUnderWay;
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double psi_rad = 0.0;
+  ManoeuvreLimits limits;
+  double turn_rad = 0.0;
+  double speed_mps = 0.0;  // of an arrival
+  Manoeuvre manoeuvre;     // none under way
+};
+
+struct ChosenEnds {
+  End start;
+  End goal;
+};
+
+class EndChooser {
+ public:
+  EndChooser(const vessel::Parameters& vessel, const CheckOptions& check, const EndOptions& options)
+      : vessel_(vessel), check_(check), options_(options) {}
+
+  // `way` has at least two points.
+  [[nodiscard]] ChosenEnds choose(const map::DistanceField& field,
+                                  const std::vector<Eigen::Vector2d>& way, const Boundary& start,
+                                  const Boundary& goal) const;
+  // The ends' states for the way between.
+  [[nodiscard]] WayEnds wayEnds(const ChosenEnds& chosen, const Boundary& start) const;
+  // Lets the spline's ends move with their manoeuvres.
+  void guide(const ChosenEnds& chosen, Spline& spline) const;
+  // Makes the manoeuvres that the spline's ends have moved to, and puts the ends exactly there.
+  void follow(Spline& spline, ChosenEnds& chosen) const;
+
+ private:
+  [[nodiscard]] End chooseStart(const map::DistanceField& field,
+                                const std::vector<Eigen::Vector2d>& way,
+                                const Boundary& start) const;
+  [[nodiscard]] End chooseGoal(const map::DistanceField& field,
+                               const std::vector<Eigen::Vector2d>& way, const Boundary& goal) const;
+  void leaveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const;
+  void arriveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const;
+  void make(End& end) const;
+  [[nodiscard]] std::optional<EndFamily> familyOf(const End& end) const;
+  void follow(Knot& knot, End& end) const;
+  [[nodiscard]] bool clear(const map::DistanceField& field, const Manoeuvre& manoeuvre) const;
+
+  const vessel::Parameters& vessel_;
+  const CheckOptions& check_;
+  const EndOptions& options_;
+};
+
+}  // namespace otter_nav::optimizer
