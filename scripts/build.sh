@@ -1,10 +1,18 @@
 #!/usr/bin/env bash
-# Builds the package with colcon into build/ and install/ beside the sources: build.sh [--tests]
+# Builds the package with colcon into build/ and install/ beside the sources:
+# build.sh [--tests] [--strict]; --strict takes warnings as errors, from then on in this build/.
 # The compiler's output goes to build/build.log; its end is shown if the build fails.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 testing=OFF
-[ "${1:-}" = "--tests" ] && testing=ON
+strict=()
+for option in "$@"; do
+  case $option in
+    --tests) testing=ON ;;
+    --strict) strict=(-DOTTER_NAV_WERROR=ON) ;;
+    *) echo "build: unknown option '$option'" >&2; exit 2 ;;
+  esac
+done
 
 # On a terminal: make's percentage on one refreshed line, so a newcomer sees that it goes on.
 show_progress() {
@@ -19,7 +27,7 @@ cd "$top"
 mkdir -p build
 if ! colcon --log-base log build --base-paths "$top" --build-base build --install-base install \
   --merge-install --cmake-args -DCMAKE_BUILD_TYPE=Release \
-  -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=$testing 2>&1 |
+  -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=$testing "${strict[@]}" 2>&1 |
   tee build/build.log | show_progress; then
   tail -n 60 build/build.log >&2
   echo "build: failed; build/build.log has all of it" >&2

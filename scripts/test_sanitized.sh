@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # The core alone, without catkin, in Debug with address and undefined-behaviour sanitizers: builds
-# it and runs its unit suite. test_sanitized.sh [BUILD_FOLDER]
+# it and runs its unit and closed-loop suites. test_sanitized.sh [BUILD_FOLDER]
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$top/build-sanitized}
 cmake -S "$top" -B "$build" -DOTTER_NAV_CORE_ONLY=ON -DOTTER_NAV_SANITIZE=ON -DOTTER_NAV_WERROR=ON \
   -DCMAKE_BUILD_TYPE=Debug >"$build.configure.log" 2>&1 || { cat "$build.configure.log"; exit 1; }
-cmake --build "$build" --parallel "$(nproc)" --target unit_tests -- --no-print-directory >"$build.build.log" 2>&1 ||
+cmake --build "$build" --parallel "$(nproc)" --target unit_tests loop_tests -- --no-print-directory >"$build.build.log" 2>&1 ||
   { tail -n 60 "$build.build.log"; exit 1; }
 # Tests that count allocations replace the operators the sanitizer watches: they run in test.sh alone.
-ASAN_OPTIONS=detect_leaks=1 ctest --test-dir "$build" --output-on-failure -j "$(nproc)" -R '^unit_' \
+ASAN_OPTIONS=detect_leaks=1 ctest --test-dir "$build" --output-on-failure -j "$(nproc)" -R '^(unit|loop)_' \
   -E 'allocation|unit_tracker$'
