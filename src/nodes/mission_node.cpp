@@ -240,7 +240,7 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
   result.planning_ms_max = planner_.planning_ms_max;
   result.tracker_ms_p99 = tracker_.solver_ms_p99;
   if (track_) {
-    result.track = trackPath(options_.result);
+    result.track = options_.track;
     if (const Status status = track_->close(); !status) {
       std::cerr << status.error().message << '\n';
     }

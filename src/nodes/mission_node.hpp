@@ -27,6 +27,7 @@ namespace otter_nav::nodes {
 struct MissionNodeOptions {
   mission::MissionLabel label;  // its scenario is the file here
   std::string result;           // JSON file; empty: none is written
+  std::string track;            // the track's CSV, beside it
   double timeout_s = 900.0;     // of simulated time
   double silence_s = 60.0;      // of wall time without a sign of life, then it is an error
   double track_rate_hz = 20.0;

@@ -26,6 +26,7 @@ MissionNodeOptions readNodeOptions(config::Section& section) {
   section.read("timeout_s", options.timeout_s, {1.0, 1e6});
   section.read("silence_s", options.silence_s, {1.0, 3600.0});
   section.read("track_rate_hz", options.track_rate_hz, {0.1, 100.0});
+  options.track = trackPath(options.result);
   options.label.seed = static_cast<std::uint64_t>(seed);
   return options;
 }
@@ -54,7 +55,7 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   }
   std::optional<mission::TrackWriter> track;
   if (!options.result.empty()) {
-    Result<mission::TrackWriter> opened = mission::TrackWriter::open(trackPath(options.result));
+    Result<mission::TrackWriter> opened = mission::TrackWriter::open(options.track);
     if (!opened) {
       return failure(opened.error().message);
     }
