@@ -22,8 +22,9 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::ManoeuvringM
       o.velocity_sigma_mps, o.velocity_sigma_mps, o.yaw_rate_sigma_radps;
   measurement_variance_ = measurement_variance_.cwiseAbs2();
   walk_variance_ << 0.0, 0.0, 0.0, o.velocity_walk_mps, o.velocity_walk_mps, o.yaw_rate_walk_radps,
-      o.force_walk_n, o.force_walk_n, o.moment_walk_nm, o.current_walk_mps, o.current_walk_mps,
-      o.wind_walk_m2ps2, o.wind_walk_m2ps2;
+      o.force_walk_n, o.force_walk_n,
+      model.feelsWind() ? o.moment_walk_in_wind_nm : o.moment_walk_nm, o.current_walk_mps,
+      o.current_walk_mps, o.wind_walk_m2ps2, o.wind_walk_m2ps2;
   walk_variance_ = walk_variance_.cwiseAbs2().eval();
   if (o.enabled) {
     covariance_.diagonal().tail<7>() << o.force_sigma_n, o.force_sigma_n, o.moment_sigma_nm,

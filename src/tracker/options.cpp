@@ -33,6 +33,7 @@ Status readEstimator(config::Section section, EstimatorOptions& o) {
   section.read("moment_walk_nm", o.moment_walk_nm, kNotNegative);
   section.read("current_walk_mps", o.current_walk_mps, kNotNegative);
   section.read("wind_walk_m2ps2", o.wind_walk_m2ps2, kNotNegative);
+  section.read("moment_walk_in_wind_nm", o.moment_walk_in_wind_nm, kNotNegative);
   section.read("force_sigma_n", o.force_sigma_n, kNotNegative);
   section.read("moment_sigma_nm", o.moment_sigma_nm, kNotNegative);
   section.read("current_sigma_mps", o.current_sigma_mps, kNotNegative);

@@ -18,8 +18,9 @@ struct EstimatorOptions {
   double force_walk_n = 5.0;
   double moment_walk_nm = 2.0;
   double current_walk_mps = 0.0;  // 0: the current is not estimated, the force carries it
-  // |w| w of the wind, for vessels that know its loads.
+  // For vessels whose model knows wind loads: of |w| w, and of the moment that these leave.
   double wind_walk_m2ps2 = 10.0;
+  double moment_walk_in_wind_nm = 2.0;
   // What is not known of them at the start.
   double force_sigma_n = 10.0;
   double moment_sigma_nm = 5.0;
