@@ -163,6 +163,9 @@ SolverStatus RtiSolver::feedback(const vessel::State& measured) {
   }
   SolverStatus status = iterateActiveSet(measured);
   if (status == SolverStatus::kIterationsExhausted) {
+    status = iterateProjectedNewton(measured);
+  }
+  if (status == SolverStatus::kIterationsExhausted) {
     status = iterateInteriorPoint(measured);
   }
   prepared_ = SolverStatus::kNotFinite;  // a preparation serves one feedback

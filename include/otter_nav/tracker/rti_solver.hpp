@@ -8,8 +8,9 @@
 // The quadratic problem is factored without its inequalities (or with the last cycle's active
 // bounds) in the preparation. Only when the feedback finds a bound violated or a multiplier of the
 // wrong sign is it solved again: by primal-dual active-set steps, each one Riccati recursion over
-// the stages before the last change, and should those cycle, by Mehrotra's predictor-corrector
-// interior point method, each iteration one recursion and a second pass for the gradient alone.
+// the stages before the last change; should those cycle, by projected Newton steps, which cannot;
+// and should those stall, by Mehrotra's predictor-corrector interior point method, each iteration
+// one recursion and a second pass for the gradient alone.
 #pragma once
 
 #include <array>
@@ -42,7 +43,8 @@ struct OcpOptions {
   double far_m = 1e3;
   // The most a step may turn any stage's heading; beyond, the plan takes a share of the step.
   double heading_step_rad = 1e3;
-  int active_set_iterations = 6;
+  int active_set_iterations = 7;
+  int projected_newton_iterations = 25;
   int interior_point_iterations = 30;
 };
 
@@ -86,6 +88,7 @@ class RtiSolver {
 
  private:
   using Deviation = double[6];
+  using Inputs = double[kMaxStages][2];
   void setCosts(const OcpReference& reference);
   // Recursion from stage `from` down to 0 with the bounds in `hold_`.
   [[nodiscard]] bool factor(int from, const std::array<InputCost, kMaxStages>& costs);
@@ -93,6 +96,18 @@ class RtiSolver {
   // Revises `hold_` from the last roll-out: the highest stage changed, or -1.
   [[nodiscard]] int reviseHolds();
   SolverStatus iterateActiveSet(const vessel::State& measured);
+  SolverStatus iterateProjectedNewton(const vessel::State& measured);
+  // dx_ from du_; the cost.
+  double rollOutThrusts();
+  double rollOutClipped(bool& clipped);
+  [[nodiscard]] double stageCost(int k) const;
+  void differentiateThrusts();
+  // Holds the thrusts at a bound that the gradient presses against: the highest stage where that
+  // differs from what is factored, or -1.
+  [[nodiscard]] int holdPressed();
+  [[nodiscard]] bool moveWithin(const Inputs& from, double& cost);
+  // du at which a thruster of a stage meets a bound.
+  [[nodiscard]] double boundOf(int stage, int thruster, Hold hold) const;
   SolverStatus iterateInteriorPoint(const vessel::State& measured);
   void startInterior();
   double meanGap();
@@ -120,8 +135,12 @@ class RtiSolver {
   std::array<InputCost, kMaxStages> barrier_costs_;
   InteriorPoint interior_[kMaxStages][2];
   Hold hold_[kMaxStages][2];
+  Hold factored_[kMaxStages][2];  // by the last projected Newton step
   Deviation dx_[kMaxStages + 1];
-  double du_[kMaxStages][2];
+  Inputs du_;
+  Inputs last_du_;
+  Inputs newton_;
+  Inputs thrust_gradient_;
   SolverStatus prepared_ = SolverStatus::kNotFinite;
   int iterations_ = 0;
   double last_step_ = 0.0;

@@ -92,15 +92,18 @@ TEST(RtiSolver, PlanFollowsTheModel) {
   }
 }
 
+// Each of the three ways to an active set comes to the same plan.
 TEST(RtiSolver, SolvesAfterActiveSetsGaveUp) {
   Problem p = circle(20, 2.0);
-  p.options.active_set_iterations = 0;
   int bounds_met = 0;
-  const auto interior = converge(p, bounds_met);
-  p.options.active_set_iterations = 10;
   const auto active = converge(p, bounds_met);
   EXPECT_GT(bounds_met, 0);
+  p.options.active_set_iterations = 0;
+  const auto projected = converge(p, bounds_met);
+  p.options.projected_newton_iterations = 0;
+  const auto interior = converge(p, bounds_met);
   for (int k = 0; k < p.options.stages; ++k) {
+    EXPECT_LT((projected->thrusts()[k] - active->thrusts()[k]).norm(), 1e-5);
     EXPECT_LT((interior->thrusts()[k] - active->thrusts()[k]).norm(), 1e-5);
   }
 }
@@ -108,6 +111,7 @@ TEST(RtiSolver, SolvesAfterActiveSetsGaveUp) {
 TEST(RtiSolver, SaysWhenIterationsRunOutAndKeepsWithinTheBounds) {
   Problem p = circle(20, 3.0);
   p.options.active_set_iterations = 0;
+  p.options.projected_newton_iterations = 0;
   p.options.interior_point_iterations = 1;
   RtiSolver solver(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
   solver.initialize(*p.reference);
