@@ -3,7 +3,6 @@
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
-#include <ompl/control/PathControl.h>
 #include <ompl/control/SimpleSetup.h>
 #include <ompl/control/planners/kpiece/KPIECE1.h>
 #include <ompl/control/planners/rrt/RRT.h>
@@ -16,11 +15,9 @@
 #include <ompl/tools/benchmark/Benchmark.h>
 #include <ompl/util/Console.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <memory>
 
+#include "ompl_recorder.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/rk4.hpp"
 #include "otter_nav/planner/ompl_planner.hpp"
@@ -35,101 +32,6 @@ namespace og = ompl::geometric;
 
 constexpr double kStepS = 0.1;
 constexpr double kMemoryMb = 2048.0;
-
-// Called for each run's solution: properties for the log, and the numbers for our rows.
-class Recorder {
- public:
-  explicit Recorder(const OmplProblem& problem) : problem_(problem) {}
-
-  // Positions along a solution, 0.05 m apart or closer.
-  void record(const ob::PlannerPtr& planner, const ob::StateSpacePtr& space,
-              const planner::StateAdapter& adapter) {
-    Run run;
-    const auto& definition = planner->getProblemDefinition();
-    run.solved = definition->hasExactSolution();
-    if (run.solved) {
-      const ob::PathPtr path = definition->getSolutionPath();
-      if (const auto* control = dynamic_cast<const oc::PathControl*>(path.get())) {
-        run.duration_s = control->length();
-        og::PathGeometric states = control->asGeometric();
-        measure(states, space, adapter, run);
-      } else if (const auto* states = dynamic_cast<const og::PathGeometric*>(path.get())) {
-        og::PathGeometric copy = *states;
-        measure(copy, space, adapter, run);
-      }
-      if (const auto* ours = dynamic_cast<const planner::OmplPlanner*>(planner.get())) {
-        run.duration_s = ours->plan().trajectory.duration();
-      }
-    }
-    runs_[planner->getName()].push_back(run);
-  }
-
-  [[nodiscard]] std::vector<OmplRow> rows(const ompl::tools::Benchmark& benchmark) const {
-    std::vector<OmplRow> rows;
-    for (const auto& experiment : benchmark.getRecordedExperimentData().planners) {
-      const auto found = runs_.find(experiment.name.substr(experiment.name.find('_') + 1));
-      OmplRow row;
-      row.planner = experiment.name;
-      row.runs = static_cast<int>(experiment.runs.size());
-      if (found != runs_.end()) {
-        row.solved = static_cast<int>(std::count_if(found->second.begin(), found->second.end(),
-                                                    [](const Run& r) { return r.solved; }));
-        row.length_m = median(found->second, [](const Run& r) { return r.length_m; });
-        row.duration_s = median(found->second, [](const Run& r) { return r.duration_s; });
-        row.clearance_m = median(found->second, [](const Run& r) { return r.clearance_m; });
-      }
-      std::vector<double> times;
-      for (const auto& run : experiment.runs) {
-        times.push_back(1e3 * std::stod(run.at("time REAL")));
-      }
-      std::sort(times.begin(), times.end());
-      row.time_ms = times.empty() ? 0.0 : times[times.size() / 2];
-      rows.push_back(row);
-    }
-    return rows;
-  }
-
- private:
-  struct Run {
-    bool solved = false;
-    double length_m = 0.0;
-    double duration_s = 0.0;
-    double clearance_m = 0.0;
-  };
-
-  void measure(og::PathGeometric& path, const ob::StateSpacePtr& space,
-               const planner::StateAdapter& adapter, Run& run) const {
-    constexpr double kSpacingM = 0.05;
-    run.clearance_m = problem_.field.maxDistance();
-    const ob::ScopedState<> between(space);
-    for (std::size_t i = 0; i + 1 < path.getStateCount(); ++i) {
-      const Eigen::Vector2d from = adapter.pose(path.getState(i)).position;
-      const Eigen::Vector2d to = adapter.pose(path.getState(i + 1)).position;
-      const double length = (to - from).norm();
-      run.length_m += length;
-      const int parts = std::max(1, static_cast<int>(std::ceil(length / kSpacingM)));
-      for (int k = 0; k <= parts; ++k) {
-        const Eigen::Vector2d p = from + (to - from) * k / parts;
-        run.clearance_m = std::min(run.clearance_m, problem_.field.clearance(p));
-      }
-    }
-  }
-
-  template <typename Value>
-  static double median(const std::vector<Run>& runs, const Value& value) {
-    std::vector<double> values;
-    for (const Run& run : runs) {
-      if (run.solved) {
-        values.push_back(value(run));
-      }
-    }
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0.0 : values[values.size() / 2];
-  }
-
-  const OmplProblem& problem_;
-  std::map<std::string, std::vector<Run>> runs_;
-};
 
 ob::RealVectorBounds mapBounds(const map::DistanceField& field) {
   const map::GridGeometry& g = field.geometry();
@@ -163,14 +65,14 @@ std::vector<OmplRow> run(Setup& setup, const std::vector<ob::PlannerPtr>& planne
                          const OmplProblem& problem, const planner::StateAdapter& adapter,
                          const OmplBudget& budget, const std::string& name) {
   ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
-  Recorder recorder(problem);
+  OmplRecorder recorder(problem.field);
   ompl::tools::Benchmark benchmark(setup, name);
   for (const auto& planner : planners) {
     benchmark.addPlanner(planner);
   }
   benchmark.setPostRunEvent(
       [&](const ob::PlannerPtr& planner, ompl::tools::Benchmark::RunProperties&) {
-        recorder.record(planner, setup.getStateSpace(), adapter);
+        recorder.record(planner, adapter);
       });
   ompl::tools::Benchmark::Request request;
   request.maxTime = budget.seconds;

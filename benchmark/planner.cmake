@@ -11,6 +11,7 @@ otter_nav_program(planner_benchmark
 otter_nav_program(ompl_benchmark
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/ompl_benchmark.cpp
           ${CMAKE_CURRENT_LIST_DIR}/ompl_problem.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/ompl_recorder.cpp
           ${CMAKE_CURRENT_LIST_DIR}/shortest_way.cpp
   ROOMS planner planner_ompl mission
   LIBRARIES CLI11::CLI11)

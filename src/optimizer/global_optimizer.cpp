@@ -4,24 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "aims.hpp"
+#include "assembly.hpp"
 #include "otter_nav/optimizer/initial_way.hpp"
 #include "otter_nav/optimizer/spline_problem.hpp"
-#include "piece_check.hpp"
 #include "spline_solver.hpp"
 #include "stop_and_spin.hpp"
 #include "way_ends.hpp"
 
 namespace otter_nav::optimizer {
-namespace {
-
-// A cell's square reaches this far beyond its centre, in cells (DistanceField::smooth measures to
-// centres), as seen from most directions.
-constexpr double kSquareCells = 0.7;
-constexpr double kArrivalSpeedMaxShare = 0.9;  // of the speed aimed at
-constexpr double kHullMarginM = 0.03;
-
-}  // namespace
-
 class GlobalOptimizer::Solver {
  public:
   Solver(const GlobalOptions& options, const vessel::Parameters& vessel)
@@ -51,15 +42,15 @@ class GlobalOptimizer::Solver {
     budget_ = &budget;
     check_ = checkOptions(clearance_m);
     result_ = Optimized();
-    for (int i = 0; i < std::min(budget.max_attempts, kManners); ++i) {
-      if (attempt(way, mannerOf(i))) {
+    for (int i = 0; i < std::min(budget.max_attempts, kAttempts); ++i) {
+      if (attempt(way, i)) {
         return std::move(result_);
       }
       if (outOfTime()) {
         break;
       }
     }
-    if (budget.max_attempts < kManners) {
+    if (budget.max_attempts < kAttempts) {
       return failure("optimisation failed: " + result_.verification.reason);
     }
     return lastResort(way);
@@ -67,29 +58,6 @@ class GlobalOptimizer::Solver {
 
  private:
   static constexpr double kSpinRateMax = 2.0;
-
-  // How an attempt is made; later ones are more careful.
-  struct Manner {
-    bool careful;
-    double thrust_factor;
-    double weight_factor;
-    double length_factor;   // of the pieces
-    double arrival_factor;  // of the speed at which the arrival begins
-  };
-
-  static constexpr int kManners = 4;
-  [[nodiscard]] static Manner mannerOf(int attempt) {
-    switch (attempt) {
-      case 0:
-        return {false, 1.0, 1.0, 1.0, 1.0};
-      case 1:
-        return {false, 1.0, 1.0, 0.7, 0.7};
-      case 2:
-        return {true, 1.0, 3.0, 0.9, 0.5};
-      default:
-        return {true, 0.8, 10.0, 0.7, 0.3};
-    }
-  }
 
   [[nodiscard]] bool outOfTime() const {
     return result_.iterations >= budget_->max_iterations ||
@@ -102,50 +70,17 @@ class GlobalOptimizer::Solver {
     return limits;
   }
 
-  void aim(const Manner& manner) {
-    const double cell = field_->geometry().resolution_m;
-    SplineLimits& limits = problem_.limits;
-    limits.clearance_m = check_.clearance_m + options_.clearance_margin_m + kSquareCells * cell;
-    const HullCircles hull = hullCircles(vessel_.hull);
-    limits.hull_offset_m = check_.check_hull ? hull.offset_m : 0.0;
-    limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell;
-    const double share = (options_.thrust_share - options_.thrust_margin) * manner.thrust_factor;
-    limits.thrust_ahead_n = share * vessel_.thrusters.ahead_max_n;
-    limits.thrust_astern_n = share * vessel_.thrusters.astern_max_n;
-    limits.speed_mps = options_.speed_max_mps * manner.thrust_factor;
-    limits.yaw_rate_radps = options_.yaw_rate_max_radps;
-    limits.heading_force_n = options_.heading_force_min_n;
-    SplineWeights& weights = problem_.weights;
-    weights.time = options_.weight_time;
-    weights.length = options_.weight_length;
-    weights.smooth = options_.weight_smooth;
-    weights.clearance = options_.weight_clearance * manner.weight_factor;
-    weights.dynamics = options_.weight_dynamics * manner.weight_factor;
-    weights.original = 0.0;
+  void aim(int attempt) {
+    const Aims aims = aimsOf(attempt, options_, vessel_, check_, field_->geometry().resolution_m);
+    problem_.limits = aims.limits;
+    problem_.weights = aims.weights;
     problem_.field = field_;
-    WayOptions& way = way_.options();
-    way.piece_length_m = options_.piece_length_m * manner.length_factor;
-    way.force_share = 0.9 * share;
-    way.speed_max_mps = 0.97 * limits.speed_mps;
-    way.clearance_m = limits.clearance_m;
-    aimEnds(share, manner);
+    way_.options() = aims.way;
+    end_options_ = aims.ends;
   }
 
-  void aimEnds(double thrust_share, const Manner& manner) {
-    end_options_.limits.thrust_share = thrust_share;
-    end_options_.limits.yaw_rate_max_radps = options_.spin_rate_max_radps;
-    end_options_.limits.drift_mps = options_.drift_mps;
-    end_options_.turn_least_rad = options_.spin_angle_rad;
-    end_options_.careful = manner.careful;
-    const double top =
-        std::min(2.0 * thrust_share * vessel_.thrusters.ahead_max_n / vessel_.paper.d1_kgps,
-                 options_.speed_max_mps);
-    end_options_.arrival_speed_mps = options_.arrival_speed_share * manner.arrival_factor * top;
-    end_options_.arrival_speed_max_mps = kArrivalSpeedMaxShare * top;
-  }
-
-  bool attempt(const std::vector<Eigen::Vector2d>& way, const Manner& manner) {
-    aim(manner);
+  bool attempt(const std::vector<Eigen::Vector2d>& way, int number) {
+    aim(number);
     chosen_ = chooser_.choose(*field_, way, *start_, *goal_);
     solver_.restart();
     way_.build(*field_, way, chooser_.wayEnds(chosen_, *start_), spline_);
@@ -230,52 +165,17 @@ class GlobalOptimizer::Solver {
   void verifyDilated(double dilation_max) {
     constexpr int kTries = 3;
     const Spline shape = spline_;
-    result_.trajectory = assemble();
+    result_.trajectory = assemble(chosen_, spline_);
     for (int i = 0; i < kTries; ++i) {
-      const double excess = worstExcess();
+      const double excess = worstExcess(result_.trajectory, vessel_, check_);
       if (excess <= 0.0 || excess > dilation_max) {
         break;
       }
-      dilate(1.0 + 0.7 * excess + 0.001);
-      result_.trajectory = assemble();
+      dilate(1.0 + 0.7 * excess + 0.001, spline_);
+      result_.trajectory = assemble(chosen_, spline_);
     }
     result_.verification = verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
     spline_ = shape;
-  }
-
-  void dilate(double factor) {
-    const std::size_t last = spline_.knots.size() - 1;
-    const auto slows = [&](std::size_t k) { return k > 1 && k + 1 < last; };
-    for (std::size_t k = 0; k < last; ++k) {
-      const int slow = (slows(k) ? 1 : 0) + (slows(k + 1) ? 1 : 0);
-      spline_.spans[k].duration_s *= slow == 2 ? factor : slow == 1 ? std::sqrt(factor) : 1.0;
-    }
-    double scale = 1.0;
-    for (int m = 1; m < 4; ++m) {
-      scale /= factor;
-      for (std::size_t k = 2; k + 1 < last; ++k) {
-        spline_.knots[k].state.col(m) *= scale;
-      }
-    }
-  }
-
-  // The largest share by which a limit of thrust or speed is exceeded anywhere.
-  [[nodiscard]] double worstExcess() const {
-    CheckOptions open = check_;
-    open.thrust_share = 1e3;
-    open.speed_max_mps = 1e3;
-    open.yaw_rate_max_radps = 1e3;
-    open.heading_force_min_n = 0.0;
-    PieceReport worst;
-    for (const trajectory::Piece& piece : result_.trajectory.pieces()) {
-      PieceReport report;
-      PieceCheck(piece, vessel_, open).checkDynamics(report);
-      worst.thrust_share = std::max(worst.thrust_share, report.thrust_share);
-      worst.speed_mps = std::max(worst.speed_mps, report.speed_mps);
-    }
-    return std::max(worst.thrust_share / check_.thrust_share,
-                    worst.speed_mps / check_.speed_max_mps) -
-           1.0;
   }
 
   // What failed is aimed at more strictly, and its weight raised.
@@ -293,28 +193,6 @@ class GlobalOptimizer::Solver {
       problem_.weights.clearance *= options_.weight_growth;
       problem_.weights.dynamics *= options_.weight_growth;
     }
-  }
-
-  [[nodiscard]] trajectory::Trajectory assemble() const {
-    const std::vector<trajectory::Piece>& before = chosen_.start.manoeuvre.pieces;
-    const std::vector<trajectory::Piece>& after = chosen_.goal.manoeuvre.pieces;
-    std::vector<trajectory::Piece> pieces;
-    pieces.reserve(before.size() + spline_.spans.size() + after.size());
-    const auto point = [](const Knot& knot) {
-      vessel::FlatPoint z;
-      z.position = knot.state.col(0);
-      z.velocity = knot.state.col(1);
-      z.acceleration = knot.state.col(2);
-      z.jerk = knot.state.col(3);
-      return z;
-    };
-    pieces.insert(pieces.end(), before.begin(), before.end());
-    for (std::size_t i = 0; i < spline_.spans.size(); ++i) {
-      pieces.push_back(trajectory::hermitePiece(
-          point(spline_.knots[i]), point(spline_.knots[i + 1]), spline_.spans[i].duration_s));
-    }
-    pieces.insert(pieces.end(), after.begin(), after.end());
-    return trajectory::Trajectory(std::move(pieces));
   }
 
   Result<Optimized> lastResort(const std::vector<Eigen::Vector2d>& way) {

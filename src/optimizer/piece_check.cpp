@@ -5,62 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "piece_polynomials.hpp"
+
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr double kStraightShare = 1e-9;  // of a coefficient, that may point off the line
-constexpr double kSlowMps = 1e-3;        // below it a course says nothing of the heading
-constexpr double kLeastSlackM = 1e-3;    // nearer to the limit than this counts as a fault
-constexpr double kSwayN = 0.1;           // what pieces of degree 7 leave, next to the model
-constexpr double kAcrossCosine = 0.02;   // heading and course nearer to a right angle: a jump
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-template <int Columns>
-Eigen::Matrix<double, 2, Columns - 1> differentiate(const Eigen::Matrix<double, 2, Columns>& c) {
-  Eigen::Matrix<double, 2, Columns - 1> d;
-  for (int k = 1; k < Columns; ++k) {
-    d.col(k - 1) = k * c.col(k);
-  }
-  return d;
-}
-
-template <int Columns>
-Eigen::Vector2d evaluate(const Eigen::Matrix<double, 2, Columns>& c, double t) {
-  Eigen::Vector2d value = c.col(Columns - 1);
-  for (int k = Columns - 2; k >= 0; --k) {
-    value = value * t + c.col(k);
-  }
-  return value;
-}
-
-// The direction all of a piece's motion is along, or zero.
-Eigen::Vector2d lineOf(const trajectory::Piece& piece) {
-  Eigen::Vector2d longest = Eigen::Vector2d::Zero();
-  double longest_m = 0.0;
-  std::array<double, trajectory::kCoefficients> size{};
-  double power = 1.0;
-  for (int k = 1; k < trajectory::kCoefficients; ++k) {
-    power *= piece.duration_s;
-    const double length = piece.position.col(k).norm() * power;
-    size[static_cast<std::size_t>(k)] = power;
-    if (length > longest_m) {
-      longest_m = length;
-      longest = piece.position.col(k).normalized();
-    }
-  }
-  for (int k = 1; k < trajectory::kCoefficients; ++k) {
-    const double off = std::abs(cross(longest, piece.position.col(k)));
-    if (off * size[static_cast<std::size_t>(k)] > kStraightShare * longest_m) {
-      return Eigen::Vector2d::Zero();
-    }
-  }
-  // Ahead is where the piece ends.
-  const Eigen::Vector2d way = piece.flat(piece.duration_s).position - piece.flat(0.0).position;
-  return way.dot(longest) < 0.0 ? Eigen::Vector2d(-longest) : longest;
-}
+constexpr double kSlowMps = 1e-3;       // below it a course says nothing of the heading
+constexpr double kLeastSlackM = 1e-3;   // nearer to the limit than this counts as a fault
+constexpr double kSwayN = 0.1;          // what pieces of degree 7 leave, next to the model
+constexpr double kAcrossCosine = 0.02;  // heading and course nearer to a right angle: a jump
 
 // Watches a quantity sampled at equal steps: its bound includes what a parabola through three
 // neighbours (twice its height, to be sure) rises to between them.
@@ -263,32 +216,9 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
   }
 }
 
-// The control polygon of the velocity (Bernstein form) holds all its values.
-double PieceCheck::speedBound() const {
-  constexpr int kN = 6;
-  constexpr double kBinomial[kN + 1] = {1, 6, 15, 20, 15, 6, 1};
-  // b_i = sum over k <= i of C(i, k) / C(n, k) c_k T^k, by repeated differences of columns.
-  double bound = 0.0;
-  std::array<double, kN + 1> power{};
-  power[0] = 1.0;
-  for (std::size_t k = 1; k <= kN; ++k) {
-    power[k] = power[k - 1] * piece_.duration_s;
-  }
-  for (int i = 0; i <= kN; ++i) {
-    Eigen::Vector2d b = Eigen::Vector2d::Zero();
-    double choose = 1.0;  // C(i, k)
-    for (int k = 0; k <= i; ++k) {
-      b += choose / kBinomial[k] * power[static_cast<std::size_t>(k)] * velocity_.col(k);
-      choose = choose * (i - k) / (k + 1);
-    }
-    bound = std::max(bound, b.norm());
-  }
-  return bound;
-}
-
 void PieceCheck::checkClearance(const map::DistanceField& field, PieceReport& report) const {
   const HullCircles hull = hullCircles(vessel_.hull);
-  const double speed = std::max(speedBound(), 1e-3);
+  const double speed = std::max(speedBound(velocity_, piece_.duration_s), 1e-3);
   const double end_speed = speed + hull.offset_m * (1.1 * report.yaw_rate_radps + 0.01);
   const double around = hull.offset_m + hull.radius_m;
   report.clearance_m = std::numeric_limits<double>::infinity();

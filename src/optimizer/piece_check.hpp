@@ -63,7 +63,6 @@ class PieceCheck {
   [[nodiscard]] Point inSpin(double t_s) const;
   void checkSpin(PieceReport& report) const;
   [[nodiscard]] Eigen::Vector2d bowAt(double t_s) const;
-  [[nodiscard]] double speedBound() const;
 
   const trajectory::Piece& piece_;
   const vessel::Parameters& vessel_;

@@ -1,8 +1,6 @@
 #include "pipeline.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "otter_nav/planner/sampler.hpp"
@@ -32,33 +30,6 @@ SearchOptions searchOptions(const Options& options, const vessel::Parameters& ve
   search.repair_edges = options.local_optimization;
   search.limits = edgeLimits(options, vessel);
   return search;
-}
-
-std::string describe(const Eigen::Vector2d& p) {
-  std::ostringstream text;
-  text.precision(5);
-  text << "(" << p.x() << ", " << p.y() << ") m";
-  return text.str();
-}
-
-// Why a vessel can't be at `p`, or nothing.
-std::string blocked(const map::DistanceField& field, const Eigen::Vector2d& p, double psi_rad,
-                    double clearance_m) {
-  if (!p.allFinite() || !std::isfinite(psi_rad)) {
-    return "is not a finite pose";
-  }
-  if (!field.geometry().contains(p)) {
-    return describe(p) + " is outside the map";
-  }
-  const double clearance = field.clearance(p);
-  if (clearance < clearance_m) {
-    std::ostringstream text;
-    text.precision(3);
-    text << describe(p) << " is " << clearance << " m from an obstacle, " << clearance_m
-         << " m are asked for";
-    return text.str();
-  }
-  return "";
 }
 
 }  // namespace
@@ -125,56 +96,6 @@ void Planner::Pipeline::attemptOnce(Run& run, int attempt) {
   if (poor && !run.timeUp() && searchTrees(run, attempt, Roots::kLaunched)) {
     closeTreesWay(run);
   }
-}
-
-bool Planner::Pipeline::checkEnds(Run& run) const {
-  const std::string start =
-      blocked(run.field, run.query.start.position, run.query.start_psi_rad, run.clearance_m);
-  if (!start.empty()) {
-    run.plan.outcome = Outcome::kStartBlocked;
-    run.plan.reason = "the start " + start;
-    return false;
-  }
-  const std::string goal =
-      blocked(run.field, run.query.goal, run.query.goal_psi_rad, run.clearance_m);
-  if (!goal.empty()) {
-    run.plan.outcome = Outcome::kGoalBlocked;
-    run.plan.reason = "the goal " + goal;
-    return false;
-  }
-  return true;
-}
-
-bool Planner::Pipeline::findGuide(Run& run) {
-  if (run.query.guide_path.size() >= 2) {
-    guide_.points = run.query.guide_path;
-    guide_.points.front() = run.query.start.position;
-    guide_.points.back() = run.query.goal;
-    return true;
-  }
-  const double began = run.now();
-  if (run.clearance_m != finder_clearance_m_) {
-    topology::Options options = options_.topology;
-    options.clearance_m = run.clearance_m;
-    options.safe_distance_m = std::max(options.safe_distance_m, run.clearance_m);
-    finder_ = topology::GuidePathFinder(options);
-    finder_clearance_m_ = run.clearance_m;
-  }
-  const Eigen::Vector2d& velocity = run.query.start.velocity;
-  const double psi =
-      velocity.norm() > 0.1 ? std::atan2(velocity.y(), velocity.x()) : run.query.start_psi_rad;
-  const auto found = finder_.find(run.field, {run.query.start.position, psi},
-                                  {run.query.goal, run.query.goal_psi_rad}, guide_);
-  run.plan.figures.guide_ms = 1e3 * (run.now() - began);
-  if (!found) {
-    run.plan.reason = found.error().message;
-    run.plan.outcome =
-        found.error().failure == topology::Failure::kStartBlocked  ? Outcome::kStartBlocked
-        : found.error().failure == topology::Failure::kGoalBlocked ? Outcome::kGoalBlocked
-                                                                   : Outcome::kNoWay;
-    return false;
-  }
-  return true;
 }
 
 void Planner::Pipeline::prepareSearch(Run& run) {
@@ -312,67 +233,6 @@ void Planner::Pipeline::tryWarmStart(Run& run) {
   run.plan.figures.verify_ms += 1e3 * (run.now() - began);
   if (verification.ok) {
     accept(run, *run.query.warm_start, false);
-  }
-}
-
-// The best by the optimiser's own measure: it trades seconds for jerk at another rate than the
-// trees. A stopgap (from stop to stop, or slowed down) is better than nothing, and worse than
-// anything optimised.
-void Planner::Pipeline::accept(Run& run, trajectory::Trajectory trajectory, bool stopgap) {
-  const double jerk = trajectoryCost(trajectory, 0.0);
-  const double rank = trajectory.duration() + options_.global.weight_smooth * jerk;
-  const bool first = run.plan.outcome != Outcome::kSolved;
-  if (!first && (stopgap && !run.stopgap)) {
-    return;
-  }
-  if (!first && stopgap == run.stopgap && rank >= run.rank) {
-    return;
-  }
-  run.rank = rank;
-  run.stopgap = stopgap;
-  run.plan.trajectory = std::move(trajectory);
-  run.plan.outcome = Outcome::kSolved;
-}
-
-void Planner::Pipeline::conclude(Run& run) {
-  Figures& figures = run.plan.figures;
-  figures.node_utilization =
-      figures.samples > 0 ? static_cast<double>(figures.nodes) / figures.samples : 0.0;
-  if (run.plan.outcome == Outcome::kSolved) {
-    run.plan.reason.clear();
-    figures.length_m = trajectory::length(run.plan.trajectory);
-    figures.duration_s = run.plan.trajectory.duration();
-    figures.cost = trajectoryCost(run.plan.trajectory, options_.sigma);
-    return;
-  }
-  if (run.timeUp()) {
-    run.plan.outcome = Outcome::kTimeUp;
-    run.plan.reason = "the time is up" + (run.plan.reason.empty() ? "" : ": " + run.plan.reason);
-  } else if (run.plan.reason.empty()) {
-    run.plan.reason = "no way was found in " + std::to_string(figures.samples) + " samples";
-  }
-}
-
-void Planner::Pipeline::keepTrees(Run& run) const {
-  if (!options_.keep_trees) {
-    return;
-  }
-  constexpr int kPointsPerPiece = 8;
-  run.plan.guide_path = guide_.points;
-  std::vector<trajectory::Piece> pieces;
-  for (const Tree* tree : {&search_.fromStart(), &search_.toGoal()}) {
-    for (int i = 1; i < tree->size(); ++i) {
-      pieces.clear();
-      search_.appendEdge(*tree, i, pieces);
-      Plan::Branch branch;
-      branch.from_goal = tree->direction() == Direction::kToRoot;
-      for (const trajectory::Piece& piece : pieces) {
-        for (int k = 0; k <= kPointsPerPiece; ++k) {
-          branch.points.push_back(piece.flat(piece.duration_s * k / kPointsPerPiece).position);
-        }
-      }
-      run.plan.trees.push_back(std::move(branch));
-    }
   }
 }
 

@@ -1,0 +1,25 @@
+// What an attempt of the global optimiser aims at; later attempts are more careful.
+#pragma once
+
+#include "otter_nav/optimizer/global_optimizer.hpp"
+#include "otter_nav/optimizer/initial_way.hpp"
+#include "otter_nav/optimizer/spline_problem.hpp"
+#include "way_ends.hpp"
+
+namespace otter_nav::optimizer {
+
+constexpr int kAttempts = 4;
+
+struct Aims {
+  SplineLimits limits;
+  SplineWeights weights;
+  WayOptions way;
+  EndOptions ends;
+};
+
+// `attempt` counts from 0; `cell_m` is the map's resolution.
+[[nodiscard]] Aims aimsOf(int attempt, const GlobalOptions& options,
+                          const vessel::Parameters& vessel, const CheckOptions& check,
+                          double cell_m);
+
+}  // namespace otter_nav::optimizer

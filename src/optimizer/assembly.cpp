@@ -1,0 +1,71 @@
+#include "assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "piece_check.hpp"
+
+namespace otter_nav::optimizer {
+namespace {
+
+vessel::FlatPoint pointOf(const Knot& knot) {
+  vessel::FlatPoint z;
+  z.position = knot.state.col(0);
+  z.velocity = knot.state.col(1);
+  z.acceleration = knot.state.col(2);
+  z.jerk = knot.state.col(3);
+  return z;
+}
+
+}  // namespace
+
+trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline) {
+  const std::vector<trajectory::Piece>& before = ends.start.manoeuvre.pieces;
+  const std::vector<trajectory::Piece>& after = ends.goal.manoeuvre.pieces;
+  std::vector<trajectory::Piece> pieces;
+  pieces.reserve(before.size() + spline.spans.size() + after.size());
+  pieces.insert(pieces.end(), before.begin(), before.end());
+  for (std::size_t i = 0; i < spline.spans.size(); ++i) {
+    pieces.push_back(trajectory::hermitePiece(
+        pointOf(spline.knots[i]), pointOf(spline.knots[i + 1]), spline.spans[i].duration_s));
+  }
+  pieces.insert(pieces.end(), after.begin(), after.end());
+  return trajectory::Trajectory(std::move(pieces));
+}
+
+double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Parameters& vessel,
+                   const CheckOptions& check) {
+  CheckOptions open = check;
+  open.thrust_share = 1e3;
+  open.speed_max_mps = 1e3;
+  open.yaw_rate_max_radps = 1e3;
+  open.heading_force_min_n = 0.0;
+  PieceReport worst;
+  for (const trajectory::Piece& piece : trajectory.pieces()) {
+    PieceReport report;
+    PieceCheck(piece, vessel, open).checkDynamics(report);
+    worst.thrust_share = std::max(worst.thrust_share, report.thrust_share);
+    worst.speed_mps = std::max(worst.speed_mps, report.speed_mps);
+  }
+  return std::max(worst.thrust_share / check.thrust_share, worst.speed_mps / check.speed_max_mps) -
+         1.0;
+}
+
+void dilate(double factor, Spline& spline) {
+  const std::size_t last = spline.knots.size() - 1;
+  const auto slows = [&](std::size_t k) { return k > 1 && k + 1 < last; };
+  for (std::size_t k = 0; k < last; ++k) {
+    const int slow = (slows(k) ? 1 : 0) + (slows(k + 1) ? 1 : 0);
+    spline.spans[k].duration_s *= slow == 2 ? factor : slow == 1 ? std::sqrt(factor) : 1.0;
+  }
+  double scale = 1.0;
+  for (int m = 1; m < 4; ++m) {
+    scale /= factor;
+    for (std::size_t k = 2; k + 1 < last; ++k) {
+      spline.knots[k].state.col(m) *= scale;
+    }
+  }
+}
+
+}  // namespace otter_nav::optimizer
