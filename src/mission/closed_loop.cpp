@@ -178,7 +178,7 @@ Situation ClosedLoop::Impl::situation() const {
   situation.state = plant_.odometry().state;
   situation.odometry_stamp_s = plant_.odometry().stamp_s;
   situation.tracking_error_m = command_.tracking_error_m;
-  situation.disturbance_n = command_.disturbance.force_n.norm();
+  situation.disturbance_n = command_.outside_force_n.norm();
   using tracker::Mode;
   const bool braking = command_.mode == Mode::kStopping || command_.mode == Mode::kStopped;
   situation.tracker_fault = command_.mode == Mode::kFault || (braking && !stop_ordered_);

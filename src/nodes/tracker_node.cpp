@@ -235,8 +235,8 @@ TrackerStatus TrackerNode::status() const {
   message.solver_ms_p99 = cycles.solver_ms_p99;
   message.cycle_lateness_ms_max = cycles.lateness_ms_max;
   message.cycles_on_time = cycles.on_time_share;
-  message.disturbance = {command.disturbance.force_n.x(), command.disturbance.force_n.y(),
-                         command.disturbance.moment_nm};
+  message.disturbance = {command.outside_force_n.x(), command.outside_force_n.y(),
+                         command.outside_moment_nm};
   return message;
 }
 

@@ -1,5 +1,6 @@
 #include "core.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,23 +20,6 @@ using vessel::kYawRate;
 
 constexpr double kRestMps = 0.05;
 constexpr double kRestRadps = 0.05;
-
-OcpOptions ocpOptions(const Options& o, const vessel::Parameters& vessel) {
-  const Weights& w = o.method == Method::kPlain ? o.plain : o.flatness;
-  OcpOptions ocp;
-  ocp.stages = o.stages;
-  ocp.step_s = o.horizon_s / o.stages;
-  vessel::State q;
-  q << w.position, w.position, w.heading, w.surge, w.sway, w.yaw_rate;
-  ocp.weights.state = q * ocp.step_s;
-  ocp.weights.terminal = q * w.terminal_gain_s;
-  ocp.weights.thrusts = vessel::Thrusts::Constant(w.thrust * ocp.step_s);
-  ocp.lower_n.setConstant(-o.thrust_share * vessel.thrusters.astern_max_n);
-  ocp.upper_n.setConstant(o.thrust_share * vessel.thrusters.ahead_max_n);
-  ocp.far_m = o.far_m;
-  ocp.heading_step_rad = o.heading_step_rad;
-  return ocp;
-}
 
 Vector2d velocityOverGround(const vessel::State& x) {
   const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
@@ -136,69 +120,6 @@ void Tracker::Core::beginHolding() {
   plan_valid_ = false;
 }
 
-void Tracker::Core::prepareSolver(double start_s, double psi_rad) {
-  solver_.setDisturbance(navigator_.disturbance());
-  reference_source_.fill(start_s, prediction_.step_s, options_.stages, psi_rad,
-                         navigator_.disturbance(), reference_);
-  if (plan_valid_) {
-    solver_.shift((start_s - solved_for_s_) / prediction_.step_s);
-  } else {
-    solver_.initialize(reference_);
-  }
-  solved_for_s_ = start_s;
-  prepared_for_s_ = start_s;
-  prepared_ = true;
-  solver_.prepare(reference_);
-}
-
-void Tracker::Core::prepare(double next_s) {
-  if (mode_ == Mode::kTracking && plan_valid_) {
-    const double start_s = next_s + vessel_.thrusters.lag_s;
-    prepareSolver(start_s, solver_.states()[0][kPsi]);
-  }
-}
-
-vessel::Thrusts Tracker::Core::track(double now_s, const vessel::State& state, Command& command) {
-  // The thrusters follow with their lag, so the plan starts where the vessel will be by then.
-  const double start_s = now_s + vessel_.thrusters.lag_s;
-  const vessel::State start = vessel_.thrusters.lag_s > 0.0 ? navigator_.predict(start_s) : state;
-  if (!prepared_ || std::abs(prepared_for_s_ - start_s) > 0.5 * options_.period_s) {
-    prepareSolver(start_s, start[kPsi]);
-  }
-  prepared_ = false;
-  command.solver = solver_.feedback(start);
-  command.solver_iterations = solver_.iterations();
-  if (!usable(command.solver)) {
-    plan_valid_ = false;
-    return afterFailure(now_s, state, command);
-  }
-  plan_valid_ = true;
-  last_good_s_ = now_s;
-  keepPlan(start_s);
-  return solver_.thrusts()[0];
-}
-
-// The last good plan carries on for a while; then the vessel brakes.
-vessel::Thrusts Tracker::Core::afterFailure(double now_s, const vessel::State& state,
-                                            Command& command) {
-  command.reason = "no plan: the last one is kept";
-  const double since = now_s + vessel_.thrusters.lag_s - prediction_.start_s;
-  const int stage = static_cast<int>(since / prediction_.step_s);
-  if (prediction_.size == 0 || now_s - last_good_s_ > options_.keep_plan_s || stage < 0 ||
-      stage >= options_.stages) {
-    beginStop("no usable plan");
-    return keeper_.brake(state, navigator_.disturbance());
-  }
-  return plan_thrusts_[static_cast<std::size_t>(stage)];
-}
-
-void Tracker::Core::keepPlan(double start_s) {
-  prediction_.start_s = start_s;
-  prediction_.size = options_.stages + 1;
-  std::copy_n(solver_.states().begin(), prediction_.size, prediction_.states.begin());
-  plan_thrusts_ = solver_.thrusts();
-}
-
 vessel::Thrusts Tracker::Core::hold(const vessel::State& state, Command& command) {
   if (keeper_.weathervaning()) {
     command.reason = "the heading yields to the position";
@@ -296,6 +217,11 @@ void Tracker::Core::finish(double now_s, const vessel::State& state, Command& co
   command.mode = mode_;
   command.estimate = state;
   command.disturbance = navigator_.disturbance();
+  const double psi = state[kPsi];
+  const vessel::OutsideLoad load =
+      vessel::outsideLoad(psi, vessel_.manoeuvring, command.disturbance);
+  command.outside_force_n = Eigen::Rotation2Dd(psi) * Vector2d(load.surge_n, load.sway_n);
+  command.outside_moment_nm = load.yaw_nm;
   if (command.reason.empty()) {
     command.reason = navigator_.reason();
   }

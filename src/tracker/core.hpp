@@ -49,6 +49,8 @@ class Tracker::Core {
   vessel::Thrusts stop(const vessel::State& state, Fix fix, Command& command);
   vessel::Thrusts afterFailure(double now_s, const vessel::State& state, Command& command);
 
+  [[nodiscard]] static OcpOptions ocpOptions(const Options& options,
+                                             const vessel::Parameters& vessel);
   void prepareSolver(double ahead_s, double psi_rad);
   void keepPlan(double start_s);
   void finish(double now_s, const vessel::State& state, Command& command);

@@ -35,14 +35,14 @@ vessel::Thrusts StationKeeper::thrusts(double surge_n, double yaw_nm) const {
   return {mean - difference, mean + difference};
 }
 
-Vector2d StationKeeper::load(const vessel::State& state,
-                             const vessel::Disturbance& disturbance) const {
+Vector2d StationKeeper::load(double psi_rad, const vessel::Disturbance& disturbance) const {
   const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
-  const Vector2d e(std::cos(state[kPsi]), std::sin(state[kPsi]));
+  const Vector2d e(std::cos(psi_rad), std::sin(psi_rad));
   const Vector2d n(-e.y(), e.x());
   const double u = e.dot(disturbance.current_mps);
   const double v = n.dot(disturbance.current_mps);
-  return disturbance.force_n +
+  const vessel::OutsideLoad outside = vessel::outsideLoad(psi_rad, m, disturbance);
+  return outside.surge_n * e + outside.sway_n * n +
          (m.surge_drag_kgps + m.surge_drag_quadratic_kgpm * std::abs(u)) * u * e +
          (m.sway_drag_kgps + m.sway_drag_quadratic_kgpm * std::abs(v)) * v * n;
 }
@@ -54,14 +54,14 @@ vessel::Thrusts StationKeeper::step(const vessel::State& state,
   const Vector2d error = position_ - state.head<2>();
   const Vector2d velocity = state[kSurge] * e + state[vessel::kSway] * Vector2d(-e.y(), e.x());
   const Vector2d wanted = options_.surge_gain_nspm * error -
-                          options_.surge_damping_kgps * velocity - load(state, disturbance);
+                          options_.surge_damping_kgps * velocity - load(psi, disturbance);
   const double distance = error.norm();
   if (distance > options_.weathervane_radius_m) {
     weathervanes_ = true;
   } else if (distance < options_.heading_radius_m && weathervanes_) {
     // Heading may be held again only where the load along the beam is light.
     const Vector2d port(-std::sin(psi_rad_), std::cos(psi_rad_));
-    weathervanes_ = std::abs(port.dot(load(state, disturbance))) > options_.side_load_n;
+    weathervanes_ = std::abs(port.dot(load(psi_rad_, disturbance))) > options_.side_load_n;
   }
   double heading = psi_rad_;
   if (weathervanes_ && wanted.norm() > 1.0) {
@@ -72,14 +72,15 @@ vessel::Thrusts StationKeeper::step(const vessel::State& state,
   }
   const double turn = std::clamp(wrapAngle(heading - psi), -0.7, 0.7);
   const double yaw = options_.yaw_gain_nm * turn - options_.yaw_damping_nms * state[kYawRate] -
-                     disturbance.moment_nm;
+                     vessel::outsideLoad(psi, vessel_.manoeuvring, disturbance).yaw_nm;
   return thrusts(e.dot(wanted), yaw);
 }
 
 vessel::Thrusts StationKeeper::brake(const vessel::State& state,
                                      const vessel::Disturbance& disturbance) const {
   const double surge = -2.0 * options_.surge_damping_kgps * state[kSurge];
-  const double yaw = -options_.yaw_damping_nms * state[kYawRate] - disturbance.moment_nm;
+  const double yaw = -options_.yaw_damping_nms * state[kYawRate] -
+                     vessel::outsideLoad(state[kPsi], vessel_.manoeuvring, disturbance).yaw_nm;
   return thrusts(surge, yaw);
 }
 

@@ -29,9 +29,9 @@ class StationKeeper {
 
  private:
   [[nodiscard]] vessel::Thrusts thrusts(double surge_n, double yaw_nm) const;
-  // Drag through the water and outside force, earth frame: what the thrust has to balance at rest.
-  [[nodiscard]] Eigen::Vector2d load(const vessel::State& state,
-                                     const vessel::Disturbance& disturbance) const;
+  // Drag through the water and outside force at rest on a heading, earth frame: what the thrust has
+  // to balance.
+  [[nodiscard]] Eigen::Vector2d load(double psi_rad, const vessel::Disturbance& disturbance) const;
 
   HoldingOptions options_;
   vessel::Parameters vessel_;

@@ -41,6 +41,9 @@ struct Command {
   double time_left_s = 0.0;                         // of the trajectory
   bool at_goal = false;                             // within the arrival tolerances
   vessel::Disturbance disturbance;                  // the estimate
+  // What it pushes with on the present heading, wind included: earth frame, and yaw moment.
+  Eigen::Vector2d outside_force_n = Eigen::Vector2d::Zero();
+  double outside_moment_nm = 0.0;
   SolverStatus solver = SolverStatus::kSolved;
   int solver_iterations = 0;
 };
