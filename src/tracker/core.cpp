@@ -91,6 +91,7 @@ void Tracker::Core::takeAssignment(double now_s, const vessel::State& state) {
 }
 
 void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
+  const bool under_way = mode_ == Mode::kTracking && plan_valid_;
   mode_ = Mode::kTracking;
   stop_reason_ = {};
   reference_source_.start(&sailing_->trajectory, sailing_->start_s, now_s);
@@ -101,7 +102,8 @@ void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
     reference_source_.join(now_s, offset, velocity_offset,
                            std::max(4.0, offset.norm() / options_.join_speed_mps));
   }
-  plan_valid_ = false;
+  // Near the old way the plan in force is the best start for the next.
+  plan_valid_ = under_way && offset.norm() < options_.far_m;
   prepared_ = false;
 }
 

@@ -24,6 +24,7 @@ using vessel::kYawRate;
 constexpr double kLeastSlopeN = 10.0;
 constexpr double kSteadySlopeN = 30.0;
 constexpr double kLightLoadN = 5.0;
+constexpr double kSameHeadingRad = 0.5;
 constexpr double kSlowMps = 0.05;
 constexpr double kLeastWaitingSpeedMps = 0.3;
 
@@ -67,8 +68,13 @@ void ReferenceSource::start(const trajectory::Trajectory* trajectory, double sta
   lag_s_ = 0.0;
   waited_at_s_ = now_s;
   joins_ = false;
-  psi_time_s_ = now_s;
-  psi_rad_ = course(now_s).psi_rad;
+  // The heading in force goes on where the new trajectory's own is about the same.
+  const double psi = course(now_s).psi_rad;
+  if (!started_ || std::abs(wrapAngle(psi - psi_rad_)) > kSameHeadingRad) {
+    psi_rad_ = psi;
+    psi_time_s_ = now_s;
+    started_ = true;
+  }
 }
 
 void ReferenceSource::join(double now_s, const Vector2d& offset, const Vector2d& velocity_offset,

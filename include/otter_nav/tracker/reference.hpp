@@ -72,6 +72,7 @@ class ReferenceSource {
   // The heading's own state, at a time.
   double psi_rad_ = 0.0;
   double psi_time_s_ = 0.0;
+  bool started_ = false;
 };
 
 }  // namespace otter_nav::tracker

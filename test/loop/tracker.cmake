@@ -1,0 +1,5 @@
+otter_nav_test(loop_tracker
+  SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/tracker/handover_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracker/odometry_faults_test.cpp
+  ROOMS tracker plant)

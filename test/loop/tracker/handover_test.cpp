@@ -1,0 +1,83 @@
+// The tracker against the plant at the ends of trajectories: starts, takeovers, station keeping.
+#include "vessel_at_sea.hpp"
+
+namespace otter_nav::tracker {
+namespace {
+
+using test::Stretch;
+using test::VesselAtSea;
+
+double thrustRateLimit() {
+  return loadOptions(test::kSource + "/config/tracker.yaml")->thrust_rate_nps;
+}
+
+// The trajectory is 3 s old and the vessel at rest at its start.
+TEST(Handover, LateStartCatchesUpWithoutThrustShocks) {
+  VesselAtSea sea("paper");
+  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 90.0), sea.now() - 3.0));
+  const Stretch start = sea.sail(30.0);
+  EXPECT_LE(start.max_thrust_rate_nps, thrustRateLimit() * 1.001);
+  EXPECT_LT((sea.truth().head<2>() - Eigen::Vector2d(2.0 * 33.0, 0.0)).norm(), 0.1);
+  EXPECT_LT(sea.sail(5.0).max_thrust_step_n, 2.0);
+}
+
+TEST(Handover, OffsetIsJoinedAlongACurve) {
+  VesselAtSea sea("none");
+  sea.plant().placeAt({0.0, -8.0}, 0.0);
+  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 1.5, 90.0), sea.now()));
+  double overshoot = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    const Stretch stretch = sea.sail(1.0);
+    EXPECT_LE(stretch.max_thrust_rate_nps, thrustRateLimit() * 1.001);
+    overshoot = std::max(overshoot, sea.truth()[1]);
+  }
+  EXPECT_NEAR(sea.truth()[1], 0.0, 0.05);
+  EXPECT_LT(overshoot, 0.3);
+}
+
+// The second trajectory is the rest of the first, given anew from a later instant.
+TEST(Handover, ATakeoverOnTheSameWayIsSeamless) {
+  VesselAtSea sea("paper");
+  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()));
+  sea.sail(20.0);
+  const Stretch before = sea.sail(2.0);
+  const double later = sea.now() + 0.5;
+  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(2.0 * later, 2.0, 60.0), later));
+  const Stretch across = sea.sail(2.0);
+  EXPECT_EQ(across.last.mode, Mode::kTracking);
+  EXPECT_LT(across.max_error_m, before.max_error_m + 0.01);
+  EXPECT_LT(across.max_thrust_step_n, before.max_thrust_step_n + 1.0);
+}
+
+TEST(Handover, HoldsTheGoalAndItsHeadingInALightWind) {
+  VesselAtSea sea("none");
+  ASSERT_TRUE(
+      sea.tracker().setTrajectory(VesselAtSea::line({0.0, 0.0}, {20.0, 0.0}, 20.0), sea.now()));
+  sea.sail(40.0);
+  const Stretch held = sea.sail(20.0);
+  EXPECT_EQ(held.last.mode, Mode::kHolding);
+  EXPECT_TRUE(held.last.at_goal);
+  EXPECT_LT((sea.truth().head<2>() - Eigen::Vector2d(20.0, 0.0)).norm(), 0.3);
+  EXPECT_LT(std::abs(sea.truth()[vessel::kPsi]), 0.1);
+}
+
+// A fresh wind on the beam: the hull cannot push sideways, so it turns along the load.
+TEST(Handover, WeathervanesWhereTheHeadingCannotBeHeld) {
+  VesselAtSea sea("hard");
+  ASSERT_TRUE(
+      sea.tracker().setTrajectory(VesselAtSea::line({0.0, 0.0}, {-14.0, 14.0}, 25.0), sea.now()));
+  sea.sail(60.0);
+  double farthest = 0.0;
+  std::string_view reason;
+  for (int i = 0; i < 60; ++i) {
+    const Stretch held = sea.sail(1.0);
+    ASSERT_EQ(held.last.mode, Mode::kHolding);
+    reason = held.last.reason;
+    farthest = std::max(farthest, (sea.truth().head<2>() - Eigen::Vector2d(-14.0, 14.0)).norm());
+  }
+  EXPECT_EQ(reason, "the heading yields to the position");
+  EXPECT_LT(farthest, 3.0);
+}
+
+}  // namespace
+}  // namespace otter_nav::tracker
