@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include "number_in.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/identification/csv.hpp"
 #include "otter_nav/identification/manoeuvres.hpp"
@@ -14,6 +15,7 @@ namespace {
 using otter_nav::failure;
 using otter_nav::Result;
 using otter_nav::Status;
+using otter_nav::tools::numberIn;
 namespace config = otter_nav::config;
 namespace identification = otter_nav::identification;
 namespace plant = otter_nav::plant;
@@ -38,11 +40,21 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--plant", a.plant, "options of the plant")->capture_default_str();
   app.add_option("--disturbance", a.disturbance, "preset file")->capture_default_str();
   app.add_option("--excitation", a.excitation, "list of manoeuvres")->capture_default_str();
-  app.add_option("--period", a.period_s, "of control and record, s")->capture_default_str();
-  app.add_option("--position-noise", a.position_noise_m, "m")->capture_default_str();
-  app.add_option("--heading-noise", a.heading_noise_rad, "rad")->capture_default_str();
-  app.add_option("--velocity-noise", a.velocity_noise_mps, "m/s")->capture_default_str();
-  app.add_option("--yaw-rate-noise", a.yaw_rate_noise_radps, "rad/s")->capture_default_str();
+  app.add_option("--period", a.period_s, "of control and record, s")
+      ->check(numberIn(0.001, 0.5))
+      ->capture_default_str();
+  app.add_option("--position-noise", a.position_noise_m, "m")
+      ->check(numberIn(0.0, 10.0))
+      ->capture_default_str();
+  app.add_option("--heading-noise", a.heading_noise_rad, "rad")
+      ->check(numberIn(0.0, 10.0))
+      ->capture_default_str();
+  app.add_option("--velocity-noise", a.velocity_noise_mps, "m/s")
+      ->check(numberIn(0.0, 10.0))
+      ->capture_default_str();
+  app.add_option("--yaw-rate-noise", a.yaw_rate_noise_radps, "rad/s")
+      ->check(numberIn(0.0, 10.0))
+      ->capture_default_str();
   app.add_option("--seed", a.seed, "of noise and disturbances")->capture_default_str();
   app.add_option("--out", a.out, "CSV to write")->required();
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "number_in.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/identification/csv.hpp"
 #include "otter_nav/identification/report.hpp"
@@ -55,7 +56,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--report", a.report, "directory for report and plots")->required();
   app.add_option("--paper-speed", a.paper_speed_mps,
                  "fit the paper's model to windows of this mean surge speed only, m/s: MIN MAX")
-      ->expected(2);
+      ->expected(2)
+      ->check(otter_nav::tools::numberIn(-100.0, 100.0));
   app.add_option("--origin", a.origin, "what the vessel file says it was found from");
   app.add_flag("--current", a.current, "estimate a steady current beside the parameters");
 }

@@ -5,6 +5,7 @@
 #include <exception>
 #include <fstream>
 
+#include "number_in.hpp"
 #include "otter_nav/plant/replay.hpp"
 
 namespace {
@@ -28,17 +29,17 @@ void declare(CLI::App& app, Arguments& a, std::vector<double>& position) {
       ->required();
   app.add_option("--output", a.output, "CSV of the motion computed")->required();
   app.add_option("--payload", a.options.payload.mass_kg, "kg, of otter")
-      ->check(CLI::Range(0.0, 45.0))
+      ->check(tools::numberIn(0.0, 45.0))
       ->capture_default_str();
   app.add_option("--payload-position", position, "forward, starboard, down of midships, m")
       ->expected(3)
-      ->check(CLI::Range(-1.0, 1.0));
-  app.add_option("--current-speed", a.current.speed_mps, "m/s")->check(CLI::Range(0.0, 5.0));
+      ->check(tools::numberIn(-1.0, 1.0));
+  app.add_option("--current-speed", a.current.speed_mps, "m/s")->check(tools::numberIn(0.0, 5.0));
   app.add_option("--current-direction", a.current.direction_rad,
                  "towards, rad clockwise from north")
-      ->check(CLI::Range(-100.0, 100.0));
+      ->check(tools::numberIn(-100.0, 100.0));
   app.add_option("--step", a.step_s, "longest integration step, s")
-      ->check(CLI::Range(1e-4, 0.05))
+      ->check(tools::numberIn(1e-4, 0.05))
       ->capture_default_str();
   app.add_flag("--no-lag", a.no_lag, "propellers take up a speed at once");
 }
