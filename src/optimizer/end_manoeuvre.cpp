@@ -13,7 +13,9 @@ namespace {
 constexpr double kLeastTurnRad = 1e-3;
 constexpr double kStraightLaunchS = 0.4;
 constexpr double kLaunchShare = 0.95;     // of the full force, so that the way may turn at once
-constexpr double kBrakeRampS = 0.3;       // from ahead to full astern
+constexpr double kSurgeRampS = 0.3;       // to full ahead, and from full astern to nothing
+constexpr double kBrakeRampS = 0.4;       // from ahead to full astern
+constexpr double kAsternShare = 0.9;      // of the full force, while braking
 constexpr double kAheadShare = 0.5;       // of the full force, before that
 constexpr double kDriftForceShare = 0.4;  // of full astern, at most, while turning at the goal
 constexpr double kLongAgoS = -1e3;
@@ -137,7 +139,7 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
       turn = std::move(loose.profile);
       ahead_s = loose.moment_ends_s;
     }
-    ramp = {ahead_s, ahead_s + 2.0 * limits.ramp_s, 0.0, most};
+    ramp = {ahead_s, ahead_s + kSurgeRampS, 0.0, most};
     end = ramp.to_s;
   }
   const Glide glide(vessel.paper, turn ? &*turn : nullptr, {ramp});
@@ -160,6 +162,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
                   double speed_mps, const vessel::Parameters& vessel,
                   const ManoeuvreLimits& limits) {
   const Thrust thrust(vessel, limits);
+  const double brake_n = kAsternShare * thrust.astern_n;
   const double turn_left = std::abs(turn_rad);
   std::optional<TurnProfile> turn;
   std::vector<SurgeRamp> ramps;
@@ -170,18 +173,18 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
     turn = turnToRest(turn_left, thrust.turning(-drift_n), limits.yaw_rate_max_radps, thrust.lag_s,
                       limits.ramp_s);
     end_s = turn->end();
-    // The moment rises in the second half of the force's ramp, or after it.
+    // The moment rises when the force has nearly gone.
     const double late = drift_n > 0.0 ? limits.ramp_s : 0.0;
-    braked_s = late - 2.0 * limits.ramp_s;
-    ramps.push_back({braked_s, late, -thrust.astern_n, -drift_n});
+    braked_s = late - kSurgeRampS;
+    ramps.push_back({braked_s, late, -brake_n, -drift_n});
   } else {
-    ramps.push_back({kLongAgoS, kLongAgoS, -thrust.astern_n, -thrust.astern_n});
+    ramps.push_back({kLongAgoS, kLongAgoS, -brake_n, -brake_n});
   }
   Glide glide(vessel.paper, turn ? &*turn : nullptr, std::move(ramps));
   BackwardGlide back(glide, end_s);
   back.reach(braked_s);
   // Full astern: v = (v_0 + F / d1) exp(-(t - t_0) m1 / d1) - F / d1, here backward.
-  const double slip = thrust.astern_n / vessel.paper.d1_kgps;
+  const double slip = brake_n / vessel.paper.d1_kgps;
   const double ahead = std::max(back.motion().velocity.x(), 0.0);
   const double brakes_s = vessel.paper.m1_kg / vessel.paper.d1_kgps *
                           std::log(std::max((speed_mps + slip) / (ahead + slip), 1.0));
@@ -190,7 +193,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   if (!turn) {
     glide.clearRamps();
   }
-  glide.addFirst({begin_s, begin_s + kBrakeRampS, kAheadShare * thrust.ahead_n, -thrust.astern_n});
+  glide.addFirst({begin_s, begin_s + kBrakeRampS, kAheadShare * thrust.ahead_n, -brake_n});
   back.reach(begin_s);
 
   const bool left = turn_rad >= 0.0;

@@ -13,6 +13,14 @@
 #include "way_ends.hpp"
 
 namespace otter_nav::optimizer {
+namespace {
+
+// An attempt that after so many rounds still exceeds a limit by this share is given up.
+constexpr int kPatience = 2;
+constexpr double kHopeless = 0.5;
+
+}  // namespace
+
 class GlobalOptimizer::Solver {
  public:
   Solver(const GlobalOptions& options, const vessel::Parameters& vessel)
@@ -98,7 +106,9 @@ class GlobalOptimizer::Solver {
         quicken(stop);
         return true;
       }
-      if (outOfTime()) {
+      const bool hopeless =
+          round >= kPatience && worstExcess(result_.trajectory, vessel_, check_) > kHopeless;
+      if (hopeless || outOfTime()) {
         return false;
       }
       tighten();
@@ -163,7 +173,7 @@ class GlobalOptimizer::Solver {
   // Verifies; what asks for a little too much thrust is slowed down: between the manoeuvres time
   // runs slower by a factor, which leaves the shape as it is but for the pieces next to them.
   void verifyDilated(double dilation_max) {
-    constexpr int kTries = 3;
+    constexpr int kTries = 6;
     const Spline shape = spline_;
     result_.trajectory = assemble(chosen_, spline_);
     for (int i = 0; i < kTries; ++i) {
