@@ -63,6 +63,8 @@ const char* name(Phase phase) {
       return "stopping";
     case Phase::kStopped:
       return "stopped";
+    case Phase::kBackingOff:
+      return "backing off";
     case Phase::kArrived:
       return "arrived";
     case Phase::kFailed:
@@ -96,7 +98,7 @@ Result<Orders> Supervisor::setGoal(double now_s, const Goal& goal, const Situati
     for_clearance_ = false;
     return requestFromSailed(now_s, field);
   }
-  if (phase_ == Phase::kStopping) {
+  if (phase_ == Phase::kStopping || phase_ == Phase::kBackingOff) {
     return Orders{};
   }
   if (moving(situation)) {
@@ -113,7 +115,7 @@ Orders Supervisor::cancel(double now_s, const Situation& situation,
     after_stop_ = Phase::kIdle;
     return brake(now_s, field, "cancelled");
   }
-  if (phase_ == Phase::kStopping) {
+  if (phase_ == Phase::kStopping || phase_ == Phase::kBackingOff) {
     after_stop_ = Phase::kIdle;
     return {};
   }
@@ -130,7 +132,7 @@ Orders Supervisor::update(double now_s, const Situation& situation,
   if (pending_ && now_s - pending_->since_s > options_.planning_timeout_s) {
     const Pending asked = std::move(*pending_);
     pending_.reset();
-    return planFailed(now_s, "no answer from the planner", asked);
+    return planFailed(now_s, "no answer from the planner", asked, situation, field);
   }
   switch (phase_) {
     case Phase::kPlanning:
@@ -140,6 +142,7 @@ Orders Supervisor::update(double now_s, const Situation& situation,
     case Phase::kReplanning:
       return watchTheWay(now_s, situation, field);
     case Phase::kStopping:
+    case Phase::kBackingOff:
       return watchTheStop(now_s, situation);
     case Phase::kIdle:
     case Phase::kArrived:

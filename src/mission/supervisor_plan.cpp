@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "otter_nav/mission/back_off.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 
 namespace otter_nav::mission {
@@ -131,7 +132,7 @@ Orders Supervisor::planFinished(double now_s, const PlanReply& reply, const Situ
   const Pending asked = std::move(*pending_);
   pending_.reset();
   if (!reply.solved || reply.trajectory.empty()) {
-    return planFailed(now_s, reply.reason, asked);
+    return planFailed(now_s, reply.reason, asked, situation, field);
   }
   return asked.from == From::kRest ? takeFromRest(now_s, reply, asked, situation, field)
                                    : takeMoving(now_s, reply, asked, field);
@@ -184,7 +185,8 @@ void Supervisor::sail(SailOrder order, const PlanRequest& request, double now_s)
   enter(Phase::kSailing);
 }
 
-Orders Supervisor::planFailed(double now_s, const std::string& why, const Pending& asked) {
+Orders Supervisor::planFailed(double now_s, const std::string& why, const Pending& asked,
+                              const Situation& situation, const map::DistanceField& field) {
   if (asked.improves) {
     return {};
   }
@@ -194,6 +196,9 @@ Orders Supervisor::planFailed(double now_s, const std::string& why, const Pendin
     return {};  // asked again at the next update, as long as there is room
   }
   if (last) {
+    if (Orders orders = tryBackingOff(now_s, why, situation, field); orders.sail) {
+      return orders;
+    }
     not_before_s_ = now_s + options_.retry_pause_s;
     if (++rounds_ >= options_.rounds_from_rest) {
       char clearance[64];
@@ -204,6 +209,21 @@ Orders Supervisor::planFailed(double now_s, const std::string& why, const Pendin
     }
   }
   return {};
+}
+
+Orders Supervisor::tryBackingOff(double now_s, const std::string& why, const Situation& situation,
+                                 const map::DistanceField& field) {
+  if (!faultOf(now_s, situation).empty()) {
+    return {};
+  }
+  std::optional<trajectory::Trajectory> way = backOff(situation.state, field, vessel_);
+  if (!way) {
+    return {};
+  }
+  phase_time_s_ = now_s;
+  sailed_ = {std::move(*way), now_s};
+  enter(Phase::kBackingOff, "no room to turn: " + why);
+  return Orders{std::nullopt, sailed_, false};
 }
 
 }  // namespace otter_nav::mission

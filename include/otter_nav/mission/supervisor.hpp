@@ -31,6 +31,7 @@ enum class Phase {
   kReplanning,  // on a plan that is not clear any more, waiting for a better one
   kStopping,    // braking
   kStopped,     // at rest on the way, waiting for a plan
+  kBackingOff,  // from where there is no room to turn
   kArrived,     // within the tolerances of the goal and slow
   kFailed       // given up; reason() says why, and the vessel lies still or is braking
 };
@@ -199,7 +200,10 @@ class Supervisor {
                                     const Situation& situation, const map::DistanceField& field);
   [[nodiscard]] Orders takeMoving(double now_s, const PlanReply& reply, const Pending& asked,
                                   const map::DistanceField& field);
-  [[nodiscard]] Orders planFailed(double now_s, const std::string& why, const Pending& asked);
+  [[nodiscard]] Orders planFailed(double now_s, const std::string& why, const Pending& asked,
+                                  const Situation& situation, const map::DistanceField& field);
+  [[nodiscard]] Orders tryBackingOff(double now_s, const std::string& why,
+                                     const Situation& situation, const map::DistanceField& field);
   [[nodiscard]] double timeLeft(double now_s) const;
   void sail(SailOrder order, const PlanRequest& request, double now_s);
   void enter(Phase phase, std::string reason = {});
