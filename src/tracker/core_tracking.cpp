@@ -27,6 +27,9 @@ OcpOptions Tracker::Core::ocpOptions(const Options& o, const vessel::Parameters&
 
 void Tracker::Core::prepareSolver(double start_s, double psi_rad) {
   solver_.setDisturbance(navigator_.disturbance());
+  if (options_.plan_thrust_rate) {
+    solver_.limitRates(last_thrusts_, options_.thrust_rate_nps);
+  }
   reference_source_.fill(start_s, prediction_.step_s, options_.stages, psi_rad,
                          navigator_.disturbance(), reference_);
   if (plan_valid_) {

@@ -17,8 +17,8 @@ void RtiSolver::startInterior() {
   for (int k = 0; k < options_.stages; ++k) {
     for (int i = 0; i < 2; ++i) {
       hold_[k][i] = Hold::kFree;
-      interior_[k][i].start(du_[k][i], options_.lower_n[i] - thrusts_[k][i],
-                            options_.upper_n[i] - thrusts_[k][i], feedbacks_[k].hessian[i][i]);
+      interior_[k][i].start(du_[k][i], boundOf(k, i, Hold::kLower), boundOf(k, i, Hold::kUpper),
+                            feedbacks_[k].hessian[i][i]);
     }
   }
 }

@@ -79,6 +79,7 @@ Result<Options> readOptions(config::Section section) {
   section.read("period_s", o.period_s, {0.001, 0.2});
   section.read("thrust_share", o.thrust_share, kShare);
   section.read("thrust_rate_nps", o.thrust_rate_nps, kPositive);
+  section.read("plan_thrust_rate", o.plan_thrust_rate);
   section.read("keep_plan_s", o.keep_plan_s, {0.0, 2.0});
   section.read("far_m", o.far_m, kPositive);
   section.read("heading_step_rad", o.heading_step_rad, kPositive);

@@ -36,8 +36,7 @@ double costOf(const StateCost& c, const double (&dx)[6]) {
 }  // namespace
 
 double RtiSolver::boundOf(int stage, int thruster, Hold hold) const {
-  return (hold == Hold::kLower ? options_.lower_n : options_.upper_n)[thruster] -
-         thrusts_[stage][thruster];
+  return (hold == Hold::kLower ? lower_ : upper_)[stage][thruster] - thrusts_[stage][thruster];
 }
 
 double RtiSolver::rollOutThrusts() {

@@ -17,6 +17,16 @@ RtiSolver::RtiSolver(const OcpOptions& options, const vessel::ManoeuvringModel& 
   for (auto& hold : hold_) {
     hold[0] = hold[1] = Hold::kFree;
   }
+  lower_.fill(options.lower_n);
+  upper_.fill(options.upper_n);
+}
+
+void RtiSolver::limitRates(const vessel::Thrusts& acting, double rate_nps) {
+  for (int k = 0; k < options_.stages; ++k) {
+    const double reach = (k + 0.5) * options_.step_s * rate_nps;
+    lower_[k] = options_.lower_n.cwiseMax((acting.array() - reach).matrix());
+    upper_[k] = options_.upper_n.cwiseMin((acting.array() + reach).matrix());
+  }
 }
 
 void RtiSolver::setDisturbance(const vessel::Disturbance& disturbance) {
@@ -29,7 +39,7 @@ void RtiSolver::initialize(const OcpReference& reference) {
     states_[k] = reference.states[k];
   }
   for (int k = 0; k < n; ++k) {
-    thrusts_[k] = reference.thrusts[k].cwiseMax(options_.lower_n).cwiseMin(options_.upper_n);
+    thrusts_[k] = reference.thrusts[k].cwiseMax(lower_[k]).cwiseMin(upper_[k]);
     hold_[k][0] = hold_[k][1] = Hold::kFree;
   }
   prepared_ = SolverStatus::kNotFinite;
@@ -77,8 +87,7 @@ bool RtiSolver::factor(int from, const std::array<InputCost, kMaxStages>& costs)
     double held[2] = {0.0, 0.0};
     for (int i = 0; i < 2; ++i) {
       if (hold_[k][i] != Hold::kFree) {
-        held[i] =
-            (hold_[k][i] == Hold::kLower ? options_.lower_n : options_.upper_n)[i] - thrusts_[k][i];
+        held[i] = boundOf(k, i, hold_[k][i]);
       }
     }
     definite &= riccatiStep(linear_[k], state_costs_[k], costs[k], hold_[k], held, values_[k + 1],
@@ -114,9 +123,9 @@ int RtiSolver::reviseHolds() {
       Hold next = hold_[k][i];
       if (next == Hold::kFree) {
         const double thrust = thrusts_[k][i] + du_[k][i];
-        if (thrust < options_.lower_n[i] - kTolerance) {
+        if (thrust < lower_[k][i] - kTolerance) {
           next = Hold::kLower;
-        } else if (thrust > options_.upper_n[i] + kTolerance) {
+        } else if (thrust > upper_[k][i] + kTolerance) {
           next = Hold::kUpper;
         }
       } else {
@@ -208,8 +217,7 @@ void RtiSolver::accept() {
   for (int k = 0; k < n; ++k) {
     for (int i = 0; i < 2; ++i) {
       last_step_ = std::max(last_step_, std::abs(du_[k][i]) / range[i]);
-      thrusts_[k][i] =
-          std::clamp(thrusts_[k][i] + share * du_[k][i], options_.lower_n[i], options_.upper_n[i]);
+      thrusts_[k][i] = std::clamp(thrusts_[k][i] + share * du_[k][i], lower_[k][i], upper_[k][i]);
     }
   }
 }

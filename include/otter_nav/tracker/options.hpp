@@ -57,8 +57,10 @@ struct Options {
   Weights flatness;
   Weights plain;
   double thrust_share = 1.0;  // of the thrusters' limits the tracker may use
-  // Of either thrust's command, N/s; the plan may use whole limits, the command never jumps.
+  // Of either thrust's command, N/s: the command never jumps. With `plan_thrust_rate` the plan
+  // knows of it too (thrusts it cannot reach in time are out of its bounds).
   double thrust_rate_nps = 1000.0;
+  bool plan_thrust_rate = true;
   double keep_plan_s = 0.3;       // how long the last good plan stands in for a failing solver
   double far_m = 0.5;             // position errors beyond weigh in proportion, not squared
   double heading_step_rad = 0.5;  // most that one iteration turns the plan's headings

@@ -68,6 +68,11 @@ class RtiSolver {
 
   void setDisturbance(const vessel::Disturbance& disturbance);
   void setWeights(const OcpWeights& weights) { options_.weights = weights; }
+  // Narrows each stage's bounds to what the thrusts can reach by its middle from `acting` at
+  // `rate_nps`. The differences between later stages stay free: the tube holds all plans that keep
+  // the rate, and the first stage, the one that is commanded, keeps it. A box, so the problem keeps
+  // its shape.
+  void limitRates(const vessel::Thrusts& acting, double rate_nps);
   // Start from the reference (clamped to the bounds).
   void initialize(const OcpReference& reference);
   // Moves the plan on by `fraction` of a stage.
@@ -137,6 +142,8 @@ class RtiSolver {
   Hold hold_[kMaxStages][2];
   Hold factored_[kMaxStages][2];  // by the last projected Newton step
   Deviation dx_[kMaxStages + 1];
+  std::array<vessel::Thrusts, kMaxStages> lower_;
+  std::array<vessel::Thrusts, kMaxStages> upper_;
   Inputs du_;
   Inputs last_du_;
   Inputs newton_;

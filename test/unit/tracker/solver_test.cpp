@@ -72,6 +72,32 @@ TEST(RtiSolver, AgreesWithIpoptFarFromTheReference) {
   }
 }
 
+// What the first second's tube leaves is the same problem with narrower bounds.
+TEST(RtiSolver, KeepsWhatTheThrustRateCanReach) {
+  const Problem p = circle(20, 2.0);
+  constexpr double kRate = 40.0;
+  const vessel::Thrusts acting(10.0, -5.0);
+  RtiSolver solver(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  solver.setDisturbance(p.disturbance);
+  solver.limitRates(acting, kRate);
+  solver.initialize(*p.reference);
+  int met = 0;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
+    ASSERT_EQ(solver.feedback(p.measured), SolverStatus::kSolved);
+  }
+  EXPECT_LT(solver.lastStep(), 1e-9);
+  for (int k = 0; k < p.options.stages; ++k) {
+    const double reach = (k + 0.5) * p.options.step_s * kRate;
+    for (int i = 0; i < 2; ++i) {
+      const double change = std::abs(solver.thrusts()[k][i] - acting[i]);
+      EXPECT_LE(change, reach + 1e-9);
+      met += change > reach - 1e-9 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(met, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Problems, AgainstIpopt,
                          ::testing::Values(std::pair{20, 0.0}, std::pair{20, 2.0},
                                            std::pair{40, 0.0}, std::pair{40, 2.0},

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Tracking figures over seeds as a table: tracking_table.sh [--seeds "1 2 3 4 5"] [BENCHMARK [ARGS...]]
+# BENCHMARK is the program tracking_benchmark (from PATH by default), ARGS go to each run. Each row:
+# mean error averaged over the seeds, its worst seed, the largest error, the figure to hold.
+set -euo pipefail
+seeds="1 2 3 4 5"
+if [ "${1:-}" = "--seeds" ]; then
+  seeds=$2
+  shift 2
+fi
+benchmark=${1:-tracking_benchmark}
+[ $# -eq 0 ] || shift
+out=$(mktemp -d)
+trap 'rm -r "$out"' EXIT
+
+# vessel disturbance mean-to-hold
+cases="otter_gazebo none 0.02
+otter_gazebo force10 0.02
+otter_gazebo paper 0.05
+otter_gazebo hard 0.12
+otter none 0.04
+otter paper 0.10
+otter hard 0.18"
+
+echo "| case | mean error, m | worst seed, m | largest error, m | rate rms, N/s | to hold, m | |"
+echo "| --- | --- | --- | --- | --- | --- | --- |"
+while read -r vessel disturbance hold; do
+  for path in eight spiral; do
+    rm -f "$out"/*.json
+    for seed in $seeds; do
+      "$benchmark" --vessel "$vessel" --disturbance "$disturbance" --path "$path" --seed "$seed" \
+        --quiet --out "$out/$seed.json" "$@" > "$out/log" || { cat "$out/log" >&2; exit 1; }
+    done
+    /usr/bin/python3 - "$vessel $disturbance $path" "$hold" "$out"/*.json <<'PY'
+import json, sys
+runs = [json.load(open(name)) for name in sys.argv[3:]]
+mean = [run["mean_error_m"] for run in runs]
+average, hold = sum(mean) / len(mean), float(sys.argv[2])
+print("| %s | %.4f | %.4f | %.3f | %.0f | %.2f | %s |" % (
+    sys.argv[1], average, max(mean), max(run["max_error_m"] for run in runs),
+    sum(run["thrust_rate_rms_nps"] for run in runs) / len(runs), hold,
+    "holds" if max(mean) <= hold else "holds on average" if average <= hold else "does not hold"))
+PY
+  done
+done <<< "$cases"
