@@ -34,11 +34,12 @@ EdgeCheck LocalOptimizer::check(const map::DistanceField& field,
     if (speed > options_.speed_max_mps) {
       return {EdgeFault::kSpeed, t};
     }
-    const Eigen::Vector2d w = m.m1_kg * z.acceleration + m.d2_kgps * z.velocity;
-    const double force2 = w.squaredNorm();
-    if (force2 > force_max * force_max) {
+    const Eigen::Vector2d force = m.m1_kg * z.acceleration + m.d1_kgps * z.velocity;
+    if (force.squaredNorm() > force_max * force_max) {
       return {EdgeFault::kForce, t};
     }
+    const Eigen::Vector2d w = m.m1_kg * z.acceleration + m.d2_kgps * z.velocity;
+    const double force2 = w.squaredNorm();
     if (speed < kSlowMps) {
       continue;
     }

@@ -69,7 +69,8 @@ void InitialWay::stretchBand(const map::DistanceField& field,
   }
 }
 
-// The steady speed in a turn: |w| = hypot(d v, m v^2 k) and the moment d3 k v share the thrust.
+// The steady speed in a turn: the bow leads the course by beta, so that the sway drag carries it
+// round; surge force and the moment d3 k v share the thrust.
 double InitialWay::speedIn(double curvature_per_m) const {
   const vessel::PaperModel& m = vessel_.paper;
   const double force = 2.0 * vessel_.thrusters.ahead_max_n * options_.force_share;
@@ -78,8 +79,9 @@ double InitialWay::speedIn(double curvature_per_m) const {
   const double k = std::abs(curvature_per_m);
   for (int i = 0; i < 12; ++i) {
     const double v = 0.5 * (low + high);
-    const double need = std::hypot(std::max(m.d1_kgps, m.d2_kgps) * v, m.m1_kg * v * v * k) +
-                        m.d3_kgm2ps * k * v / vessel_.thrusters.lever_arm_m;
+    const double beta = std::atan2(m.m1_kg * v * k, m.d2_kgps);
+    const double surge = m.d1_kgps * v * std::cos(beta) + m.m1_kg * v * v * k * std::sin(beta);
+    const double need = surge + m.d3_kgm2ps * k * v / vessel_.thrusters.lever_arm_m;
     (need < force ? low : high) = v;
   }
   return std::max(low, kSlowestMps);
@@ -114,7 +116,8 @@ void InitialWay::paceBand(double speed_from, double speed_to) {
   }
   for (std::size_t i = n - 1; i-- > 1;) {
     const double v = speed_[i + 1];
-    const double drag = 0.7 * m.d2_kgps * v / m.m1_kg;
+    const double astern = 2.0 * vessel_.thrusters.astern_max_n * options_.force_share;
+    const double drag = 0.7 * std::min(m.d2_kgps * v, m.d1_kgps * v + astern) / m.m1_kg;
     speed_[i] = std::min(speed_[i], std::sqrt(v * v + 2.0 * drag * spacing_m_));
   }
 }

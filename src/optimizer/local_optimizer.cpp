@@ -167,9 +167,9 @@ void LocalOptimizer::pullTowards(const map::DistanceField& field, const Knots& k
       pull.target.col(1) = 0.95 * options_.speed_max_mps / speed * z.col(1);
       pull.weight[1] = options_.weight_dynamics * growth;
     }
-    const double w = (m.m1_kg * z.col(2) + m.d2_kgps * z.col(1)).norm();
-    if (w > force) {
-      pull.target.col(2) = z.col(2) * (force / w);
+    const double asked = (m.m1_kg * z.col(2) + m.d1_kgps * z.col(1)).norm();
+    if (asked > force) {
+      pull.target.col(2) = z.col(2) * (force / asked);
       pull.weight[2] = options_.weight_dynamics * growth;
     }
   }

@@ -10,15 +10,16 @@ constexpr double kDirectionWindowM = 1.0;
 constexpr double kLargestPushM = 0.5;
 constexpr double kLeastGradient = 0.3;
 
-// The greatest speed at which thrust `force` holds a turn of curvature `curvature`:
-// (m1 k v^2)^2 + (d2 v)^2 = force^2 (vessel/flatness.hpp with constant speed).
+// The greatest speed at which thrust `force` holds a turn of curvature `curvature`, its moment left
+// out, as the edges' check does: (m1 k v^2)^2 + (d1 v)^2 = force^2.
 double turningSpeed(const vessel::PaperModel& model, double force, double curvature) {
   const double a = model.m1_kg * curvature;
-  const double d2 = model.d2_kgps * model.d2_kgps;
+  const double drag2 = model.d1_kgps * model.d1_kgps;
   if (a < 1e-9) {
-    return force / model.d2_kgps;
+    return force / model.d1_kgps;
   }
-  const double v2 = (std::sqrt(d2 * d2 + 4.0 * a * a * force * force) - d2) / (2.0 * a * a);
+  const double v2 =
+      (std::sqrt(drag2 * drag2 + 4.0 * a * a * force * force) - drag2) / (2.0 * a * a);
   return std::sqrt(v2);
 }
 
