@@ -5,11 +5,14 @@ Shares no code with the planner: its own RK4 of the paper's model, its own readi
 own tests. For each case claimed as a success:
   - the dump's states follow from its thrusts: the model is integrated from each row to the next
     few with the dumped tau (cubic in time between rows) and must meet the dumped states;
-  - position, velocity and thrusts are continuous from row to row;
+  - the states follow from each other: differences of position and heading are the velocities, and
+    position is smooth up to its third derivative;
+  - speed and yaw rate are within the vessel's;
   - both thrusters are within the vessel's limits (the diamond);
   - the hull's centre keeps the clearance from every occupied cell's square, between rows too, and
     the hull's outline touches none;
   - it starts and ends at the mission's poses, at rest.
+How far the whole trajectories drift when they are integrated open loop is printed as well.
 
 Usage: check_dumps.py --scenarios DIR --json FILE.json --vessel config/vessels/otter_gazebo.yaml
 """
@@ -22,6 +25,14 @@ import sys
 
 import numpy as np
 import yaml
+
+STEP_S = 0.02
+VELOCITY_MPS = 2e-3
+YAW_RADPS = 1e-2
+# The surge force's ramps at launch and stop have a slope of this order (a step would be the whole
+# jerk); smooth motion elsewhere stays far below.
+JERK_STEP_MPS3 = 6.0
+YAW_RATE_MAX_RADPS = 2.0
 
 COLUMNS = ["t", "x", "y", "psi", "u", "v", "r", "tau_u", "tau_r"]
 
@@ -153,6 +164,36 @@ def rollout_error(rows, model, seconds):
     return worst
 
 
+def kinematic_faults(rows):
+    """Central differences of the pose against the velocities, and steps of the third derivative."""
+    even = np.abs(np.diff(rows[:, 0]) - STEP_S) < 1e-6
+    count = int(np.argmin(even)) + 1 if not np.all(even) else len(rows)
+    t, x, psi = rows[:count, 0], rows[:count, 1:3], np.unwrap(rows[:count, 3])
+    u, v, r = rows[:count, 4], rows[:count, 5], rows[:count, 6]
+    if count < 8:
+        return []
+    faults = []
+    c, s = np.cos(psi), np.sin(psi)
+    velocity = np.stack([u * c - v * s, u * s + v * c], axis=1)
+    # Five points: exact up to the fourth derivative.
+    def slope(f):
+        return (f[:-4] - 8.0 * f[1:-3] + 8.0 * f[3:-1] - f[4:]) / (12.0 * STEP_S)
+    off = np.max(np.abs(slope(x) - velocity[2:-2]), axis=1)
+    turn = np.abs(slope(psi) - r[2:-2])
+    for name, error, limit in (("velocity", off, VELOCITY_MPS), ("yaw rate", turn, YAW_RADPS)):
+        worst = int(np.argmax(error))
+        if error[worst] > limit:
+            faults.append(f"{name} is not the pose's slope by {error[worst]:.2g} "
+                          f"at {t[worst + 2]:.2f} s")
+    jerk = np.diff(x, 3, axis=0) / STEP_S**3
+    step = np.hypot(*np.diff(jerk, axis=0).T)
+    worst = int(np.argmax(step))
+    if step[worst] > JERK_STEP_MPS3:
+        faults.append(f"the third derivative steps by {step[worst]:.1f} m/s^3 "
+                      f"at {t[worst + 2]:.2f} s")
+    return faults
+
+
 def check(rows, mission, grid, vessel, clearance):
     """A list of what is wrong."""
     faults = []
@@ -177,6 +218,11 @@ def check(rows, mission, grid, vessel, clearance):
         if error[worst, column] > limit:
             faults.append(f"{COLUMNS[column + 1]} off by {error[worst, column]:.2g} after one step "
                           f"at {t[worst]:.2f} s")
+    faults += kinematic_faults(rows)
+    if np.max(np.hypot(rows[:, 4], rows[:, 5])) > vessel["top_speed_mps"]:
+        faults.append("faster than the vessel")
+    if np.max(np.abs(rows[:, 6])) > YAW_RATE_MAX_RADPS:
+        faults.append(f"turns at {np.max(np.abs(rows[:, 6])):.2f} rad/s")
     drift = rollout_error(rows, model, 2.0)
     if drift > 0.05:
         faults.append(f"2 s rollout drifts {drift:.3f} m")
@@ -228,6 +274,7 @@ def main():
         vessel = yaml.safe_load(file)
     scenarios, grids = {}, {}
     bad = checked = 0
+    drifts = []
     for case in cases:
         if not case["success"]:
             continue
@@ -240,10 +287,14 @@ def main():
         faults = check(rows, scenarios[name]["missions"][case["mission"]], grids[name], vessel,
                        args.clearance)
         checked += 1
+        drifts.append(rollout_error(rows, vessel["paper_model"], rows[-1, 0] + 1.0))
         if faults:
             bad += 1
             print(f"{name} {case['mission']} {case['method']} seed {case['seed']}: "
                   + "; ".join(faults))
+    if drifts:
+        print(f"open loop over the whole way: {np.median(drifts):.3f} m off at the end (median), "
+              f"{np.quantile(drifts, 0.95):.3f} m (95 %), {np.max(drifts):.3f} m (worst)")
     print(f"{checked} claimed successes checked, {bad} of them false")
     return 1 if bad or not checked else 0
 
