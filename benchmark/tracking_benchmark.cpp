@@ -81,6 +81,11 @@ Result<benchmark::RunSetup> buildSetup(const Arguments& a) {
   // Eight and spiral end under way; the last seconds are the horizon's.
   const bool under_way = a.path == "eight" || a.path == "spiral";
   setup.duration_s = path->duration() - (under_way ? benchmark::kRunOutS : 0.0);
+  if (setup.duration_s < setup.errors_from_s + 1.0) {
+    return failure(a.path + ": lasts " + std::to_string(setup.duration_s) + " s, at least " +
+                   std::to_string(setup.errors_from_s + 1.0) + " are needed (errors count from " +
+                   std::to_string(setup.errors_from_s) + " s on)");
+  }
   setup.trajectory = std::move(*path);
   setup.vessel = *vessel;
   setup.tracker = *options;

@@ -13,7 +13,9 @@ std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells;
   std::stringstream stream(line);
   for (std::string cell; std::getline(stream, cell, ',');) {
-    cells.push_back(cell);
+    const auto first = cell.find_first_not_of(" \t\r\"");
+    const auto last = cell.find_last_not_of(" \t\r\"");
+    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
   }
   return cells;
 }
@@ -30,7 +32,7 @@ bool parse(const std::vector<std::string>& cells, int column, double& value) {
   const std::string& text = cells[static_cast<std::size_t>(column)];
   char* end = nullptr;
   value = std::strtod(text.c_str(), &end);
-  return end != text.c_str() && std::isfinite(value);
+  return end != text.c_str() && *end == '\0' && std::isfinite(value);
 }
 
 }  // namespace
@@ -48,6 +50,9 @@ Result<std::vector<TimedPoint>> readTimedPoints(const std::string& path) {
   }
   std::vector<TimedPoint> points;
   for (int row = 2; std::getline(file, line); ++row) {
+    if (line.empty() || line == "\r") {
+      continue;
+    }
     const std::vector<std::string> cells = split(line);
     TimedPoint p{};
     if (!parse(cells, columns[0], p.t_s) || !parse(cells, columns[1], p.position.x()) ||
@@ -58,6 +63,16 @@ Result<std::vector<TimedPoint>> readTimedPoints(const std::string& path) {
       return failure(path + ", line " + std::to_string(row) + ": time does not grow");
     }
     points.push_back(p);
+  }
+  constexpr double kFastestMps = 20.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double speed =
+        (points[i].position - points[i - 1].position).norm() / (points[i].t_s - points[i - 1].t_s);
+    if (speed > kFastestMps) {
+      return failure(path + ": moves at " + std::to_string(speed) +
+                     " m/s at t = " + std::to_string(points[i].t_s) + " (at most " +
+                     std::to_string(kFastestMps) + ")");
+    }
   }
   if (points.size() < 20) {
     return failure(path + ": " + std::to_string(points.size()) + " rows, at least 20 are needed");

@@ -15,7 +15,8 @@ struct TimedPoint {
   Eigen::Vector2d position;
 };
 
-// Columns t, x and y by name; errors name the file, the row and what is wrong.
+// Columns t (s, growing), x and y (m) by name in the first line, others ignored; at least 20 rows.
+// Errors name the file, the row and what is wrong.
 [[nodiscard]] Result<std::vector<TimedPoint>> readTimedPoints(const std::string& path);
 
 // Position, velocity, acceleration and jerk at `t_s`: a least-squares polynomial of degree 5 over
