@@ -24,18 +24,25 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::ManoeuvringM
   walk_variance_ << 0.0, 0.0, 0.0, o.velocity_walk_mps, o.velocity_walk_mps, o.yaw_rate_walk_radps,
       o.force_walk_n, o.force_walk_n,
       model.feelsWind() ? o.moment_walk_in_wind_nm : o.moment_walk_nm, o.current_walk_mps,
-      o.current_walk_mps, o.wind_walk_m2ps2, o.wind_walk_m2ps2;
+      o.current_walk_mps, o.wind_walk_m2ps2, o.wind_walk_m2ps2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
   walk_variance_ = walk_variance_.cwiseAbs2().eval();
+  // A driven oscillator's velocity has the variance intensity / (4 damping frequency).
+  const double drive = std::sqrt(4.0 * o.wave_damping * o.wave_frequency_radps);
+  walk_variance_.segment<3>(kWaveRate) << o.wave_velocity_mps, o.wave_velocity_mps,
+      o.wave_yaw_rate_radps;
+  walk_variance_.segment<3>(kWaveRate) *= drive;
+  walk_variance_.segment<3>(kWaveRate) = walk_variance_.segment<3>(kWaveRate).cwiseAbs2().eval();
   if (o.enabled) {
-    covariance_.diagonal().tail<7>() << o.force_sigma_n, o.force_sigma_n, o.moment_sigma_nm,
-        o.current_sigma_mps, o.current_sigma_mps, o.wind_sigma_m2ps2, o.wind_sigma_m2ps2;
+    covariance_.diagonal().segment<7>(kForce) << o.force_sigma_n, o.force_sigma_n,
+        o.moment_sigma_nm, o.current_sigma_mps, o.current_sigma_mps, o.wind_sigma_m2ps2,
+        o.wind_sigma_m2ps2;
     covariance_ = covariance_.cwiseAbs2().eval();
   } else {
-    walk_variance_.tail<7>().setZero();
+    walk_variance_.segment<7>(kForce).setZero();
   }
   if (!model.feelsWind()) {
-    walk_variance_.tail<2>().setZero();
-    covariance_.diagonal().tail<2>().setZero();
+    walk_variance_.segment<2>(kWind).setZero();
+    covariance_.diagonal().segment<2>(kWind).setZero();
   }
 }
 
@@ -44,10 +51,35 @@ void Estimator::reset(const vessel::State& measured) {
   covariance_.topRows<6>().setZero();
   covariance_.leftCols<6>().setZero();
   covariance_.diagonal().head<6>() = measurement_variance_;
+  covariance_.bottomRows<6>().setZero();
+  covariance_.rightCols<6>().setZero();
+  wave_.setZero();
+  wave_rate_.setZero();
+  const Eigen::Vector3d sigma(options_.wave_velocity_mps, options_.wave_velocity_mps,
+                              options_.wave_yaw_rate_radps);
+  covariance_.diagonal().segment<3>(kWaveRate) = sigma.cwiseAbs2();
+  covariance_.diagonal().segment<3>(kWave) = (sigma / options_.wave_frequency_radps).cwiseAbs2();
+}
+
+Eigen::Matrix<double, 6, Estimator::kSize> Estimator::measurement() const {
+  Eigen::Matrix<double, 6, kSize> h = Eigen::Matrix<double, 6, kSize>::Zero();
+  h.leftCols<6>().setIdentity();
+  h.block<3, 3>(0, kWave).setIdentity();
+  const double c = std::cos(state_[kPsi]);
+  const double s = std::sin(state_[kPsi]);
+  h.block<2, 2>(kSurge, kWaveRate) << c, s, -s, c;
+  h(kYawRate, kWaveRate + 2) = 1.0;
+  return h;
 }
 
 vessel::State Estimator::innovation(const vessel::State& measured) const {
   vessel::State difference = measured - state_;
+  difference.head<3>() -= wave_;
+  const double c = std::cos(state_[kPsi]);
+  const double s = std::sin(state_[kPsi]);
+  difference[kSurge] -= c * wave_rate_[0] + s * wave_rate_[1];
+  difference[kSway] -= -s * wave_rate_[0] + c * wave_rate_[1];
+  difference[kYawRate] -= wave_rate_[2];
   difference[kPsi] = wrapAngle(difference[kPsi]);
   return difference;
 }
@@ -100,6 +132,10 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   from_current(1, 0) -= state_[kYawRate];
   f.block<3, 2>(kSurge, kCurrent) = dt_s * from_current * body_from_earth;
   f.block<3, 2>(kSurge, kWind) = dt_s * fromWind();
+  const double w = options_.wave_frequency_radps;
+  f.block<3, 3>(kWave, kWaveRate).diagonal().setConstant(dt_s);
+  f.block<3, 3>(kWaveRate, kWave).diagonal().setConstant(-dt_s * w * w);
+  f.block<3, 3>(kWaveRate, kWaveRate).diagonal().array() -= 2.0 * dt_s * options_.wave_damping * w;
   return f;
 }
 
@@ -108,6 +144,10 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   const Covariance spread = f * covariance_;
   covariance_.noalias() = spread * f.transpose();
   covariance_.diagonal() += dt_s * walk_variance_;
+  // Semi-implicit, so that the oscillator keeps its energy.
+  const double w = options_.wave_frequency_radps;
+  wave_rate_ -= dt_s * (w * w * wave_ + 2.0 * options_.wave_damping * w * wave_rate_);
+  wave_ += dt_s * wave_rate_;
   state_ = rk4Step(
       [&](double, const vessel::State& x) {
         return vessel::stateDerivative(x, thrusts, model_, thrusters_, disturbance_);
@@ -116,14 +156,18 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
 }
 
 void Estimator::update(const vessel::State& measured) {
-  Eigen::Matrix<double, 6, 6> innovation_covariance = covariance_.topLeftCorner<6, 6>();
+  const Eigen::Matrix<double, 6, kSize> h = measurement();
+  const Eigen::Matrix<double, 6, kSize> seen = h * covariance_;
+  Eigen::Matrix<double, 6, 6> innovation_covariance = seen * h.transpose();
   innovation_covariance.diagonal() += measurement_variance_;
   const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factor(innovation_covariance);
-  const Eigen::Matrix<double, 6, kSize> gain = factor.solve(covariance_.topRows<6>());
+  const Eigen::Matrix<double, 6, kSize> gain = factor.solve(seen);
   const Eigen::Matrix<double, kSize, 1> step = gain.transpose() * innovation(measured);
-  const Covariance explained = gain.transpose() * covariance_.topRows<6>();
+  const Covariance explained = gain.transpose() * seen;
   covariance_ -= explained;
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+  wave_ += step.segment<3>(kWave);
+  wave_rate_ += step.segment<3>(kWaveRate);
   state_ += step.head<6>();
   if (options_.enabled) {
     disturbance_.force_n += step.segment<2>(kForce);

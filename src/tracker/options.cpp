@@ -34,6 +34,10 @@ Status readEstimator(config::Section section, EstimatorOptions& o) {
   section.read("current_walk_mps", o.current_walk_mps, kNotNegative);
   section.read("wind_walk_m2ps2", o.wind_walk_m2ps2, kNotNegative);
   section.read("moment_walk_in_wind_nm", o.moment_walk_in_wind_nm, kNotNegative);
+  section.read("wave_velocity_mps", o.wave_velocity_mps, kNotNegative);
+  section.read("wave_yaw_rate_radps", o.wave_yaw_rate_radps, kNotNegative);
+  section.read("wave_frequency_radps", o.wave_frequency_radps, kPositive);
+  section.read("wave_damping", o.wave_damping, kPositive);
   section.read("force_sigma_n", o.force_sigma_n, kNotNegative);
   section.read("moment_sigma_nm", o.moment_sigma_nm, kNotNegative);
   section.read("current_sigma_mps", o.current_sigma_mps, kNotNegative);

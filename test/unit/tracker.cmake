@@ -6,3 +6,5 @@ otter_nav_test(unit_tracker_csv_path
     ${CMAKE_CURRENT_LIST_DIR}/tracker/csv_path_test.cpp
     ${PROJECT_SOURCE_DIR}/benchmark/tracking/csv_path.cpp
   ROOMS base vessel)
+otter_nav_test(unit_tracker_estimator SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/estimator_test.cpp
+               ROOMS tracker)

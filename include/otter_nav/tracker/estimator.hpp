@@ -35,9 +35,14 @@ class Estimator {
  private:
   // The state, then force x, y, moment, current x, y, wind x, y. The wind's state is q = |w| w:
   // the loads are of the first degree in it, so it has no dead spot in calm air.
-  static constexpr int kForce = 6, kMoment = 8, kCurrent = 9, kWind = 11, kSize = 13;
+  static constexpr int kForce = 6, kMoment = 8, kCurrent = 9, kWind = 11;
+  // Motion with the waves, x, y, psi, and its rates: an oscillator each, driven by noise (Fossen
+  // 2021, section 13.3). It is measured and not steered against.
+  static constexpr int kWave = 13, kWaveRate = 16, kSize = 19;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
 
+  // What odometry shows of the state vector.
+  [[nodiscard]] Eigen::Matrix<double, 6, kSize> measurement() const;
   [[nodiscard]] Covariance transition(const vessel::Thrusts& thrusts, double dt_s) const;
   // Of surge, sway and yaw acceleration over q.
   [[nodiscard]] Eigen::Matrix<double, 3, 2> fromWind() const;
@@ -49,6 +54,8 @@ class Estimator {
   vessel::State state_ = vessel::State::Zero();
   vessel::Disturbance disturbance_;
   Eigen::Vector2d wind_pressure_ = Eigen::Vector2d::Zero();  // q, m^2/s^2
+  Eigen::Vector3d wave_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d wave_rate_ = Eigen::Vector3d::Zero();
   Covariance covariance_ = Covariance::Zero();
   vessel::State measurement_variance_;
   Eigen::Matrix<double, kSize, 1> walk_variance_;

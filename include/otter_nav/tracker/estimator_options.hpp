@@ -21,6 +21,12 @@ struct EstimatorOptions {
   // For vessels whose model knows wind loads: of |w| w, and of the moment that these leave.
   double wind_walk_m2ps2 = 10.0;
   double moment_walk_in_wind_nm = 2.0;
+  // Motion at the waves' frequency that the propellers should not chase: standard deviations of its
+  // velocities (0: none is told apart), the middle of its band, its relative damping.
+  double wave_velocity_mps = 0.0;
+  double wave_yaw_rate_radps = 0.0;
+  double wave_frequency_radps = 2.0;
+  double wave_damping = 0.2;
   // What is not known of them at the start.
   double force_sigma_n = 10.0;
   double moment_sigma_nm = 5.0;

@@ -1,0 +1,120 @@
+// The estimator alone, fed with what the model does under known disturbances.
+#include "otter_nav/tracker/estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "otter_nav/base/rk4.hpp"
+#include "otter_nav/tracker/options.hpp"
+
+namespace otter_nav::tracker {
+namespace {
+
+using vessel::kPsi;
+using vessel::kSurge;
+using vessel::kYawRate;
+
+constexpr double kStepS = 0.01;
+
+EstimatorOptions shipped() {
+  const auto options = loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml");
+  EXPECT_TRUE(options) << options.error().message;
+  return options->estimator;
+}
+
+// A vessel on a slow turn; `wave_m` of motion east and west with the waves on top of it.
+struct Sea {
+  vessel::Parameters vessel;
+  vessel::Disturbance disturbance;
+  vessel::State x = vessel::State::Zero();
+  double t = 0.0;
+  double wave_m = 0.0;
+  double wave_radps = 2.0;
+
+  vessel::Thrusts thrusts() const { return {20.0, 24.0}; }
+  void advance() {
+    x = rk4Step(
+        [&](double, const vessel::State& s) {
+          return vessel::stateDerivative(s, thrusts(), vessel.manoeuvring, vessel.thrusters,
+                                         disturbance);
+        },
+        t, x, kStepS);
+    t += kStepS;
+  }
+  vessel::State measured() const {
+    vessel::State m = x;
+    const double rate = wave_m * wave_radps * std::cos(wave_radps * t);
+    m[0] += wave_m * std::sin(wave_radps * t);
+    m[kSurge] += std::cos(x[kPsi]) * rate;
+    m[vessel::kSway] -= std::sin(x[kPsi]) * rate;
+    return m;
+  }
+};
+
+TEST(Estimator, FindsForceAndMoment) {
+  Sea sea;
+  sea.disturbance.force_n = {6.0, -9.0};
+  sea.disturbance.moment_nm = 2.0;
+  Estimator estimator(shipped(), sea.vessel.manoeuvring, sea.vessel.thrusters);
+  estimator.reset(sea.measured());
+  for (int i = 0; i < 6000; ++i) {
+    sea.advance();
+    estimator.predict(sea.thrusts(), kStepS);
+    estimator.update(sea.measured());
+  }
+  EXPECT_LT((estimator.disturbance().force_n - sea.disturbance.force_n).norm(), 0.1);
+  EXPECT_NEAR(estimator.disturbance().moment_nm, 2.0, 0.05);
+}
+
+// The wind turns force and moment with the heading; a vessel that knows its wind loads finds it.
+TEST(Estimator, FindsTheWindOfAVesselThatKnowsItsLoads) {
+  Sea sea;
+  sea.vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  sea.vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  sea.vessel.manoeuvring.wind_yaw_kg = -0.3;
+  sea.disturbance.wind_mps = {3.0, -5.0};
+  Estimator estimator(shipped(), sea.vessel.manoeuvring, sea.vessel.thrusters);
+  estimator.reset(sea.measured());
+  for (int i = 0; i < 12000; ++i) {
+    sea.advance();
+    estimator.predict(sea.thrusts(), kStepS);
+    estimator.update(sea.measured());
+  }
+  EXPECT_LT((estimator.disturbance().wind_mps - sea.disturbance.wind_mps).norm(), 0.5);
+  EXPECT_LT(estimator.disturbance().force_n.norm(), 2.5);  // the prior's share
+}
+
+// Largest error of the estimated velocity against the motion without its waves.
+double worstVelocityError(const EstimatorOptions& options) {
+  Sea sea;
+  sea.wave_m = 0.1;
+  Estimator estimator(options, sea.vessel.manoeuvring, sea.vessel.thrusters);
+  estimator.reset(sea.measured());
+  double worst = 0.0;
+  for (int i = 0; i < 8000; ++i) {
+    sea.advance();
+    estimator.predict(sea.thrusts(), kStepS);
+    estimator.update(sea.measured());
+    if (i > 4000) {
+      const vessel::State error = estimator.state() - sea.x;
+      worst = std::max(worst, error.segment<2>(kSurge).norm());
+    }
+  }
+  return worst;
+}
+
+TEST(Estimator, LeavesWaveMotionAside) {
+  EstimatorOptions options = shipped();
+  options.wave_velocity_mps = 0.0;
+  const double without = worstVelocityError(options);
+  options.wave_velocity_mps = 0.15;
+  options.wave_frequency_radps = 2.0;
+  options.wave_damping = 0.1;
+  const double with = worstVelocityError(options);
+  EXPECT_GT(without, 0.05);
+  EXPECT_LT(with, 0.25 * without);
+}
+
+}  // namespace
+}  // namespace otter_nav::tracker
