@@ -49,6 +49,9 @@ EndOptions endsOf(const Manner& manner, const GlobalOptions& options,
   ends.limits.thrust_share = thrust_share;
   ends.limits.yaw_rate_max_radps = options.spin_rate_max_radps;
   ends.limits.drift_mps = options.drift_mps;
+  ends.limits.surge_ramp_s = options.surge_ramp_s;
+  ends.limits.brake_ramp_s = options.brake_ramp_s;
+  ends.limits.astern_share = options.astern_share;
   ends.turn_least_rad = options.spin_angle_rad;
   ends.careful = manner.careful;
   const double top =

@@ -13,9 +13,6 @@ namespace {
 constexpr double kLeastTurnRad = 1e-3;
 constexpr double kStraightLaunchS = 0.4;
 constexpr double kLaunchShare = 0.95;     // of the full force, so that the way may turn at once
-constexpr double kSurgeRampS = 0.3;       // to full ahead, and from full astern to nothing
-constexpr double kBrakeRampS = 0.4;       // from ahead to full astern
-constexpr double kAsternShare = 0.9;      // of the full force, while braking
 constexpr double kAheadShare = 0.5;       // of the full force, before that
 constexpr double kDriftForceShare = 0.4;  // of full astern, at most, while turning at the goal
 constexpr double kLongAgoS = -1e3;
@@ -139,7 +136,7 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
       turn = std::move(loose.profile);
       ahead_s = loose.moment_ends_s;
     }
-    ramp = {ahead_s, ahead_s + kSurgeRampS, 0.0, most};
+    ramp = {ahead_s, ahead_s + limits.surge_ramp_s, 0.0, most};
     end = ramp.to_s;
   }
   const Glide glide(vessel.paper, turn ? &*turn : nullptr, {ramp});
@@ -162,7 +159,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
                   double speed_mps, const vessel::Parameters& vessel,
                   const ManoeuvreLimits& limits) {
   const Thrust thrust(vessel, limits);
-  const double brake_n = kAsternShare * thrust.astern_n;
+  const double brake_n = limits.astern_share * thrust.astern_n;
   const double turn_left = std::abs(turn_rad);
   std::optional<TurnProfile> turn;
   std::vector<SurgeRamp> ramps;
@@ -175,7 +172,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
     end_s = turn->end();
     // The moment rises when the force has nearly gone.
     const double late = drift_n > 0.0 ? limits.ramp_s : 0.0;
-    braked_s = late - kSurgeRampS;
+    braked_s = late - limits.surge_ramp_s;
     ramps.push_back({braked_s, late, -brake_n, -drift_n});
   } else {
     ramps.push_back({kLongAgoS, kLongAgoS, -brake_n, -brake_n});
@@ -189,11 +186,11 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   const double brakes_s = vessel.paper.m1_kg / vessel.paper.d1_kgps *
                           std::log(std::max((speed_mps + slip) / (ahead + slip), 1.0));
   back.reach(braked_s - brakes_s);
-  const double begin_s = braked_s - brakes_s - kBrakeRampS;
+  const double begin_s = braked_s - brakes_s - limits.brake_ramp_s;
   if (!turn) {
     glide.clearRamps();
   }
-  glide.addFirst({begin_s, begin_s + kBrakeRampS, kAheadShare * thrust.ahead_n, -brake_n});
+  glide.addFirst({begin_s, begin_s + limits.brake_ramp_s, kAheadShare * thrust.ahead_n, -brake_n});
   back.reach(begin_s);
 
   const bool left = turn_rad >= 0.0;
@@ -207,9 +204,10 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
 
 double arrivalLength(double speed_mps, const vessel::Parameters& vessel,
                      const ManoeuvreLimits& limits) {
-  const double braking =
-      2.0 * limits.thrust_share * vessel.thrusters.astern_max_n / vessel.paper.m1_kg;
-  return speed_mps * speed_mps / (2.0 * braking) + speed_mps * kBrakeRampS + limits.drift_mps;
+  const double braking = limits.astern_share * 2.0 * limits.thrust_share *
+                         vessel.thrusters.astern_max_n / vessel.paper.m1_kg;
+  return speed_mps * speed_mps / (2.0 * braking) + speed_mps * limits.brake_ramp_s +
+         limits.drift_mps;
 }
 
 }  // namespace otter_nav::optimizer

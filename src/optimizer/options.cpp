@@ -28,6 +28,9 @@ Result<GlobalOptions> readGlobalOptions(config::Section section) {
   section.read("spin_rate_max_radps", o.spin_rate_max_radps, kYawRate);
   section.read("spin_angle_rad", o.spin_angle_rad, {0.0, 3.2});
   section.read("drift_mps", o.drift_mps, {0.0, 5.0});
+  section.read("surge_ramp_s", o.surge_ramp_s, {0.15, 5.0});
+  section.read("brake_ramp_s", o.brake_ramp_s, {0.15, 5.0});
+  section.read("astern_share", o.astern_share, kShare);
   section.read("arrival_speed_share", o.arrival_speed_share, kShare);
   section.read("dilation_max", o.dilation_max, {0.0, 0.5});
   section.read("piece_length_m", o.piece_length_m, {1.0, 50.0});

@@ -20,9 +20,12 @@ namespace otter_nav::optimizer {
 struct ManoeuvreLimits {
   double thrust_share = 0.94;  // of each thruster's limits
   double yaw_rate_max_radps = 1.8;
-  double ramp_s = 0.12;    // in which the moment goes from one value to the next
-  double drift_mps = 1.2;  // speed left when the arrival's turn begins; 0: it turns at rest
-  bool settle = false;     // the launch ends its turn before it goes ahead
+  double ramp_s = 0.12;       // in which the moment goes from one value to the next
+  double drift_mps = 1.2;     // speed left when the arrival's turn begins; 0: it turns at rest
+  double surge_ramp_s = 0.3;  // to full ahead, and from full astern to nothing
+  double brake_ramp_s = 0.4;  // from ahead to full astern
+  double astern_share = 0.9;  // of the force, while braking
+  bool settle = false;        // the launch ends its turn before it goes ahead
 };
 
 struct Manoeuvre {

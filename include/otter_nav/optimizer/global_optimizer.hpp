@@ -40,6 +40,9 @@ struct GlobalOptions {
   double spin_rate_max_radps = 1.8;
   double spin_angle_rad = 0.4;       // turns at the goal wider than this are spun where it stops
   double drift_mps = 0.3;            // speed left when that begins
+  double surge_ramp_s = 0.3;         // to full ahead at the start, and at the stop to nothing
+  double brake_ramp_s = 0.4;         // from ahead to astern
+  double astern_share = 0.9;         // of the force, while braking
   double arrival_speed_share = 0.6;  // of the speed aimed at, when the brake begins
   // A trajectory that asks for this share too much of a thruster is slowed down to suit.
   double dilation_max = 0.06;
