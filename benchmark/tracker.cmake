@@ -10,3 +10,10 @@ otter_nav_program(nmpc_benchmark
     ${CMAKE_CURRENT_LIST_DIR}/nmpc_benchmark.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracking/nmpc_cases.cpp
   ROOMS tracker tracker_oracle config)
+otter_nav_program(tracking_limit
+  SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/tracking_limit.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracking/csv_path.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracking/foresight.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracking/paths.cpp
+  ROOMS tracker plant config)
