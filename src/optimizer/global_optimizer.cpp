@@ -64,6 +64,20 @@ class GlobalOptimizer::Solver {
     return lastResort(way);
   }
 
+  Result<Optimized> stopAndSpin(const map::DistanceField& field,
+                                const std::vector<Eigen::Vector2d>& way, const Boundary& start,
+                                const Boundary& goal, double clearance_m) const {
+    const CheckOptions check = checkOptions(clearance_m);
+    Optimized plain;
+    plain.trajectory = StopAndSpin(vessel_, spinLimits(), check).follow(way, start, goal);
+    plain.verification = verify(plain.trajectory, field, vessel_, start, goal, check);
+    plain.last_resort = true;
+    if (!plain.verification.ok) {
+      return failure("following the way from stop to stop failed: " + plain.verification.reason);
+    }
+    return plain;
+  }
+
  private:
   static constexpr double kSpinRateMax = 2.0;
 
@@ -210,16 +224,13 @@ class GlobalOptimizer::Solver {
     if (!atRest(*start_)) {
       return failure("optimisation from a moving start failed: " + reason);
     }
-    StopAndSpin plain(vessel_, spinLimits(), check_);
-    result_.trajectory = plain.follow(way, *start_, *goal_);
-    result_.verification = verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
-    result_.last_resort = true;
-    if (!result_.verification.ok) {
-      return failure(
-          "optimisation failed: " + reason +
-          "; following the way from stop to stop failed: " + result_.verification.reason);
+    const int iterations = result_.iterations;
+    auto plain = stopAndSpin(*field_, way, *start_, *goal_, check_.clearance_m);
+    if (!plain) {
+      return failure("optimisation failed: " + reason + "; " + plain.error().message);
     }
-    return std::move(result_);
+    plain->iterations = iterations;
+    return plain;
   }
 
   GlobalOptions options_;
@@ -266,6 +277,13 @@ Result<Optimized> GlobalOptimizer::optimize(const map::DistanceField& field,
   }
   way.push_back(goal.flat.position);
   return solver_->run(field, way, start, goal, budget, clearance_m);
+}
+
+Result<Optimized> GlobalOptimizer::stopAndSpin(const map::DistanceField& field,
+                                               const std::vector<Eigen::Vector2d>& way,
+                                               const Boundary& start, const Boundary& goal,
+                                               double clearance_m) {
+  return solver_->stopAndSpin(field, way, start, goal, clearance_m);
 }
 
 CheckOptions GlobalOptimizer::checkOptions(double clearance_m) const {

@@ -9,6 +9,7 @@ namespace otter_nav::optimizer {
 namespace {
 
 constexpr double kSamePointM = 0.02;
+constexpr double kStandstillS = 0.1;  // a trajectory that has nothing to do lasts this long
 constexpr double kSameHeadingRad = 1e-9;
 
 // Peaks over [0, 1] of the degree-7 step s(x) = 35 x^4 - 84 x^5 + 70 x^6 - 20 x^7 (rest to rest,
@@ -67,6 +68,9 @@ trajectory::Trajectory StopAndSpin::follow(const std::vector<Eigen::Vector2d>& w
     }
   }
   turnTo(goal.psi_rad);
+  if (pieces.empty()) {
+    pieces.push_back(trajectory::spinPiece(at, psi, psi, kStandstillS));
+  }
   return trajectory::Trajectory(std::move(pieces));
 }
 

@@ -52,7 +52,7 @@ Plan Planner::Pipeline::plan(const map::DistanceField& field, const Query& query
   run.goal.psi_rad = query.goal_psi_rad;
   run.samples_left = termination.max_iterations;
   const double began = run.now();
-  if (checkEnds(run) && findGuide(run)) {
+  if (checkEnds(run) && !planNearby(run) && findGuide(run)) {
     tryWarmStart(run);
     prepareSearch(run);
     const int attempts = std::max(options_.max_attempts, options_.improve_attempts + 1);
@@ -64,6 +64,23 @@ Plan Planner::Pipeline::plan(const map::DistanceField& field, const Query& query
   conclude(run);
   run.plan.figures.total_ms = 1e3 * (run.now() - began);
   return std::move(run.plan);
+}
+
+// A goal within reach of the hull: straight there, turning on the spot.
+bool Planner::Pipeline::planNearby(Run& run) {
+  constexpr double kNearM = 0.3;
+  if (!optimizer::atRest(run.start) ||
+      (run.goal.flat.position - run.start.flat.position).norm() > kNearM) {
+    return false;
+  }
+  const double began = run.now();
+  auto nearby = optimizer_.stopAndSpin(run.field, {run.start.flat.position, run.goal.flat.position},
+                                       run.start, run.goal, run.clearance_m);
+  run.plan.figures.optimize_ms += 1e3 * (run.now() - began);
+  if (nearby) {
+    accept(run, std::move(nearby->trajectory), false);
+  }
+  return nearby.has_value();
 }
 
 bool Planner::Pipeline::done(const Run& run) const {

@@ -48,6 +48,7 @@ class Planner::Pipeline {
   [[nodiscard]] bool done(const Run& run) const;
   void attemptOnce(Run& run, int attempt);
   bool checkEnds(Run& run) const;
+  bool planNearby(Run& run);
   bool findGuide(Run& run);
   void prepareSearch(Run& run);
   void placeRoots(Run& run, Roots roots);

@@ -103,6 +103,13 @@ class GlobalOptimizer {
                                            const Boundary& start, const Boundary& goal,
                                            const Budget& budget, double clearance_m = 0.0);
 
+  // From rest, straight from point to point of a clear polyline, stopping at each to turn: slow,
+  // but sound wherever the hull may turn.
+  [[nodiscard]] Result<Optimized> stopAndSpin(const map::DistanceField& field,
+                                              const std::vector<Eigen::Vector2d>& way,
+                                              const Boundary& start, const Boundary& goal,
+                                              double clearance_m = 0.0);
+
   // What results are verified against (for a planner that verifies what it got elsewhere).
   [[nodiscard]] CheckOptions checkOptions(double clearance_m = 0.0) const;
 

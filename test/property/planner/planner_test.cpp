@@ -102,6 +102,37 @@ TEST(Planner, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kGoalBlocked);
 }
 
+TEST(Planner, GoesNoFartherThanItMustToAGoalNearby) {
+  const map::DistanceField field = islands();
+  Planner planner(Options{}, vessel::Parameters{});
+  for (const double distance : {0.0, 0.1, 0.29}) {
+    for (const double turn : {0.0, -2.5}) {
+      Query query = across();
+      query.goal = query.start.position + Eigen::Vector2d(0.0, distance);
+      query.goal_psi_rad = query.start_psi_rad + turn;
+      const Plan plan = planner.plan(field, query, byIterations());
+      ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+      EXPECT_TRUE(verifyPlan(plan, field, query).ok) << verifyPlan(plan, field, query).reason;
+      EXPECT_NEAR(plan.figures.length_m, distance, 1e-6);
+    }
+  }
+}
+
+// Turning and thrust overlap at both ends: turned half round at both, 60 m take less than at 3 m/s.
+TEST(Planner, WastesLittleTimeTurningAtTheEnds) {
+  const map::DistanceField field(test::openGrid(), map::DistanceFieldOptions{});
+  Planner planner(Options{}, vessel::Parameters{});
+  for (const double psi : {0.0, 1.6, 3.1}) {
+    Query query = across();
+    query.start_psi_rad = psi;
+    query.goal_psi_rad = -psi;
+    const Plan plan = planner.plan(field, query, byIterations());
+    ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+    EXPECT_GT(plan.figures.length_m / plan.figures.duration_s, 3.0) << psi;
+    EXPECT_LT(plan.figures.length_m, 65.0) << psi;
+  }
+}
+
 TEST(Planner, SaysThatThereIsNoWay) {
   const map::DistanceField wall = test::withObstacle(0.0, -40.0, 2.0, 80.0);
   Planner planner(Options{}, vessel::Parameters{});
