@@ -24,6 +24,7 @@ std::string place(const std::string& stream, const char* unit, std::size_t numbe
   return out.str();
 }
 
+// A record that is sent again, stamp and values alike, does no harm.
 template <typename Record, typename Values>
 Status checkStream(const std::vector<Record>& records, const Recording& recording,
                    const std::string& stream, Values values, const char* const* names,
@@ -42,8 +43,9 @@ Status checkStream(const std::vector<Record>& records, const Recording& recordin
         return failure(at + ": " + names[k] + " is not a finite number");
       }
     }
-    if (i > 0 && (stamp_s < records[i - 1].stamp_s ||
-                  (!equal_stamps && stamp_s == records[i - 1].stamp_s))) {
+    const bool again = i > 0 && stamp_s == records[i - 1].stamp_s;
+    const bool stands_still = again && !equal_stamps && row != values(records[i - 1]);
+    if (i > 0 && (stamp_s < records[i - 1].stamp_s || stands_still)) {
       return failure(at + ": time goes backwards or stands still, the stamp before was " +
                      std::to_string(records[i - 1].stamp_s) + " s");
     }
@@ -75,7 +77,9 @@ Status check(const Recording& recording) {
 std::size_t strideOf(const std::vector<OdometryRecord>& records, double interval_s) {
   std::vector<double> spacings;
   for (std::size_t i = 1; i < records.size(); ++i) {
-    spacings.push_back(records[i].stamp_s - records[i - 1].stamp_s);
+    if (records[i].stamp_s > records[i - 1].stamp_s) {
+      spacings.push_back(records[i].stamp_s - records[i - 1].stamp_s);
+    }
   }
   if (spacings.empty()) {
     return 1;
@@ -112,7 +116,8 @@ DataSet samplesOf(const std::vector<OdometryRecord>& records, double from_s, dou
     count = 0;
   };
   for (const OdometryRecord& record : records) {
-    if (record.stamp_s < from_s || record.stamp_s > to_s) {
+    const bool again = !data.samples.empty() && record.stamp_s == last_s;
+    if (record.stamp_s < from_s || record.stamp_s > to_s || again) {
       continue;
     }
     if (record.stamp_s - last_s > options.max_gap_s) {

@@ -58,7 +58,8 @@ struct DataOptions {
 
 // Checks a recording (finite values, time going forward, both streams there and overlapping, long
 // enough) and puts both streams on stamps of the odometry. Errors name the stream and the row or
-// stamp. Acting thrust follows the commands with the thrusters' lag.
+// stamp. A message sent again is skipped. Acting thrust follows the commands with the thrusters'
+// lag.
 [[nodiscard]] Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
                                        double thrust_lag_s);
 

@@ -72,6 +72,33 @@ TEST(Assemble, NamesTheStampWhereTimeGoesBackwards) {
   expectNames(errorOf(recording), "/thruster_command, message 21");
 }
 
+TEST(Assemble, SkipsWhatIsSentTwiceButNotTwoStatesOfOneTime) {
+  Recording recording = steady(60.0, 0.1);
+  const Result<DataSet> once = assemble(recording, DataOptions(), 0.0);
+  ASSERT_TRUE(once) << once.error().message;
+  const auto place = recording.odometry.begin() + 20;
+  recording.odometry.insert(place, *place);
+  recording.odometry.push_back(recording.odometry.back());
+  const Result<DataSet> twice = assemble(recording, DataOptions(), 0.0);
+  ASSERT_TRUE(twice) << twice.error().message;
+  ASSERT_EQ(twice->samples.size(), once->samples.size());
+  EXPECT_EQ(twice->samples[21].time_s, once->samples[21].time_s);
+  recording.odometry[21].state[vessel::kX] = 1.0;
+  expectNames(errorOf(recording), "/odom, message 22 (stamp 2 s): time goes backwards or stands");
+}
+
+TEST(Assemble, ThinsFastOdometry) {
+  DataOptions options;
+  options.sample_interval_s = 0.05;
+  const Result<DataSet> data = assemble(steady(60.0, 0.01), options, 0.0);
+  ASSERT_TRUE(data) << data.error().message;
+  ASSERT_GT(data->samples.size(), 1000U);
+  EXPECT_NEAR(data->samples[1].time_s - data->samples[0].time_s, 0.05, 1e-9);
+  const Result<DataSet> slow = assemble(steady(60.0, 0.06), options, 0.0);
+  ASSERT_TRUE(slow) << slow.error().message;
+  EXPECT_NEAR(slow->samples[1].time_s - slow->samples[0].time_s, 0.06, 1e-9);
+}
+
 TEST(Assemble, SplitsAtGapsAndUnwrapsTheHeading) {
   Recording recording = steady(80.0, 0.1);
   for (std::size_t i = 0; i < recording.odometry.size(); ++i) {
