@@ -20,7 +20,7 @@ struct SearchOptions {
   int max_nodes = 2048;        // a tree
   double edge_max_m = 30.0;    // between two states
   bool repair_edges = true;    // the paper's local optimisation
-  int repairs_per_sample = 2;  // and tree
+  int repairs_per_sample = 1;  // and tree
   EdgeLimits limits;
 };
 constexpr int kMaxNeighbours = 32;
