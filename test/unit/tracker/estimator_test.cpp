@@ -13,7 +13,6 @@ namespace {
 
 using vessel::kPsi;
 using vessel::kSurge;
-using vessel::kYawRate;
 
 constexpr double kStepS = 0.01;
 
