@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kSamePointM = 0.02;
 constexpr double kStandstillS = 0.1;  // a trajectory that has nothing to do lasts this long
+constexpr double kLeastLegS = 1.2;    // a shorter leg would jerk the hull for nothing
 constexpr double kSameHeadingRad = 1e-9;
 
 // Peaks over [0, 1] of the degree-7 step s(x) = 35 x^4 - 84 x^5 + 70 x^6 - 20 x^7 (rest to rest,
@@ -28,7 +29,7 @@ void StopAndSpin::appendStraight(const Eigen::Vector2d& from, const Eigen::Vecto
   const vessel::PaperModel& m = vessel_.paper;
   const double force = 0.95 * check_.thrust_share * 2.0 *
                        std::min(vessel_.thrusters.ahead_max_n, vessel_.thrusters.astern_max_n);
-  double duration = kPeakSpeed * length / (0.95 * check_.speed_max_mps);
+  double duration = std::max(kLeastLegS, kPeakSpeed * length / (0.95 * check_.speed_max_mps));
   // d1 peak_v / T + m1 peak_a / T^2 <= force
   const double b = m.d1_kgps * kPeakSpeed * length;
   const double c = m.m1_kg * kPeakAcceleration * length;

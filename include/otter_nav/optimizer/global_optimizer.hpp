@@ -46,7 +46,7 @@ struct GlobalOptions {
   double arrival_speed_share = 0.6;  // of the speed aimed at, when the brake begins
   // A trajectory that asks for this share too much of a thruster is slowed down to suit.
   double dilation_max = 0.06;
-  double piece_length_m = 10.0;
+  double piece_length_m = 17.0;
   // Weights: of a second, of a metre of way, and the paper's.
   double weight_time = 1.0;
   double weight_length = 0.1;
@@ -57,8 +57,8 @@ struct GlobalOptions {
   double weight_smooth_first = 0.1;  // ls then
   double weight_growth = 1.5;        // of lc and ld from round to round where they fail
   int rounds = 5;
-  int quicken_rounds = 4;       // after the first sound result
-  double quicken_growth = 1.6;  // of weight_time, in each of them
+  int quicken_rounds = 2;       // after the first sound result
+  double quicken_growth = 2.0;  // of weight_time, in each of them
   int iterations_per_round = 12;
 };
 
