@@ -152,11 +152,30 @@ double RtiSolver::rollOutClipped(bool& clipped) {
   return cost + costOf(state_costs_[options_.stages], dx_[options_.stages]);
 }
 
+// From the better of two starts, the feedback of the last recursion clipped and the plan as it is:
+// the cost there.
+double RtiSolver::startProjectedNewton() {
+  const int n = options_.stages;
+  bool clipped = false;
+  const double stepped = rollOutClipped(clipped);
+  std::copy(&du_[0][0], &du_[0][0] + 2 * n, &last_du_[0][0]);
+  for (int k = 0; k < n; ++k) {
+    for (int i = 0; i < 2; ++i) {
+      du_[k][i] = std::clamp(0.0, boundOf(k, i, Hold::kLower), boundOf(k, i, Hold::kUpper));
+    }
+  }
+  const double kept = rollOutThrusts();
+  if (kept < stepped) {
+    return kept;
+  }
+  std::copy(&last_du_[0][0], &last_du_[0][0] + 2 * n, &du_[0][0]);
+  return rollOutThrusts();
+}
+
 SolverStatus RtiSolver::iterateProjectedNewton(const vessel::State& measured) {
   const int n = options_.stages;
+  double cost = startProjectedNewton();
   bool clipped = true;
-  double cost = rollOutClipped(clipped);
-  clipped = true;  // its holds need not be these
   for (int iteration = 0; iteration < options_.projected_newton_iterations; ++iteration) {
     ++iterations_;
     differentiateThrusts();

@@ -102,6 +102,7 @@ class RtiSolver {
   [[nodiscard]] int reviseHolds();
   SolverStatus iterateActiveSet(const vessel::State& measured);
   SolverStatus iterateProjectedNewton(const vessel::State& measured);
+  double startProjectedNewton();
   // dx_ from du_; the cost.
   double rollOutThrusts();
   double rollOutClipped(bool& clipped);
