@@ -61,7 +61,13 @@ void expectSound(const Manoeuvre& manoeuvre, const vessel::Parameters& vessel,
   for (std::size_t i = 0; i < manoeuvre.pieces.size(); ++i) {
     const double duration = manoeuvre.pieces[i].duration_s;
     for (int k = 0; k <= 20; ++k) {
-      const auto thrusts = trajectory.sampleIn(i, duration * k / 20, vessel).thrusts;
+      const trajectory::Sample sample = trajectory.sampleIn(i, duration * k / 20, vessel);
+      const vessel::Thrusts& thrusts = sample.thrusts;
+      // No force from the side: m1 z'' + d2 z' has no part across the bow.
+      const Eigen::Vector2d w = vessel.paper.m1_kg * sample.flat.acceleration +
+                                vessel.paper.d2_kgps * sample.flat.velocity;
+      const double psi = sample.state[vessel::kPsi];
+      EXPECT_LT(std::abs(std::cos(psi) * w.y() - std::sin(psi) * w.x()), 0.05);
       EXPECT_LT(thrusts.maxCoeff(), 1.005 * limits.thrust_share * vessel.thrusters.ahead_max_n);
       EXPECT_GT(thrusts.minCoeff(), -1.005 * limits.thrust_share * vessel.thrusters.astern_max_n);
     }
