@@ -14,7 +14,7 @@ namespace otter_nav::planner {
 struct Options {
   double clearance_m = 0.8;         // obstacles grow by this; the hull's outline is kept clear too
   double clearance_margin_m = 0.1;  // beyond it in the trees, where there is room
-  double sigma = 1.0;               // cost of a second beside the squared jerk
+  double sigma = 10.0;              // cost of a second beside the squared jerk
   // Trees. Speeds are shares of the vessel's steady top speed, forces of both thrusters together.
   double speed_share = 0.96;         // of an edge, at most
   double force_share = 0.97;         // of an edge, at most
