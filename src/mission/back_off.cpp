@@ -49,20 +49,16 @@ double outlineClearance(const Eigen::Vector2d& position, double psi_rad, const v
   return least;
 }
 
-// The hull keeps 0.1 m, or what it has where that is less.
 bool keepsClear(const Trajectory& way, double psi_rad, const vessel::Hull& hull,
-                const map::DistanceField& field) {
-  constexpr double kClearM = 0.1;
+                const map::DistanceField& field, double least) {
   constexpr double kStepS = 0.05;
-  const double least =
-      std::min(kClearM, outlineClearance(way.flat(0.0).position, psi_rad, hull, field));
-  for (double t = kStepS; t < way.duration() + kStepS; t += kStepS) {
+  for (double t = 0.0; t < way.duration() + kStepS; t += kStepS) {
     const Eigen::Vector2d position = way.flat(std::min(t, way.duration())).position;
     if (outlineClearance(position, psi_rad, hull, field) < least) {
       return false;
     }
   }
-  return least > 0.0;
+  return true;
 }
 
 }  // namespace
@@ -73,7 +69,9 @@ double turningRoom(const vessel::Hull& hull) {
 }
 
 std::optional<Trajectory> backOff(const vessel::State& state, const map::DistanceField& field,
-                                  const vessel::Parameters& vessel) {
+                                  const vessel::Parameters& vessel, double disturbance_n) {
+  constexpr double kClearM = 0.1;
+  const double drift_mps = disturbance_n / vessel.manoeuvring.sway_drag_kgps;
   const double room = turningRoom(vessel.hull);
   if (field.clearance(state.head<2>()) >= room) {
     return std::nullopt;
@@ -86,7 +84,8 @@ std::optional<Trajectory> backOff(const vessel::State& state, const map::Distanc
     for (const double side : {-1.0, 1.0}) {
       Trajectory way = straight(state, side * lengths * vessel.hull.length_m);
       if (field.clearance(way.flat(way.duration()).position) >= room &&
-          keepsClear(way, state[vessel::kPsi], vessel.hull, field) &&
+          keepsClear(way, state[vessel::kPsi], vessel.hull, field,
+                     kClearM + drift_mps * way.duration()) &&
           optimizer::verify(way, field, vessel, check).ok) {
         return way;
       }

@@ -10,6 +10,7 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   constexpr std::size_t kRungs = 4;
   section.read("plan_clearances_m", o.plan_clearances_m, kRungs, {0.3, 10.0});
   section.read("clearance_slack_m", o.clearance_slack_m, {0.0, 5.0});
+  section.read("critical_clearance_m", o.critical_clearance_m, {0.1, 10.0});
   section.read("planning_latency_s", o.planning_latency_s, {0.0, 5.0});
   section.read("planning_timeout_s", o.planning_timeout_s, {0.1, 600.0});
   section.read("retry_pause_s", o.retry_pause_s, {0.0, 60.0});
@@ -36,6 +37,11 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   if (!std::is_sorted(rungs.begin(), rungs.end(), std::greater<>())) {
     return failure(section.where() +
                    ": parameter 'plan_clearances_m' must fall from first to last");
+  }
+  if (o.critical_clearance_m > rungs.back()) {
+    return failure(section.where() +
+                   ": parameter 'critical_clearance_m' must not be above the last of "
+                   "'plan_clearances_m'");
   }
   if (o.thrust_share_min > o.thrust_share) {
     return failure(section.where() +

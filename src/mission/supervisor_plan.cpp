@@ -216,7 +216,8 @@ Orders Supervisor::tryBackingOff(double now_s, const std::string& why, const Sit
   if (!faultOf(now_s, situation).empty()) {
     return {};
   }
-  std::optional<trajectory::Trajectory> way = backOff(situation.state, field, vessel_);
+  std::optional<trajectory::Trajectory> way =
+      backOff(situation.state, field, vessel_, situation.disturbance_n);
   if (!way) {
     return {};
   }

@@ -49,7 +49,7 @@ Orders Supervisor::watchTheWay(double now_s, const Situation& situation,
     return settle(now_s, situation);
   }
   const double at = now_s - sailed_.start_time_s;
-  const double least = options_.plan_clearances_m.back();
+  const double least = options_.critical_clearance_m;
   const double slack = options_.clearance_slack_m;
   const Conflict ahead =
       firstConflict(sailed_.trajectory, at, field, std::max(least, sailed_clearance_m_ - slack));

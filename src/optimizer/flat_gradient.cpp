@@ -58,7 +58,7 @@ FlatGradient flatGradient(const vessel::FlatPoint& z, const vessel::Parameters& 
       (crossRow(t.w2) - 2.0 * t.along * r_w - 2.0 * t.r * t.w1 - 2.0 * t.yaw_acceleration * t.w) *
       inverse2;
   const Eigen::Vector2d q_w1 = (-2.0 * t.along * r_w1 - 2.0 * t.r * t.w) * inverse2;
-  const Eigen::Vector2d q_w2 = r_w1;
+  const Eigen::Vector2d& q_w2 = r_w1;
 
   g.yaw_rate_radps = t.r;
   g.yaw_rate.col(0) = m.d2_kgps * r_w;

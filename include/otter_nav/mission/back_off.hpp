@@ -13,10 +13,12 @@ namespace otter_nav::mission {
 [[nodiscard]] double turningRoom(const vessel::Hull& hull);
 
 // From rest at `state` straight astern, or else ahead, with the heading kept, to the nearest place
-// with room to turn; rest to rest. Verified like a plan, but for the clearance: the hull touches
-// nothing, that is all. None if there is room already, or no such place within a few lengths.
+// with room to turn; rest to rest. Verified like a plan, but for the clearance: the hull's
+// outline keeps 0.1 m, and what `disturbance_n` could set it aside meanwhile. None if there is room
+// already, or no such place within a few lengths.
 [[nodiscard]] std::optional<trajectory::Trajectory> backOff(const vessel::State& state,
                                                             const map::DistanceField& field,
-                                                            const vessel::Parameters& vessel);
+                                                            const vessel::Parameters& vessel,
+                                                            double disturbance_n);
 
 }  // namespace otter_nav::mission

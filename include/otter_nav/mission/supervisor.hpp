@@ -44,11 +44,15 @@ struct Goal {
 
 struct SupervisorOptions {
   // Clearances of the hull's centre to anything occupied, m, tried from the widest to the
-  // narrowest when a plan fails; the last is the least the mission ever sails with.
+  // narrowest when a plan fails; none is made with less than the last.
   std::vector<double> plan_clearances_m = {1.6, 1.2, 0.9, 0.8};
   // A sailed plan is replaced when its clearance shrinks by more than this, m: sensed outlines
   // wander by about a cell.
   double clearance_slack_m = 0.3;
+  // The vessel brakes for less than this on the way, m. Below the narrowest plan's clearance, for
+  // the same reason: to stop in a gap that is a cell narrower than it seemed is worse than to go
+  // through.
+  double critical_clearance_m = 0.65;
   // From a planning request to the start of its trajectory when the vessel moves, s.
   double planning_latency_s = 0.3;
   // Time without an answer after which a plan counts as failed, s.

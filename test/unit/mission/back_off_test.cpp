@@ -18,7 +18,7 @@ TEST(BackOff, GoesAsternFromAWallAhead) {
   test::block(grid, {1.3, -10.0}, {2.0, 10.0});
   const map::DistanceField field = test::fieldOf(grid);
   const vessel::Parameters otter;
-  const auto way = backOff(restAt(0.0, 0.0, 0.0), field, otter);
+  const auto way = backOff(restAt(0.0, 0.0, 0.0), field, otter, 0.0);
   ASSERT_TRUE(way);
   const trajectory::Sample end = way->sample(way->duration(), otter);
   EXPECT_LT(end.state.x(), -0.2);
@@ -31,7 +31,7 @@ TEST(BackOff, GoesAsternFromAWallAhead) {
 TEST(BackOff, GoesAheadWhereTheWallIsAstern) {
   map::OccupancyGrid grid = test::openWater();
   test::block(grid, {-2.0, -10.0}, {-1.3, 10.0});
-  const auto way = backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), vessel::Parameters{});
+  const auto way = backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), vessel::Parameters{}, 0.0);
   ASSERT_TRUE(way);
   EXPECT_GT(way->flat(way->duration()).position.x(), 0.2);
 }
@@ -39,10 +39,16 @@ TEST(BackOff, GoesAheadWhereTheWallIsAstern) {
 TEST(BackOff, StaysWhereThereIsRoomOrNoWayOut) {
   map::OccupancyGrid grid = test::openWater();
   const vessel::Parameters otter;
-  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter));
+  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, 0.0));
   test::block(grid, {-30.0, 0.9}, {30.0, 2.0});  // a canal along the heading
   test::block(grid, {-30.0, -2.0}, {30.0, -0.9});
-  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter));
+  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, 0.0));
+}
+
+TEST(BackOff, StaysWhereTheWindWouldSetItAgainstTheWall) {
+  map::OccupancyGrid grid = test::openWater();
+  test::block(grid, {1.3, -10.0}, {2.0, 10.0});
+  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), vessel::Parameters{}, 6.0));
 }
 
 TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
