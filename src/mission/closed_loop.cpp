@@ -227,8 +227,7 @@ ClosedLoop& ClosedLoop::operator=(ClosedLoop&&) noexcept = default;
 
 Result<ClosedLoop> ClosedLoop::create(const LoopOptions& options, Waters waters,
                                       const Mission& mission, std::uint64_t seed) {
-  Result<plant::Simulator> plant =
-      plant::Simulator::create(options.plant, waters.world, seed);
+  Result<plant::Simulator> plant = plant::Simulator::create(options.plant, waters.world, seed);
   if (!plant) {
     return failure(plant.error().message);
   }
