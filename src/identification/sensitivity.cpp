@@ -15,7 +15,7 @@ using vessel::State;
 
 namespace {
 
-vessel::Disturbance disturbanceOf(const Model& model) {
+vessel::Disturbance constantDisturbance(const Model& model) {
   vessel::Disturbance disturbance;
   disturbance.current_mps = model.current_mps;
   return disturbance;
@@ -30,8 +30,8 @@ struct Rates {
 void rates(const Model& model, const CoefficientMap& map, bool with_current,
            const vessel::Thrusts& thrusts, const State& state, const Sensitivity& sensitivity,
            Rates& out) {
-  const vessel::Linearization l =
-      vessel::linearize(state, thrusts, model.coefficients, model.thrusters, disturbanceOf(model));
+  const vessel::Linearization l = vessel::linearize(state, thrusts, model.coefficients,
+                                                    model.thrusters, constantDisturbance(model));
   out.state = l.derivative;
   // Nothing depends on the position, and the heading's rate is the yaw rate: only these columns.
   out.sensitivity.resize(kStateSize, sensitivity.cols());
@@ -113,7 +113,7 @@ void stepWithSensitivity(const Model& model, const CoefficientMap& map, bool wit
 }
 
 State step(const Model& model, const vessel::Thrusts& thrusts, double dt, const State& state) {
-  const vessel::Disturbance disturbance = disturbanceOf(model);
+  const vessel::Disturbance disturbance = constantDisturbance(model);
   return rk4Step(
       [&](double /*t*/, const State& x) {
         return vessel::stateDerivative(x, thrusts, model.coefficients, model.thrusters,

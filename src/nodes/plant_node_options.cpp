@@ -78,7 +78,7 @@ Result<PlantNodeSetup> readPlantNodeSetup(config::Section section) {
   if (!preset) {
     return failure(section.where() + ": parameter 'disturbance': " + preset.error().message);
   }
-  Result<plant::DisturbanceOptions> disturbance = plant::loadDisturbance(*preset);
+  Result<plant::EnvironmentOptions> disturbance = plant::loadDisturbance(*preset);
   if (!disturbance) {
     return failure(disturbance.error().message);
   }

@@ -29,7 +29,7 @@ struct BodyFrame {
 
 }  // namespace
 
-Environment::Environment(const DisturbanceOptions& options, std::uint64_t seed)
+Environment::Environment(const EnvironmentOptions& options, std::uint64_t seed)
     : options_(options),
       wind_(options.wind, stream(seed, kWindStream)),
       current_(options.current, stream(seed, kCurrentStream)),

@@ -84,7 +84,7 @@ Result<Options> loadOptions(const std::string& vessel, const std::string& plant_
   if (!options) {
     return options;
   }
-  const Result<DisturbanceOptions> disturbance = loadDisturbance(disturbance_yaml);
+  const Result<EnvironmentOptions> disturbance = loadDisturbance(disturbance_yaml);
   if (!disturbance) {
     return failure(disturbance.error().message);
   }

@@ -104,7 +104,7 @@ class Reader {
     int motion = 0;
     std::string missing;
     for (const Column& column : kColumns) {
-      const std::size_t place = placeOf(column.name);
+      const std::size_t place = columnIndex(column.name);
       const bool found = place < header_.size();
       places_.push_back(place);
       if (column.row >= 0 && column.row < kPropeller) {
@@ -122,7 +122,7 @@ class Reader {
     return {};
   }
 
-  [[nodiscard]] std::size_t placeOf(const std::string& name) const {
+  [[nodiscard]] std::size_t columnIndex(const std::string& name) const {
     std::size_t place = 0;
     while (place < header_.size() && header_[place] != name) {
       ++place;

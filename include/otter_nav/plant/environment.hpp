@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "otter_nav/plant/current.hpp"
-#include "otter_nav/plant/disturbance_options.hpp"
+#include "otter_nav/plant/environment_options.hpp"
 #include "otter_nav/plant/plant_model.hpp"
 #include "otter_nav/plant/truth.hpp"
 #include "otter_nav/plant/waves.hpp"
@@ -25,7 +25,7 @@ struct Conditions {
 class Environment {
  public:
   // Each source draws from its own stream, so switching one off leaves the others as they were.
-  Environment(const DisturbanceOptions& options, std::uint64_t seed);
+  Environment(const EnvironmentOptions& options, std::uint64_t seed);
 
   void advance(double dt_s);
   // Wind and current as advanced to; waves at `time_s` under a hull at this pose.
@@ -34,7 +34,7 @@ class Environment {
   [[nodiscard]] const WaveField& waves() const { return waves_; }
 
  private:
-  DisturbanceOptions options_;
+  EnvironmentOptions options_;
   Wind wind_;
   Current current_;
   WaveField waves_;

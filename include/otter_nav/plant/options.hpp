@@ -6,7 +6,7 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/plant/disturbance_options.hpp"
+#include "otter_nav/plant/environment_options.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::plant {
@@ -44,7 +44,7 @@ struct Options {
   PayloadOptions payload;
   OdometryOptions odometry;
   LidarOptions lidar;
-  DisturbanceOptions disturbance;
+  EnvironmentOptions disturbance;
   vessel::Hull hull;
 };
 

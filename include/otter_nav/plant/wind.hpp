@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "otter_nav/base/random.hpp"
-#include "otter_nav/plant/disturbance_options.hpp"
+#include "otter_nav/plant/environment_options.hpp"
 #include "otter_nav/plant/gauss_markov.hpp"
 
 namespace otter_nav::plant {

@@ -25,18 +25,18 @@ TEST(PlantOptions, ShippedFilesLoad) {
 }
 
 TEST(PlantOptions, PresetsAreWhatTheyAreNamedFor) {
-  const DisturbanceOptions none = loadDisturbance(preset("none")).value();
+  const EnvironmentOptions none = loadDisturbance(preset("none")).value();
   EXPECT_EQ(none.wind.speed_mps + none.wind.slow_deviation_mps + none.current.speed_mps +
                 none.current.slow_deviation_mps + none.waves.spectrum.significant_height_m +
                 none.force_n.norm(),
             0.0);
   EXPECT_TRUE(none.waves.components.empty());
 
-  const DisturbanceOptions force = loadDisturbance(preset("force10")).value();
+  const EnvironmentOptions force = loadDisturbance(preset("force10")).value();
   EXPECT_EQ(force.force_n, Eigen::Vector2d(0.0, 10.0));
   EXPECT_EQ(force.wind.speed_mps + force.current.speed_mps, 0.0);
 
-  const DisturbanceOptions paper = loadDisturbance(preset("paper")).value();
+  const EnvironmentOptions paper = loadDisturbance(preset("paper")).value();
   EXPECT_EQ(paper.wind.speed_mps, 3.0);
   EXPECT_EQ(paper.wind.gust_intensity, 0.0);
   ASSERT_EQ(paper.waves.components.size(), 3U);
@@ -45,7 +45,7 @@ TEST(PlantOptions, PresetsAreWhatTheyAreNamedFor) {
   EXPECT_NEAR(std::cos(paper.waves.components[0].direction_rad), -1.0, 1e-12);
   EXPECT_NEAR(std::sin(paper.waves.components[1].direction_rad), std::sqrt(0.5), 1e-12);
 
-  const DisturbanceOptions hard = loadDisturbance(preset("hard")).value();
+  const EnvironmentOptions hard = loadDisturbance(preset("hard")).value();
   EXPECT_EQ(hard.wind.speed_mps, 8.0);
   EXPECT_GT(hard.wind.gust_intensity, 0.0);
   EXPECT_EQ(hard.current.speed_mps, 0.5);
@@ -78,8 +78,8 @@ TEST(PlantOptions, BadValuesAreNamed) {
 TEST(PlantOptions, BadWavesAndVesselsAreNamed) {
   YAML::Node node = config::loadFile(preset("paper")).value();
   node["waves"]["components"][1]["period_s"] = 0.0;
-  const Result<DisturbanceOptions> options =
-      readDisturbanceOptions(config::Section(node, "paper.yaml"));
+  const Result<EnvironmentOptions> options =
+      readEnvironmentOptions(config::Section(node, "paper.yaml"));
   ASSERT_FALSE(options);
   EXPECT_NE(options.error().message.find("components[1]"), std::string::npos);
   EXPECT_NE(options.error().message.find("period_s"), std::string::npos);

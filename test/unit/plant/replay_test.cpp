@@ -71,7 +71,7 @@ TEST(Replay, ChangedSpeedsActFromTheFirstStepAfterTheRow) {
   EXPECT_LT((run.rows.back().state - x).norm(), 1e-12);
 }
 
-TEST(Replay, DifferenceOfNotANumberIsTheWorst) {
+TEST(Replay, NotANumberIsTheWorstDifference) {
   Recording a = read("t,n_left,n_right\n0,1,1\n1,1,1\n").value();
   Recording b = a;
   b.rows[1].state[kEast] = std::numeric_limits<double>::quiet_NaN();

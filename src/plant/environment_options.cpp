@@ -1,4 +1,4 @@
-#include "otter_nav/plant/disturbance_options.hpp"
+#include "otter_nav/plant/environment_options.hpp"
 
 #include "otter_nav/base/angles.hpp"
 
@@ -60,8 +60,8 @@ Status readWaves(config::Section section, WaveOptions& waves) {
 
 }  // namespace
 
-Result<DisturbanceOptions> readDisturbanceOptions(config::Section section) {
-  DisturbanceOptions options;
+Result<EnvironmentOptions> readEnvironmentOptions(config::Section section) {
+  EnvironmentOptions options;
   section.read("name", options.name);
   std::vector<double> force;
   section.read("force_n", force, 2, {-500.0, 500.0});
@@ -84,12 +84,12 @@ Result<DisturbanceOptions> readDisturbanceOptions(config::Section section) {
   return options;
 }
 
-Result<DisturbanceOptions> loadDisturbance(const std::string& path) {
+Result<EnvironmentOptions> loadDisturbance(const std::string& path) {
   const Result<YAML::Node> node = config::loadFile(path);
   if (!node) {
     return failure(node.error().message);
   }
-  return readDisturbanceOptions(config::Section(*node, path));
+  return readEnvironmentOptions(config::Section(*node, path));
 }
 
 }  // namespace otter_nav::plant

@@ -54,7 +54,7 @@ struct WaveOptions {
   SpectrumOptions spectrum;  // added to the components
 };
 
-struct DisturbanceOptions {
+struct EnvironmentOptions {
   std::string name = "none";
   Eigen::Vector2d force_n = Eigen::Vector2d::Zero();  // constant, map frame
   WindOptions wind;
@@ -62,7 +62,7 @@ struct DisturbanceOptions {
   WaveOptions waves;
 };
 
-[[nodiscard]] Result<DisturbanceOptions> readDisturbanceOptions(config::Section section);
-[[nodiscard]] Result<DisturbanceOptions> loadDisturbance(const std::string& path);
+[[nodiscard]] Result<EnvironmentOptions> readEnvironmentOptions(config::Section section);
+[[nodiscard]] Result<EnvironmentOptions> loadDisturbance(const std::string& path);
 
 }  // namespace otter_nav::plant
