@@ -180,7 +180,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   Glide glide(vessel.paper, turn ? &*turn : nullptr, std::move(ramps));
   BackwardGlide back(glide, end_s);
   back.reach(braked_s);
-  // Full astern: v = (v_0 + F / d1) exp(-(t - t_0) m1 / d1) - F / d1, here backward.
+  // Full astern: v = (v_0 + F / d1) exp(-(t - t_0) d1 / m1) - F / d1, here backward.
   const double slip = brake_n / vessel.paper.d1_kgps;
   const double ahead = std::max(back.motion().velocity.x(), 0.0);
   const double brakes_s = vessel.paper.m1_kg / vessel.paper.d1_kgps *
