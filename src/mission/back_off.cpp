@@ -49,19 +49,20 @@ double outlineClearance(const Eigen::Vector2d& position, double psi_rad, const v
   return least;
 }
 
-bool keepsClear(const Trajectory& way, double psi_rad, const vessel::Hull& hull,
-                const map::DistanceField& field, double least) {
+}  // namespace
+
+bool outlineKeepsClear(const Trajectory& way, double from_s, const vessel::Parameters& vessel,
+                       const map::DistanceField& field, double least_m) {
   constexpr double kStepS = 0.05;
-  for (double t = 0.0; t < way.duration() + kStepS; t += kStepS) {
+  const double psi = way.sample(from_s, vessel).state[vessel::kPsi];
+  for (double t = from_s; t < way.duration() + kStepS; t += kStepS) {
     const Eigen::Vector2d position = way.flat(std::min(t, way.duration())).position;
-    if (outlineClearance(position, psi_rad, hull, field) < least) {
+    if (outlineClearance(position, psi, vessel.hull, field) < least_m) {
       return false;
     }
   }
   return true;
 }
-
-}  // namespace
 
 double turningRoom(const vessel::Hull& hull) {
   constexpr double kMarginM = 0.3;
@@ -84,8 +85,7 @@ std::optional<Trajectory> backOff(const vessel::State& state, const map::Distanc
     for (const double side : {-1.0, 1.0}) {
       Trajectory way = straight(state, side * lengths * vessel.hull.length_m);
       if (field.clearance(way.flat(way.duration()).position) >= room &&
-          keepsClear(way, state[vessel::kPsi], vessel.hull, field,
-                     kClearM + drift_mps * way.duration()) &&
+          outlineKeepsClear(way, 0.0, vessel, field, kClearM + drift_mps * way.duration()) &&
           optimizer::verify(way, field, vessel, check).ok) {
         return way;
       }

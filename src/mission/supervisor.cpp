@@ -142,8 +142,9 @@ Orders Supervisor::update(double now_s, const Situation& situation,
     case Phase::kReplanning:
       return watchTheWay(now_s, situation, field);
     case Phase::kStopping:
-    case Phase::kBackingOff:
       return watchTheStop(now_s, situation);
+    case Phase::kBackingOff:
+      return watchBackingOff(now_s, situation, field);
     case Phase::kIdle:
     case Phase::kArrived:
     case Phase::kFailed:

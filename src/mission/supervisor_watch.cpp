@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "otter_nav/mission/back_off.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 
 namespace otter_nav::mission {
@@ -126,6 +127,21 @@ Orders Supervisor::stopByItself(double now_s, std::string reason) {
   Orders orders;
   orders.stop = true;
   return orders;
+}
+
+// What was free when it set off may not be any more: the water astern is the less known.
+Orders Supervisor::watchBackingOff(double now_s, const Situation& situation,
+                                   const map::DistanceField& field) {
+  if (std::string fault = faultOf(now_s, situation); !fault.empty()) {
+    return stopByItself(now_s, std::move(fault));
+  }
+  constexpr double kTouchesM = 0.05;  // half of what it set off with
+  const double at = now_s - sailed_.start_time_s;
+  if (at < sailed_.trajectory.duration() &&
+      !outlineKeepsClear(sailed_.trajectory, at, vessel_, field, kTouchesM)) {
+    return stopByItself(now_s, "something came up where the vessel backs off to");
+  }
+  return watchTheStop(now_s, situation);
 }
 
 Orders Supervisor::watchTheStop(double now_s, const Situation& situation) {

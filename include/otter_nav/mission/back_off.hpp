@@ -21,4 +21,10 @@ namespace otter_nav::mission {
                                                             const vessel::Parameters& vessel,
                                                             double disturbance_n);
 
+// The hull's outline keeps `least_m` along the rest of such a way, from `from_s` (s from its start)
+// on; the heading is that at `from_s`.
+[[nodiscard]] bool outlineKeepsClear(const trajectory::Trajectory& way, double from_s,
+                                     const vessel::Parameters& vessel,
+                                     const map::DistanceField& field, double least_m);
+
 }  // namespace otter_nav::mission

@@ -188,6 +188,8 @@ class Supervisor {
 
   [[nodiscard]] Orders watchTheWay(double now_s, const Situation& situation,
                                    const map::DistanceField& field);
+  [[nodiscard]] Orders watchBackingOff(double now_s, const Situation& situation,
+                                       const map::DistanceField& field);
   [[nodiscard]] Orders watchTheStop(double now_s, const Situation& situation);
   [[nodiscard]] Orders waitForPlan(double now_s, const Situation& situation,
                                    const map::DistanceField& field);

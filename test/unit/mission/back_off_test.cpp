@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+
 #include "scripted_mission.hpp"
 
 namespace otter_nav::mission {
@@ -51,30 +54,60 @@ TEST(BackOff, StaysWhereTheWindWouldSetItAgainstTheWall) {
   EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), vessel::Parameters{}, 6.0));
 }
 
-TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
-  test::ScriptedMission mission;
+// At a wall where no plan is found, until the supervisor backs off.
+std::optional<SailOrder> backOffFromTheWall(test::ScriptedMission& mission) {
   mission.put({1.3, -10.0}, {2.0, 10.0});
-  auto orders = mission.goTo({-20.0, 0.0});
-  ASSERT_TRUE(orders && orders->plan);
-  Orders next = mission.refuse(*orders->plan, "the hull touches");
+  const auto orders = mission.goTo({-20.0, 0.0});
+  Orders next = mission.refuse(orders.value().plan.value(), "the hull touches");
   for (int k = 0; k < 20 && !next.sail; ++k) {
     next = mission.update(0.1);
     if (next.plan) {
       next = mission.refuse(*next.plan, "the hull touches");
     }
   }
-  ASSERT_TRUE(next.sail);
+  return next.sail;
+}
+
+TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
+  test::ScriptedMission mission;
+  const auto order = backOffFromTheWall(mission);
+  ASSERT_TRUE(order);
   EXPECT_EQ(mission.supervisor.phase(), Phase::kBackingOff);
-  mission.rest =
-      next.sail->trajectory.sample(next.sail->trajectory.duration(), vessel::Parameters{}).state;
+  mission.rest = order->trajectory.sample(order->trajectory.duration(), vessel::Parameters{}).state;
   for (int k = 0; k < 200 && mission.supervisor.phase() == Phase::kBackingOff; ++k) {
-    next = mission.update(0.1);
+    (void)mission.update(0.1);
   }
   EXPECT_EQ(mission.supervisor.phase(), Phase::kStopped);
-  next = mission.update(0.1);
+  const Orders next = mission.update(0.1);
   ASSERT_TRUE(next.plan);
   EXPECT_GE(mission.field.clearance(next.plan->start.position),
             turningRoom(vessel::Parameters{}.hull));
+}
+
+TEST(BackOff, EndsWhereSomethingComesUpAstern) {
+  test::ScriptedMission mission;
+  ASSERT_TRUE(backOffFromTheWall(mission));
+  EXPECT_FALSE(mission.update(0.5).stop);
+  mission.put({-1.7, -1.0}, {-1.1, 1.0});
+  EXPECT_TRUE(mission.update(0.1).stop);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
+}
+
+TEST(BackOff, EndsWhenTheTrackerCannotFollowOrOdometryStays) {
+  test::ScriptedMission faulty;
+  ASSERT_TRUE(backOffFromTheWall(faulty));
+  Situation situation = faulty.situation();
+  situation.tracker_fault = true;
+  situation.tracker_reason = "the solver fails";
+  EXPECT_TRUE(faulty.supervisor.update(faulty.now_s, situation, faulty.field).stop);
+  EXPECT_NE(faulty.supervisor.reason().find("the solver fails"), std::string::npos);
+
+  test::ScriptedMission blind;
+  ASSERT_TRUE(backOffFromTheWall(blind));
+  situation = blind.situation();
+  situation.odometry_stamp_s = blind.now_s - 2.0 * blind.options.odometry_timeout_s;
+  EXPECT_TRUE(blind.supervisor.update(blind.now_s, situation, blind.field).stop);
+  EXPECT_EQ(blind.supervisor.reason(), "no odometry");
 }
 
 }  // namespace
