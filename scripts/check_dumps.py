@@ -126,6 +126,14 @@ def midpoint(tau):
     return mid
 
 
+def rk4_step(x, tau, tau_mid, tau_end, h, model):
+    k1 = derivative(x, tau, model)
+    k2 = derivative(x + 0.5 * h * k1, tau_mid, model)
+    k3 = derivative(x + 0.5 * h * k2, tau_mid, model)
+    k4 = derivative(x + h * k3, tau_end, model)
+    return x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+
+
 def wrap(angle):
     return (angle + np.pi) % (2.0 * np.pi) - np.pi
 
@@ -134,13 +142,7 @@ def integration_error(rows, model):
     """Largest position and heading errors of one-step integrations, per second of step."""
     t, states, tau = rows[:, 0], rows[:, 1:7], rows[:, 7:9]
     h = np.diff(t)[:, None]
-    mid = midpoint(tau)
-    x = states[:-1]
-    k1 = derivative(x, tau[:-1], model)
-    k2 = derivative(x + 0.5 * h * k1, mid, model)
-    k3 = derivative(x + 0.5 * h * k2, mid, model)
-    k4 = derivative(x + h * k3, tau[1:], model)
-    error = x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4) - states[1:]
+    error = rk4_step(states[:-1], tau[:-1], midpoint(tau), tau[1:], h, model) - states[1:]
     error[:, 2] = wrap(error[:, 2])
     return np.abs(error)
 
@@ -154,12 +156,7 @@ def rollout_error(rows, model, seconds):
         x = rows[first, 1:7].copy()
         last = min(len(rows) - 1, first + step)
         for i in range(first, last):
-            h = rows[i + 1, 0] - rows[i, 0]
-            k1 = derivative(x, tau[i], model)
-            k2 = derivative(x + 0.5 * h * k1, mid[i], model)
-            k3 = derivative(x + 0.5 * h * k2, mid[i], model)
-            k4 = derivative(x + h * k3, tau[i + 1], model)
-            x = x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+            x = rk4_step(x, tau[i], mid[i], tau[i + 1], rows[i + 1, 0] - rows[i, 0], model)
         worst = max(worst, float(np.hypot(*(x[:2] - rows[last, 1:3]))))
     return worst
 

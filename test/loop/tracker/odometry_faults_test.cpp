@@ -16,7 +16,7 @@ TEST(OdometryFaults, LateOdometryIsPredictedToNow) {
   EXPECT_LT(sea.sail(10.0).max_error_m, 0.05);
 }
 
-TEST(OdometryFaults, EveryOtherMessageIsEnough) {
+TEST(OdometryFaults, EveryTenthMessageIsEnough) {
   VesselAtSea sea("paper");
   ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()));
   sea.sail(15.0);

@@ -58,6 +58,18 @@ class SplineProblemTest : public ::testing::Test {
     problem.limits.hull_clearance_m = 1.8;
   }
 
+  // By central differences, over a parameter of a knot.
+  [[nodiscard]] double slopeOfTheCost(const Spline& spline, std::size_t knot, int row) const {
+    constexpr double kStep = 1e-6;
+    std::vector<System::Vector> step(spline.knots.size(), System::Vector::Zero());
+    step[knot][row] = kStep;
+    Spline up = spline;
+    Spline down = spline;
+    SplineProblem::apply(step, 1.0, up);
+    SplineProblem::apply(step, -1.0, down);
+    return (problem.evaluate(up, nullptr) - problem.evaluate(down, nullptr)) / (2.0 * kStep);
+  }
+
   map::DistanceField field = islandField();
   Originals originals = Originals(4, [] {
     std::array<Eigen::Vector2d, kQuadraturePoints> points;
@@ -72,18 +84,10 @@ TEST_F(SplineProblemTest, GradientIsThatOfTheCost) {
   const Spline spline = bentSpline(random);
   System system;
   problem.evaluate(spline, &system);
-  constexpr double kStep = 1e-6;
   for (std::size_t k = 0; k < spline.knots.size(); ++k) {
     for (int row = 0; row < kBlockSize; ++row) {
       const bool is_free = row < 8 ? spline.knots[k].free : k < spline.spans.size();
-      std::vector<System::Vector> step(spline.knots.size(), System::Vector::Zero());
-      step[k][row] = kStep;
-      Spline up = spline;
-      Spline down = spline;
-      SplineProblem::apply(step, 1.0, up);
-      SplineProblem::apply(step, -1.0, down);
-      const double slope =
-          (problem.evaluate(up, nullptr) - problem.evaluate(down, nullptr)) / (2.0 * kStep);
+      const double slope = slopeOfTheCost(spline, k, row);
       const double expected = is_free ? -slope : 0.0;
       EXPECT_NEAR(system.right[k][row], expected, 1e-4 * (1.0 + std::abs(slope)))
           << "knot " << k << " row " << row;
@@ -106,17 +110,9 @@ TEST_F(SplineProblemTest, GradientOfAnEndThatMovesWithItsManoeuvreIsThatOfTheCos
   }
   System system;
   problem.evaluate(spline, &system);
-  constexpr double kStep = 1e-6;
   for (const std::size_t k : {std::size_t{0}, spline.knots.size() - 1}) {
     for (int row = 0; row < 8; ++row) {
-      std::vector<System::Vector> step(spline.knots.size(), System::Vector::Zero());
-      step[k][row] = kStep;
-      Spline up = spline;
-      Spline down = spline;
-      SplineProblem::apply(step, 1.0, up);
-      SplineProblem::apply(step, -1.0, down);
-      const double slope =
-          (problem.evaluate(up, nullptr) - problem.evaluate(down, nullptr)) / (2.0 * kStep);
+      const double slope = slopeOfTheCost(spline, k, row);
       EXPECT_NEAR(system.right[k][row], -slope, 1e-4 * (1.0 + std::abs(slope)))
           << "knot " << k << " parameter " << row;
       EXPECT_EQ(std::abs(slope) > 0.0, row < 2);
