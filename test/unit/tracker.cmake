@@ -1,6 +1,8 @@
 otter_nav_test(unit_tracker_solver SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/solver_test.cpp
                ROOMS tracker tracker_oracle)
 otter_nav_test(unit_tracker SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/tracker_test.cpp ROOMS tracker)
+otter_nav_test(unit_tracker_allocation
+               SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/allocation_test.cpp ROOMS tracker)
 otter_nav_test(unit_tracker_csv_path
   SOURCES
     ${CMAKE_CURRENT_LIST_DIR}/tracker/csv_path_test.cpp

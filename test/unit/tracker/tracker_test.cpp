@@ -2,31 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <limits>
-#include <new>
+#include <string>
 
 #include "otter_nav/base/rk4.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
-
-// Counts what the control loop allocates.
-namespace {
-std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
 
 namespace otter_nav::tracker {
 namespace {
@@ -98,20 +78,6 @@ TEST_F(TrackerTest, SailsALineAndHoldsItsEndUnderAForce) {
   command = sail(65.0);
   EXPECT_EQ(command.mode, Mode::kHolding);
   EXPECT_LT((state_.head<2>() - Eigen::Vector2d(30.0, 0.0)).norm(), 1.0);
-}
-
-TEST_F(TrackerTest, AllocatesNothingInTheLoop) {
-  ASSERT_TRUE(tracker_.setTrajectory(line(30.0, 20.0), now_s_));
-  sail(1.0);
-  const std::size_t before = allocations;
-  for (int i = 0; i < 2500; ++i) {  // past the end, through holding
-    tracker_.addOdometry(now_s_, state_);
-    const Command command = tracker_.step(now_s_);
-    tracker_.prepare(now_s_ + 0.01);
-    state_[0] += 0.01 * std::cos(state_[2]) * (command.mode == Mode::kTracking ? 1.5 : 0.0);
-    now_s_ += 0.01;
-  }
-  EXPECT_EQ(allocations, before);
 }
 
 TEST_F(TrackerTest, BridgesAShortGapAndStopsOnALongOne) {
