@@ -81,10 +81,12 @@ Supervisor::Supervisor(SupervisorOptions options, vessel::Parameters vessel, std
 
 Result<Orders> Supervisor::setGoal(double now_s, const Goal& goal, const Situation& situation,
                                    const map::DistanceField& field) {
-  if (const Status status = checkGoal(goal, field, options_.plan_clearances_m.back()); !status) {
+  if (const Status status = checkGoal(goal, field, options_.allowance.plan_clearances_m.back());
+      !status) {
     return failure(status.error().message);
   }
   goal_ = goal;
+  disturbance_share_ = disturbanceShare(situation.disturbance_n, vessel_.thrusters);
   pending_.reset();
   after_stop_.reset();
   rounds_ = 0;
@@ -129,6 +131,7 @@ Orders Supervisor::cancel(double now_s, const Situation& situation,
 
 Orders Supervisor::update(double now_s, const Situation& situation,
                           const map::DistanceField& field) {
+  disturbance_share_ = disturbanceShare(situation.disturbance_n, vessel_.thrusters);
   if (pending_ && now_s - pending_->since_s > options_.planning_timeout_s) {
     const Pending asked = std::move(*pending_);
     pending_.reset();

@@ -5,10 +5,23 @@
 
 namespace otter_nav::mission {
 
-Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
-  SupervisorOptions o;
+namespace {
+
+void readAllowance(config::Section& section, AllowanceOptions& o) {
   constexpr std::size_t kRungs = 4;
   section.read("plan_clearances_m", o.plan_clearances_m, kRungs, {0.3, 10.0});
+  section.read("widening_in_wind", o.widening_in_wind, {0.0, 100.0});
+  section.read("thrust_share", o.thrust_share, {0.2, 1.0});
+  section.read("thrust_share_min", o.thrust_share_min, {0.2, 1.0});
+  section.read("thrust_share_step", o.thrust_share_step, {0.0, 1.0});
+  section.read("reserve_in_wind", o.reserve_in_wind, {0.0, 10.0});
+}
+
+}  // namespace
+
+Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
+  SupervisorOptions o;
+  readAllowance(section, o.allowance);
   section.read("clearance_slack_m", o.clearance_slack_m, {0.0, 5.0});
   section.read("critical_clearance_m", o.critical_clearance_m, {0.1, 10.0});
   section.read("planning_latency_s", o.planning_latency_s, {0.0, 5.0});
@@ -19,9 +32,6 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   section.read("stop_reserve_s", o.stop_reserve_s, {0.0, 10.0});
   section.read("brake_horizon_s", o.brake_horizon_s, {1.0, 100.0});
   section.read("brake_thrust_share", o.brake_thrust_share, {0.1, 1.0});
-  section.read("thrust_share", o.thrust_share, {0.2, 1.0});
-  section.read("thrust_share_min", o.thrust_share_min, {0.2, 1.0});
-  section.read("thrust_share_step", o.thrust_share_step, {0.0, 1.0});
   section.read("tracking_error_max_m", o.tracking_error_max_m, {0.1, 100.0});
   section.read("odometry_timeout_s", o.odometry_timeout_s, {0.05, 60.0});
   section.read("arrival_distance_m", o.arrival_distance_m, {0.01, 100.0});
@@ -33,7 +43,7 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);
   }
-  const std::vector<double>& rungs = o.plan_clearances_m;
+  const std::vector<double>& rungs = o.allowance.plan_clearances_m;
   if (!std::is_sorted(rungs.begin(), rungs.end(), std::greater<>())) {
     return failure(section.where() +
                    ": parameter 'plan_clearances_m' must fall from first to last");
@@ -43,7 +53,7 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
                    ": parameter 'critical_clearance_m' must not be above the last of "
                    "'plan_clearances_m'");
   }
-  if (o.thrust_share_min > o.thrust_share) {
+  if (o.allowance.thrust_share_min > o.allowance.thrust_share) {
     return failure(section.where() +
                    ": parameter 'thrust_share_min' must not be above 'thrust_share'");
   }

@@ -33,30 +33,28 @@ std::optional<double> joiningTime(const trajectory::Trajectory& sailed, double a
 
 }  // namespace
 
-void Supervisor::chooseRung(const Eigen::Vector2d& start, const map::DistanceField& field) {
-  const double room = std::min(field.clearance(start), field.clearance(goal_.position));
-  const std::vector<double>& rungs = options_.plan_clearances_m;
+// Of the first rung from the present one on that start and goal have room for.
+double Supervisor::chooseClearance(const PlanRequest& request, const map::DistanceField& field) {
+  const double room =
+      std::min(field.clearance(request.start.position), field.clearance(goal_.position));
+  const std::vector<double>& rungs = options_.allowance.plan_clearances_m;
   while (rung_ + 1 < rungs.size() && rungs[rung_] > room) {
     ++rung_;
   }
+  return planClearance(options_.allowance, rung_, disturbance_share_, request.thrust_share,
+                       vessel_.hull, room);
 }
 
-// In steps, so that one planner serves many requests.
-double Supervisor::freeThrustShare(const Situation& situation) const {
-  constexpr double kStep = 0.05;
-  const double reserve = situation.disturbance_n / (2.0 * vessel_.thrusters.ahead_max_n);
-  const double behind = times_left_behind_ * options_.thrust_share_step;
-  const double share = options_.thrust_share - reserve - behind;
-  return std::max(options_.thrust_share_min, kStep * std::floor(share / kStep + 1e-9));
+double Supervisor::freeThrustShare() const {
+  return planThrustShare(options_.allowance, disturbance_share_, times_left_behind_);
 }
 
 Orders Supervisor::post(double now_s, PlanRequest request, From from,
                         const map::DistanceField& field) {
-  chooseRung(request.start.position, field);
   request.id = next_id_++;
   request.goal = goal_;
   request.moving = from != From::kRest;
-  request.clearance_m = options_.plan_clearances_m[rung_];
+  request.clearance_m = chooseClearance(request, field);
   request.seed = seed_ + static_cast<std::uint64_t>(request.id);
   Orders orders;
   orders.plan = request;
@@ -70,7 +68,7 @@ Orders Supervisor::requestFromRest(double now_s, const Situation& situation,
   request.start.position = situation.state.head<2>();
   request.start_psi_rad = situation.state[vessel::kPsi];
   request.start_time_s = now_s;
-  request.thrust_share = freeThrustShare(situation);
+  request.thrust_share = freeThrustShare();
   return post(now_s, std::move(request), From::kRest, field);
 }
 
@@ -99,7 +97,10 @@ Orders Supervisor::requestFromVessel(double now_s, const Situation& situation,
                                      const map::DistanceField& field) {
   constexpr double kStartShare = 0.9;  // of the plan's thrust, at its beginning
   PlanRequest request;
-  request.thrust_share = freeThrustShare(situation);
+  // A vessel too fast for the thrust that plans should keep to gets one with more rather than none.
+  request.thrust_share =
+      std::min(options_.allowance.thrust_share,
+               freeThrustShare() + times_refused_ * options_.allowance.thrust_share_step);
   request.start =
       flatFromState(situation.state, vessel_.paper,
                     kStartShare * request.thrust_share * 2.0 * vessel_.thrusters.ahead_max_n);
@@ -181,6 +182,7 @@ void Supervisor::sail(SailOrder order, const PlanRequest& request, double now_s)
   sailed_clearance_m_ = request.clearance_m;
   sailed_thrust_share_ = request.thrust_share;
   plan_time_s_ = now_s;
+  times_refused_ = 0;
   rung_ = 0;
   enter(Phase::kSailing);
 }
@@ -190,8 +192,11 @@ Orders Supervisor::planFailed(double now_s, const std::string& why, const Pendin
   if (asked.improves) {
     return {};
   }
-  const bool last = rung_ + 1 >= options_.plan_clearances_m.size();
+  const bool last = rung_ + 1 >= options_.allowance.plan_clearances_m.size();
   rung_ = last ? 0 : rung_ + 1;
+  if (asked.from == From::kVessel && last) {
+    ++times_refused_;
+  }
   if (asked.from != From::kRest) {
     return {};  // asked again at the next update, as long as there is room
   }

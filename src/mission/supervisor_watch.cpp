@@ -82,6 +82,14 @@ Orders Supervisor::replanIfNeeded(double now_s, const Situation& situation,
     ++times_left_behind_;
     return requestFromVessel(now_s, situation, field);
   }
+  constexpr double kTooMuch = 0.1;  // of the limits
+  constexpr double kAgainS = 3.0;
+  if (sailed_thrust_share_ > freeThrustShare() + kTooMuch + 1e-9 &&
+      (replans_ == 0 || now_s - plan_time_s_ >= kAgainS)) {
+    enter(Phase::kReplanning, "wind and current take thrust that the plan counts on");
+    for_clearance_ = false;
+    return requestFromVessel(now_s, situation, field);
+  }
   if (phase_ == Phase::kReplanning) {
     return requestFromSailed(now_s, field);
   }
@@ -99,12 +107,14 @@ Orders Supervisor::replanIfNeeded(double now_s, const Situation& situation,
 
 bool Supervisor::mustBrake(double now_s, const map::DistanceField& field) const {
   const double later = now_s - sailed_.start_time_s + options_.stop_reserve_s;
-  const BrakingOptions braking{options_.brake_thrust_share, options_.plan_clearances_m.back()};
+  const BrakingOptions braking{options_.brake_thrust_share,
+                               options_.allowance.plan_clearances_m.back()};
   return !brakingTrajectory(sailed_.trajectory, later, field, vessel_, braking).clear;
 }
 
 Orders Supervisor::brake(double now_s, const map::DistanceField& field, std::string reason) {
-  const BrakingOptions braking{options_.brake_thrust_share, options_.plan_clearances_m.back()};
+  const BrakingOptions braking{options_.brake_thrust_share,
+                               options_.allowance.plan_clearances_m.back()};
   Braking stop =
       brakingTrajectory(sailed_.trajectory, now_s - sailed_.start_time_s, field, vessel_, braking);
   if (stop.trajectory.empty()) {

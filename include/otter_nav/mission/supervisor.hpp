@@ -18,6 +18,7 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/mission/allowance.hpp"
 #include "otter_nav/mission/braking.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
@@ -43,9 +44,7 @@ struct Goal {
 };
 
 struct SupervisorOptions {
-  // Clearances of the hull's centre to anything occupied, m, tried from the widest to the
-  // narrowest when a plan fails; none is made with less than the last.
-  std::vector<double> plan_clearances_m = {1.6, 1.2, 0.9, 0.8};
+  AllowanceOptions allowance;
   // A sailed plan is replaced when its clearance shrinks by more than this, m: sensed outlines
   // wander by about a cell.
   double clearance_slack_m = 0.3;
@@ -68,12 +67,6 @@ struct SupervisorOptions {
   double stop_reserve_s = 0.3;
   double brake_horizon_s = 8.0;
   double brake_thrust_share = 0.9;  // of the limits, astern
-  // Share of the thrust that plans may use; the rest is for what the plan doesn't know. Less by
-  // the disturbance the tracker reports, and by `thrust_share_step` each time the vessel couldn't
-  // follow, but never less than `thrust_share_min`.
-  double thrust_share = 0.95;
-  double thrust_share_min = 0.5;
-  double thrust_share_step = 0.1;
   // Tracking error from which the plan starts at the vessel itself again, m.
   double tracking_error_max_m = 1.2;
   // Odometry older than this is no ground for sailing on, s.
@@ -183,8 +176,8 @@ class Supervisor {
                                          const map::DistanceField& field);
   [[nodiscard]] Orders post(double now_s, PlanRequest request, From from,
                             const map::DistanceField& field);
-  void chooseRung(const Eigen::Vector2d& start, const map::DistanceField& field);
-  [[nodiscard]] double freeThrustShare(const Situation& situation) const;
+  [[nodiscard]] double chooseClearance(const PlanRequest& request, const map::DistanceField& field);
+  [[nodiscard]] double freeThrustShare() const;
 
   [[nodiscard]] Orders watchTheWay(double now_s, const Situation& situation,
                                    const map::DistanceField& field);
@@ -224,7 +217,9 @@ class Supervisor {
   SailOrder sailed_;
   double sailed_clearance_m_ = 0.0;   // what the sailed trajectory was planned for
   double sailed_thrust_share_ = 1.0;  // and with
-  int times_left_behind_ = 0;         // the vessel couldn't follow, on the way to this goal
+  double disturbance_share_ = 0.0;    // of the thrust ahead, as last reported
+  int times_refused_ = 0;      // no plan was found from where the vessel is, one after the other
+  int times_left_behind_ = 0;  // the vessel couldn't follow, on the way to this goal
 
   std::optional<Pending> pending_;
   double latency_s_ = 0.0;  // grows when answers come late

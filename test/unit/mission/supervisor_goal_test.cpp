@@ -41,7 +41,7 @@ TEST(Goal, AsksForAPlanFromRestAtTheWidestClearance) {
   EXPECT_EQ(request.start.velocity, Eigen::Vector2d::Zero());
   EXPECT_EQ(request.start_psi_rad, 0.5);
   EXPECT_EQ(request.goal.psi_rad, 1.0);
-  EXPECT_EQ(request.clearance_m, mission.options.plan_clearances_m.front());
+  EXPECT_EQ(request.clearance_m, mission.options.allowance.plan_clearances_m.front());
 }
 
 TEST(Goal, NarrowBerthsLowerTheClearance) {
@@ -49,7 +49,7 @@ TEST(Goal, NarrowBerthsLowerTheClearance) {
   mission.put({41.5, -1.0}, {43.0, 1.0});
   const auto orders = mission.goTo({40.0, 0.0});
   ASSERT_TRUE(orders.has_value() && orders->plan);
-  EXPECT_EQ(orders->plan->clearance_m, mission.options.plan_clearances_m[1]);
+  EXPECT_EQ(orders->plan->clearance_m, mission.options.allowance.plan_clearances_m[1]);
 }
 
 TEST(Goal, RefusalLeavesTheMissionUntouched) {
@@ -85,7 +85,7 @@ TEST(Goal, PlansThatFailAreTriedNarrowerThenGivenUpWithTheReason) {
   }
   ASSERT_EQ(mission.supervisor.phase(), Phase::kFailed);
   EXPECT_NE(mission.supervisor.reason().find("no way at all"), std::string::npos);
-  const std::vector<double>& rungs = mission.options.plan_clearances_m;
+  const std::vector<double>& rungs = mission.options.allowance.plan_clearances_m;
   ASSERT_EQ(tried.size(), 3 * rungs.size());
   for (std::size_t k = 0; k < tried.size(); ++k) {
     EXPECT_EQ(tried[k], rungs[k % rungs.size()]);
@@ -120,42 +120,6 @@ TEST(Options, ShippedFileLoads) {
   YAML::Node broken = YAML::Clone((*root)["supervisor"]);
   broken["plan_clearances_m"] = std::vector<double>{0.8, 0.9, 1.2, 1.6};
   EXPECT_FALSE(readSupervisorOptions(config::Section(broken, "broken")).has_value());
-}
-
-TEST(Supervisor, KeepsThrustForTheDisturbance) {
-  ScriptedMission mission;
-  const auto calm = mission.goTo({20.0, 0.0});
-  ASSERT_TRUE(calm && calm->plan);
-  EXPECT_DOUBLE_EQ(calm->plan->thrust_share, mission.options.thrust_share);
-  Situation windy = mission.situation();
-  windy.disturbance_n = 22.0;  // of 100 N
-  const auto orders =
-      mission.supervisor.setGoal(mission.now_s, {{20.0, 0.0}, 0.0}, windy, mission.field);
-  ASSERT_TRUE(orders && orders->plan);
-  EXPECT_NEAR(orders->plan->thrust_share, 0.7, 1e-9);
-  windy.disturbance_n = 90.0;
-  const auto storm =
-      mission.supervisor.setGoal(mission.now_s, {{20.0, 0.0}, 0.0}, windy, mission.field);
-  ASSERT_TRUE(storm && storm->plan);
-  EXPECT_DOUBLE_EQ(storm->plan->thrust_share, mission.options.thrust_share_min);
-}
-
-TEST(Supervisor, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
-  ScriptedMission mission;
-  mission.setOut(6.0);
-  Situation behind = mission.situation();
-  behind.state.x() -= 2.0;
-  behind.tracking_error_m = 2.0;
-  const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
-  ASSERT_TRUE(orders.plan);
-  EXPECT_NEAR(orders.plan->thrust_share,
-              mission.options.thrust_share - mission.options.thrust_share_step, 1e-9);
-  // It begins where the vessel is, with no more force than the plan may use.
-  EXPECT_LT((orders.plan->start.position - behind.state.head<2>()).norm(), 2.0);
-  const vessel::Parameters otter;
-  const Eigen::Vector2d force = otter.paper.m1_kg * orders.plan->start.acceleration +
-                                otter.paper.d2_kgps * orders.plan->start.velocity;
-  EXPECT_LE(force.norm(), 2.0 * otter.thrusters.ahead_max_n * orders.plan->thrust_share);
 }
 
 }  // namespace
