@@ -22,6 +22,7 @@ OcpOptions Tracker::Core::ocpOptions(const Options& o, const vessel::Parameters&
   ocp.upper_n.setConstant(o.thrust_share * vessel.thrusters.ahead_max_n);
   ocp.far_m = o.far_m;
   ocp.heading_step_rad = o.heading_step_rad;
+  ocp.step_share = o.step_share;
   return ocp;
 }
 

@@ -87,6 +87,7 @@ Result<Options> readOptions(config::Section section) {
   section.read("keep_plan_s", o.keep_plan_s, {0.0, 2.0});
   section.read("far_m", o.far_m, kPositive);
   section.read("heading_step_rad", o.heading_step_rad, kPositive);
+  section.read("step_share", o.step_share, kShare);
   section.read("leash_m", o.leash_m, kPositive);
   section.read("catch_up_rate", o.catch_up_rate, {0.0, 10.0});
   section.read("join_offset_m", o.join_offset_m, kPositive);

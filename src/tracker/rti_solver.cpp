@@ -210,7 +210,8 @@ void RtiSolver::accept() {
   for (int k = 0; k <= n; ++k) {
     turn = std::max(turn, std::abs(dx_[k][vessel::kPsi]));
   }
-  const double share = std::min(1.0, options_.heading_step_rad / std::max(turn, 1e-9));
+  const double share =
+      std::min(options_.step_share, options_.heading_step_rad / std::max(turn, 1e-9));
   for (int k = 0; k <= n; ++k) {
     states_[k] += share * Eigen::Map<const vessel::State>(dx_[k]);
   }

@@ -64,6 +64,7 @@ struct Options {
   double keep_plan_s = 0.3;       // how long the last good plan stands in for a failing solver
   double far_m = 0.5;             // position errors beyond weigh in proportion, not squared
   double heading_step_rad = 0.5;  // most that one iteration turns the plan's headings
+  double step_share = 0.5;        // of each iteration's step: whole ones swing in saturation
   // The reference waits for a vessel that falls behind it by more than this (at the start, or where
   // the thrust is spent), and catches up by at most this share of time when it can.
   double leash_m = 1.0;

@@ -43,6 +43,9 @@ struct OcpOptions {
   double far_m = 1e3;
   // The most a step may turn any stage's heading; beyond, the plan takes a share of the step.
   double heading_step_rad = 1e3;
+  // The share of each step that the plan takes at most. Whole steps may go to and fro between two
+  // plans when thrust is spent.
+  double step_share = 1.0;
   int active_set_iterations = 7;
   int projected_newton_iterations = 25;
   int interior_point_iterations = 30;

@@ -59,6 +59,7 @@ TEST(RtiSolver, AgreesWithIpoptFarFromTheReference) {
   Problem p = circle(20, 2.0);
   p.options.far_m = 0.5;
   p.options.heading_step_rad = 0.5;
+  p.options.step_share = 0.5;
   int bounds_met = 0;
   const auto ours = converge(p, bounds_met);
   IpoptSolver oracle(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
@@ -70,6 +71,28 @@ TEST(RtiSolver, AgreesWithIpoptFarFromTheReference) {
         ours->thrusts()[k] - theirs->thrusts[static_cast<std::size_t>(k)];
     EXPECT_LT(difference.cwiseAbs().maxCoeff() / range, 1e-6) << "stage " << k;
   }
+}
+
+// In a wind whose moment is beyond the thrusters, whole steps go to and fro between two plans.
+TEST(RtiSolver, HalfStepsSettleWhereWholeOnesSwing) {
+  Problem p = circle(40, 2.0);
+  p.options.step_s = 0.15;
+  p.options.far_m = 0.5;
+  p.options.heading_step_rad = 0.5;
+  p.vessel.manoeuvring.wind_yaw_kg = -0.66;
+  p.disturbance.wind_mps = {8.5, -8.5};
+  for (int k = 0; k <= p.options.stages; ++k) {
+    const double angle = 0.15 * k * p.options.step_s;
+    p.reference->states[k] << 20.0 * std::cos(angle), 20.0 * std::sin(angle), 1.5707963 + angle,
+        3.0, 0.0, 0.15;
+  }
+  const auto lastStep = [&](double share) {
+    p.options.step_share = share;
+    int bounds_met = 0;
+    return converge(p, bounds_met)->lastStep();
+  };
+  EXPECT_GT(lastStep(1.0), 0.1);
+  EXPECT_LT(lastStep(0.5), 1e-9);
 }
 
 // What the first second's tube leaves is the same problem with narrower bounds.
