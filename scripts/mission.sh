@@ -89,6 +89,10 @@ for port in (11311, 0):
 PY
 )
 export ROS_MASTER_URI="http://localhost:$port"
+# A machine whose own name leads nowhere can still sail for itself.
+if [ -z "${ROS_HOSTNAME:-}${ROS_IP:-}" ] && ! getent hosts "$(uname -n)" >/dev/null; then
+  export ROS_HOSTNAME=localhost
+fi
 [ "$port" = 11311 ] || echo "ROS master at $ROS_MASTER_URI"
 
 rm -f "$result"

@@ -13,6 +13,9 @@ set +u
 # shellcheck disable=SC1091
 . install/setup.bash
 set -u
+# All on this machine, whose own name may not be known to it.
+unset ROS_IP
+export ROS_HOSTNAME=localhost
 # The ROS log of a run belongs to it; rostest finds a free port by itself.
 ROS_LOG_DIR="$top/build/ros_log"
 ROS_HOME="$top/build/ros_home"
