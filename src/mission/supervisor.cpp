@@ -81,7 +81,7 @@ Supervisor::Supervisor(SupervisorOptions options, vessel::Parameters vessel, std
 
 Result<Orders> Supervisor::setGoal(double now_s, const Goal& goal, const Situation& situation,
                                    const map::DistanceField& field) {
-  if (const Status status = checkGoal(goal, field, options_.allowance.plan_clearances_m.back());
+  if (const Status status = checkGoal(goal, field, options_.margins.plan_clearances_m.back());
       !status) {
     return failure(status.error().message);
   }

@@ -7,7 +7,7 @@ namespace otter_nav::mission {
 
 namespace {
 
-void readAllowance(config::Section& section, AllowanceOptions& o) {
+void readMargins(config::Section& section, MarginOptions& o) {
   constexpr std::size_t kRungs = 4;
   section.read("plan_clearances_m", o.plan_clearances_m, kRungs, {0.3, 10.0});
   section.read("widening_in_wind", o.widening_in_wind, {0.0, 100.0});
@@ -21,7 +21,7 @@ void readAllowance(config::Section& section, AllowanceOptions& o) {
 
 Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   SupervisorOptions o;
-  readAllowance(section, o.allowance);
+  readMargins(section, o.margins);
   section.read("clearance_slack_m", o.clearance_slack_m, {0.0, 5.0});
   section.read("critical_clearance_m", o.critical_clearance_m, {0.1, 10.0});
   section.read("planning_latency_s", o.planning_latency_s, {0.0, 5.0});
@@ -43,7 +43,7 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);
   }
-  const std::vector<double>& rungs = o.allowance.plan_clearances_m;
+  const std::vector<double>& rungs = o.margins.plan_clearances_m;
   if (!std::is_sorted(rungs.begin(), rungs.end(), std::greater<>())) {
     return failure(section.where() +
                    ": parameter 'plan_clearances_m' must fall from first to last");
@@ -53,7 +53,7 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
                    ": parameter 'critical_clearance_m' must not be above the last of "
                    "'plan_clearances_m'");
   }
-  if (o.allowance.thrust_share_min > o.allowance.thrust_share) {
+  if (o.margins.thrust_share_min > o.margins.thrust_share) {
     return failure(section.where() +
                    ": parameter 'thrust_share_min' must not be above 'thrust_share'");
   }

@@ -37,16 +37,16 @@ std::optional<double> joiningTime(const trajectory::Trajectory& sailed, double a
 double Supervisor::chooseClearance(const PlanRequest& request, const map::DistanceField& field) {
   const double room =
       std::min(field.clearance(request.start.position), field.clearance(goal_.position));
-  const std::vector<double>& rungs = options_.allowance.plan_clearances_m;
+  const std::vector<double>& rungs = options_.margins.plan_clearances_m;
   while (rung_ + 1 < rungs.size() && rungs[rung_] > room) {
     ++rung_;
   }
-  return planClearance(options_.allowance, rung_, disturbance_share_, request.thrust_share,
+  return planClearance(options_.margins, rung_, disturbance_share_, request.thrust_share,
                        vessel_.hull, room);
 }
 
 double Supervisor::freeThrustShare() const {
-  return planThrustShare(options_.allowance, disturbance_share_, times_left_behind_);
+  return planThrustShare(options_.margins, disturbance_share_, times_left_behind_);
 }
 
 Orders Supervisor::post(double now_s, PlanRequest request, From from,
@@ -99,8 +99,8 @@ Orders Supervisor::requestFromVessel(double now_s, const Situation& situation,
   PlanRequest request;
   // A vessel too fast for the thrust that plans should keep to gets one with more rather than none.
   request.thrust_share =
-      std::min(options_.allowance.thrust_share,
-               freeThrustShare() + times_refused_ * options_.allowance.thrust_share_step);
+      std::min(options_.margins.thrust_share,
+               freeThrustShare() + times_refused_ * options_.margins.thrust_share_step);
   request.start =
       flatFromState(situation.state, vessel_.paper,
                     kStartShare * request.thrust_share * 2.0 * vessel_.thrusters.ahead_max_n);
@@ -192,7 +192,7 @@ Orders Supervisor::planFailed(double now_s, const std::string& why, const Pendin
   if (asked.improves) {
     return {};
   }
-  const bool last = rung_ + 1 >= options_.allowance.plan_clearances_m.size();
+  const bool last = rung_ + 1 >= options_.margins.plan_clearances_m.size();
   rung_ = last ? 0 : rung_ + 1;
   if (asked.from == From::kVessel && last) {
     ++times_refused_;

@@ -108,13 +108,13 @@ Orders Supervisor::replanIfNeeded(double now_s, const Situation& situation,
 bool Supervisor::mustBrake(double now_s, const map::DistanceField& field) const {
   const double later = now_s - sailed_.start_time_s + options_.stop_reserve_s;
   const BrakingOptions braking{options_.brake_thrust_share,
-                               options_.allowance.plan_clearances_m.back()};
+                               options_.margins.plan_clearances_m.back()};
   return !brakingTrajectory(sailed_.trajectory, later, field, vessel_, braking).clear;
 }
 
 Orders Supervisor::brake(double now_s, const map::DistanceField& field, std::string reason) {
   const BrakingOptions braking{options_.brake_thrust_share,
-                               options_.allowance.plan_clearances_m.back()};
+                               options_.margins.plan_clearances_m.back()};
   Braking stop =
       brakingTrajectory(sailed_.trajectory, now_s - sailed_.start_time_s, field, vessel_, braking);
   if (stop.trajectory.empty()) {

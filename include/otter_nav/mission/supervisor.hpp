@@ -18,8 +18,8 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/mission/allowance.hpp"
 #include "otter_nav/mission/braking.hpp"
+#include "otter_nav/mission/margins.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -44,7 +44,7 @@ struct Goal {
 };
 
 struct SupervisorOptions {
-  AllowanceOptions allowance;
+  MarginOptions margins;
   // A sailed plan is replaced when its clearance shrinks by more than this, m: sensed outlines
   // wander by about a cell.
   double clearance_slack_m = 0.3;

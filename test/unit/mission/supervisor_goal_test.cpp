@@ -41,7 +41,7 @@ TEST(Goal, AsksForAPlanFromRestAtTheWidestClearance) {
   EXPECT_EQ(request.start.velocity, Eigen::Vector2d::Zero());
   EXPECT_EQ(request.start_psi_rad, 0.5);
   EXPECT_EQ(request.goal.psi_rad, 1.0);
-  EXPECT_EQ(request.clearance_m, mission.options.allowance.plan_clearances_m.front());
+  EXPECT_EQ(request.clearance_m, mission.options.margins.plan_clearances_m.front());
 }
 
 TEST(Goal, NarrowBerthsLowerTheClearance) {
@@ -49,7 +49,7 @@ TEST(Goal, NarrowBerthsLowerTheClearance) {
   mission.put({41.5, -1.0}, {43.0, 1.0});
   const auto orders = mission.goTo({40.0, 0.0});
   ASSERT_TRUE(orders.has_value() && orders->plan);
-  EXPECT_EQ(orders->plan->clearance_m, mission.options.allowance.plan_clearances_m[1]);
+  EXPECT_EQ(orders->plan->clearance_m, mission.options.margins.plan_clearances_m[1]);
 }
 
 TEST(Goal, RefusalLeavesTheMissionUntouched) {
@@ -85,7 +85,7 @@ TEST(Goal, PlansThatFailAreTriedNarrowerThenGivenUpWithTheReason) {
   }
   ASSERT_EQ(mission.supervisor.phase(), Phase::kFailed);
   EXPECT_NE(mission.supervisor.reason().find("no way at all"), std::string::npos);
-  const std::vector<double>& rungs = mission.options.allowance.plan_clearances_m;
+  const std::vector<double>& rungs = mission.options.margins.plan_clearances_m;
   ASSERT_EQ(tried.size(), 3 * rungs.size());
   for (std::size_t k = 0; k < tried.size(); ++k) {
     EXPECT_EQ(tried[k], rungs[k % rungs.size()]);

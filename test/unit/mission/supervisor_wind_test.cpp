@@ -13,7 +13,7 @@ TEST(SupervisorInWind, KeepsThrustAndDistanceForTheDisturbance) {
   ScriptedMission mission;
   const auto calm = mission.goTo({20.0, 0.0});
   ASSERT_TRUE(calm && calm->plan);
-  EXPECT_DOUBLE_EQ(calm->plan->thrust_share, mission.options.allowance.thrust_share);
+  EXPECT_DOUBLE_EQ(calm->plan->thrust_share, mission.options.margins.thrust_share);
   Situation windy = mission.situation();
   windy.disturbance_n = 22.0;  // of 100 N
   const auto orders =
@@ -32,7 +32,7 @@ TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
   const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
   ASSERT_TRUE(orders.plan);
   EXPECT_NEAR(orders.plan->thrust_share,
-              mission.options.allowance.thrust_share - mission.options.allowance.thrust_share_step,
+              mission.options.margins.thrust_share - mission.options.margins.thrust_share_step,
               1e-9);
   // It begins where the vessel is, with no more force than the plan may use.
   EXPECT_LT((orders.plan->start.position - behind.state.head<2>()).norm(), 2.0);

@@ -1,4 +1,4 @@
-#include "otter_nav/mission/allowance.hpp"
+#include "otter_nav/mission/margins.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ double disturbanceShare(double disturbance_n, const vessel::Thrusters& thrusters
   return disturbance_n / (2.0 * thrusters.ahead_max_n);
 }
 
-double planThrustShare(const AllowanceOptions& options, double disturbance_share,
+double planThrustShare(const MarginOptions& options, double disturbance_share,
                        int times_left_behind) {
   constexpr double kStep = 0.05;
   const double share = options.thrust_share - options.reserve_in_wind * disturbance_share -
@@ -17,7 +17,7 @@ double planThrustShare(const AllowanceOptions& options, double disturbance_share
   return std::max(options.thrust_share_min, kStep * std::floor(share / kStep + 1e-9));
 }
 
-double planClearance(const AllowanceOptions& options, std::size_t rung, double disturbance_share,
+double planClearance(const MarginOptions& options, std::size_t rung, double disturbance_share,
                      double thrust_share, const vessel::Hull& hull, double room_m) {
   const double listed = options.plan_clearances_m[rung];
   const double narrowest = options.plan_clearances_m.back();

@@ -8,7 +8,7 @@
 
 namespace otter_nav::mission {
 
-struct AllowanceOptions {
+struct MarginOptions {
   // Clearances of the hull's centre to anything occupied, m, tried from the widest to the
   // narrowest when a plan fails; none is made with less than the last.
   std::vector<double> plan_clearances_m = {1.6, 1.2, 0.9, 0.8};
@@ -29,13 +29,13 @@ struct AllowanceOptions {
 [[nodiscard]] double disturbanceShare(double disturbance_n, const vessel::Thrusters& thrusters);
 
 // Of the limits, for a plan; in steps of 0.05, so that one planner serves many requests.
-[[nodiscard]] double planThrustShare(const AllowanceOptions& options, double disturbance_share,
+[[nodiscard]] double planThrustShare(const MarginOptions& options, double disturbance_share,
                                      int times_left_behind);
 
 // The clearance `rung` of the list asks for, m. Against a force from the side the hull goes
 // crabwise and reaches further to both sides: the narrowest grows by that. Not more than the start
 // and the goal have (`room_m`), unless the list itself asks for it.
-[[nodiscard]] double planClearance(const AllowanceOptions& options, std::size_t rung,
+[[nodiscard]] double planClearance(const MarginOptions& options, std::size_t rung,
                                    double disturbance_share, double thrust_share,
                                    const vessel::Hull& hull, double room_m);
 
