@@ -93,6 +93,7 @@ Result<Orders> Supervisor::setGoal(double now_s, const Goal& goal, const Situati
   replans_ = 0;
   stops_ = 0;
   times_left_behind_ = 0;
+  times_refused_ = 0;
   not_before_s_ = now_s;
   latency_s_ = options_.planning_latency_s;
   if (phase_ == Phase::kSailing || phase_ == Phase::kReplanning) {

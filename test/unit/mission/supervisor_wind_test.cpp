@@ -1,6 +1,8 @@
 // What the supervisor makes of wind and current.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "otter_nav/vessel/parameters.hpp"
 #include "scripted_mission.hpp"
 

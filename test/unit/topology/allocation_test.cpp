@@ -1,30 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "../counted_allocations.hpp"
 #include "otter_nav/topology/guide_path.hpp"
-
-namespace {
-std::atomic<int> allocations{0};
-}  // namespace
-
-// Every allocation of this program passes here.
-void* operator new(std::size_t size) {
-  ++allocations;
-  void* memory = std::malloc(size);
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return memory;
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
 
 namespace otter_nav::topology {
 namespace {
@@ -44,9 +21,9 @@ TEST(GuidePathFinder, AllocatesNothingOnceItKnowsTheMap) {
   const Pose start{{-20.0, 0.0}, 0.0};
   const Pose goal{{20.0, 5.0}, 1.0};
   ASSERT_TRUE(finder.find(field, start, goal, path));
-  const int before = allocations;
+  const int before = test::allocations;
   ASSERT_TRUE(finder.find(field, start, goal, path));
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations, before);
 }
 
 }  // namespace

@@ -1,61 +1,60 @@
-// The control loop allocates nothing. Apart from the other tests, since it replaces operator new.
+// The control loop allocates nothing. Apart from the other tests, since operator new is replaced.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdlib>
-#include <new>
 #include <string>
 
+#include "../counted_allocations.hpp"
 #include "otter_nav/tracker/tracker.hpp"
-
-// Counts what the control loop allocates.
-namespace {
-std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
 
 namespace otter_nav::tracker {
 namespace {
 
-TEST(TrackerAllocation, AllocatesNothingInTheLoop) {
-  const auto options = loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml");
-  ASSERT_TRUE(options) << options.error().message;
-  Tracker tracker(*options, vessel::Parameters{});
-  vessel::FlatPoint goal;
-  goal.position.x() = 30.0;
-  double now_s = 100.0;
-  ASSERT_TRUE(tracker.setTrajectory(
-      trajectory::Trajectory({trajectory::hermitePiece({}, goal, 20.0)}), now_s));
-  vessel::State state = vessel::State::Zero();
-  const auto cycle = [&] {
-    tracker.addOdometry(now_s, state);
-    const Command command = tracker.step(now_s);
-    tracker.prepare(now_s + 0.01);
-    state[vessel::kX] += command.mode == Mode::kTracking ? 0.015 : 0.0;
-    now_s += 0.01;
-    return command.mode;
-  };
-  EXPECT_EQ(cycle(), Mode::kTracking);
-  const std::size_t before = allocations;
+// Along a straight line of 30 m from rest to rest, from the second cycle on.
+class TrackerAllocation : public ::testing::Test {
+ protected:
+  TrackerAllocation()
+      : tracker_(*loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml"),
+                 vessel::Parameters{}) {
+    vessel::FlatPoint goal;
+    goal.position.x() = 30.0;
+    const auto status = tracker_.setTrajectory(
+        trajectory::Trajectory({trajectory::hermitePiece({}, goal, 20.0)}), now_s_);
+    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_EQ(cycle().mode, Mode::kTracking);
+    before_ = test::allocations;
+  }
+  Command cycle() {
+    tracker_.addOdometry(now_s_, state_);
+    const Command command = tracker_.step(now_s_);
+    tracker_.prepare(now_s_ + 0.01);
+    now_s_ += 0.01;
+    return command;
+  }
+
+  double now_s_ = 100.0;
+  vessel::State state_ = vessel::State::Zero();
+  Tracker tracker_;
+  int before_ = 0;
+};
+
+TEST_F(TrackerAllocation, NoneThroughTrackingAndHolding) {
   Mode mode = Mode::kIdle;
-  for (int i = 0; i < 2500; ++i) {  // past the end, through holding
-    mode = cycle();
+  for (int i = 0; i < 2500; ++i) {  // past the end
+    mode = cycle().mode;
+    state_[vessel::kX] += mode == Mode::kTracking ? 0.015 : 0.0;
   }
   EXPECT_EQ(mode, Mode::kHolding);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations, before_);
+}
+
+// The vessel stays where it is and the thrusters are at their limits.
+TEST_F(TrackerAllocation, NoneWithBoundsMet) {
+  int saturated = 0;
+  for (int i = 0; i < 1000; ++i) {
+    saturated += cycle().thrusts.maxCoeff() > 49.9 ? 1 : 0;
+  }
+  EXPECT_GT(saturated, 100);
+  EXPECT_EQ(test::allocations, before_);
 }
 
 }  // namespace
