@@ -1,0 +1,72 @@
+// What the hull must keep clear of, in space and time: the chart and the lidar's echoes as a
+// distance field, and any number of further layers (things that move, soft keep-out areas). Const
+// and thread-safe; the one interface through which topology, planner, optimizer, verifier and
+// mission ask for clearance.
+//
+// Every clearance is a lower bound and 1-Lipschitz in the position: nothing is nearer than it says,
+// so a walk along a path may advance by clearance / (speed + rateBound()).
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "otter_nav/map/distance_field.hpp"
+
+namespace otter_nav::feasibility {
+
+// One more kind of obstacle. Map frame, m; times in s on the clock of the trajectory's start.
+class ObstacleLayer {
+ public:
+  virtual ~ObstacleLayer() = default;
+  // A lower bound of the distance from `position` to the layer's obstacles at `time_s`.
+  [[nodiscard]] virtual double clearance(const Eigen::Vector2d& position, double time_s) const = 0;
+  // The most by which a clearance at a fixed position may fall in a second, m/s.
+  [[nodiscard]] virtual double rateBound() const = 0;
+  // Smooth and signed, with its gradient, for optimisation. Not a bound.
+  [[nodiscard]] virtual map::DistanceField::Smooth smooth(const Eigen::Vector2d& position,
+                                                          double time_s) const = 0;
+};
+
+class Obstacles {
+ public:
+  // `field` and added layers are not owned and must outlive this.
+  // NOLINTNEXTLINE(google-explicit-constructor): a field is the obstacles of still water.
+  Obstacles(const map::DistanceField& field) : field_(&field) {}
+
+  void add(const ObstacleLayer& layer) {
+    layers_.push_back(&layer);
+    rate_bound_mps_ = std::max(rate_bound_mps_, layer.rateBound());
+  }
+
+  // What lies still: for what has no time of its own (guide paths, windows of a search).
+  [[nodiscard]] const map::DistanceField& field() const { return *field_; }
+  [[nodiscard]] double rateBound() const { return rate_bound_mps_; }
+
+  [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const {
+    double least = field_->clearance(position);
+    for (const ObstacleLayer* layer : layers_) {
+      least = std::min(least, layer->clearance(position, time_s));
+    }
+    return least;
+  }
+
+  [[nodiscard]] map::DistanceField::Smooth smooth(const Eigen::Vector2d& position,
+                                                  double time_s) const {
+    map::DistanceField::Smooth nearest = field_->smooth(position);
+    for (const ObstacleLayer* layer : layers_) {
+      const map::DistanceField::Smooth other = layer->smooth(position, time_s);
+      if (other.distance_m < nearest.distance_m) {
+        nearest = other;
+      }
+    }
+    return nearest;
+  }
+
+ private:
+  const map::DistanceField* field_;
+  std::vector<const ObstacleLayer*> layers_;
+  double rate_bound_mps_ = 0.0;
+};
+
+}  // namespace otter_nav::feasibility

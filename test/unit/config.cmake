@@ -1,0 +1,1 @@
+otter_nav_test(unit_config_fields SOURCES ${CMAKE_CURRENT_LIST_DIR}/config/fields_test.cpp ROOMS config)

@@ -1,0 +1,80 @@
+// Fields described once: read, written, and refused by name.
+#include "otter_nav/config/fields.hpp"
+
+#include <gtest/gtest.h>
+
+namespace otter_nav::config {
+namespace {
+
+enum class Colour { kRed, kGreen };
+
+struct Inner {
+  int count = 3;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("count", o.count, {1.0, 9.0}, "of things");
+  }
+};
+
+struct Outer {
+  double length_m = 0.1;
+  bool enabled = true;
+  Colour colour = Colour::kGreen;
+  std::vector<double> place = {1.0, -2.5};
+  Inner inner;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("length_m", o.length_m, {0.0, 5.0}, "of it");
+    fields("enabled", o.enabled, "whether it is");
+    fields.choice("colour", o.colour,
+                  Choices<Colour>{{"red", Colour::kRed}, {"green", Colour::kGreen}}, "of it");
+    fields.list("place", o.place, 2, {-10.0, 10.0}, "where it is");
+    fields.group("inner", o.inner, "within");
+  }
+};
+
+Result<Outer> readText(const std::string& text) {
+  return read<Outer>(Section(YAML::Load(text), "outer.yaml"));
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(Fields, ComeBackAsWritten) {
+  Outer written;
+  written.length_m = 1.0 / 3.0;
+  written.enabled = false;
+  written.colour = Colour::kRed;
+  written.place = {0.1, 7.0};
+  written.inner.count = 8;
+  const Result<Outer> back = readText(toYaml(written));
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->length_m, written.length_m);
+  EXPECT_EQ(back->enabled, written.enabled);
+  EXPECT_EQ(back->colour, written.colour);
+  EXPECT_EQ(back->place, written.place);
+  EXPECT_EQ(back->inner.count, written.inner.count);
+}
+
+TEST(Fields, RefuseByName) {
+  const std::string good = toYaml(Outer());
+  const auto message = [](const std::string& text) {
+    const Result<Outer> result = readText(text);
+    return result ? std::string("accepted") : result.error().message;
+  };
+  EXPECT_NE(message(replaced(good, "0.1", "7")).find("'length_m' = 7 is outside"),
+            std::string::npos);
+  EXPECT_NE(message(replaced(good, "green", "blue")).find("'colour' = 'blue' is none of"),
+            std::string::npos);
+  EXPECT_NE(message(replaced(good, "  count: 3", "  count: 10")).find("'count' = 10 is outside"),
+            std::string::npos);
+  EXPECT_NE(message(replaced(good, "  count: 3", "  number: 3")).find("'count' is missing"),
+            std::string::npos);
+  EXPECT_NE(message(good + "extra: 1\n").find("unknown parameter 'extra'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace otter_nav::config
