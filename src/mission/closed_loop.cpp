@@ -7,6 +7,7 @@
 #include "otter_nav/mission/plan_desk.hpp"
 #include "otter_nav/mission/sensing.hpp"
 #include "otter_nav/plant/simulator.hpp"
+#include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/tracker/tracker.hpp"
 
 namespace otter_nav::mission {
@@ -213,10 +214,10 @@ Progress ClosedLoop::Impl::progress() const {
   progress.state = name(supervisor_.phase());
   progress.detail = supervisor_.reason();
   const SailOrder& sailed = supervisor_.sailed();
-  progress.distance_left_m =
-      sailed.trajectory.empty()
-          ? (now.state.head<2>() - goal_.position).norm()
-          : trajectory::length(remainder(sailed.trajectory, time() - sailed.start_time_s));
+  progress.distance_left_m = sailed.trajectory.empty()
+                                 ? (now.state.head<2>() - goal_.position).norm()
+                                 : trajectory::length(stopping::remainder(
+                                       sailed.trajectory, time() - sailed.start_time_s));
   return progress;
 }
 

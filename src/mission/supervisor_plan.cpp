@@ -5,8 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "otter_nav/mission/back_off.hpp"
 #include "otter_nav/mission/supervisor.hpp"
+#include "otter_nav/stopping/back_off.hpp"
+#include "otter_nav/stopping/splice.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -89,7 +90,7 @@ Orders Supervisor::requestFromSailed(double now_s, const map::DistanceField& fie
   request.start_time_s = sailed_.start_time_s + *at;
   // The force it begins with is one of the plan being sailed.
   request.thrust_share = sailed_thrust_share_;
-  request.warm_start = remainder(sailed_.trajectory, *at);
+  request.warm_start = stopping::remainder(sailed_.trajectory, *at);
   return post(now_s, std::move(request), From::kSailed, field);
 }
 
@@ -101,9 +102,9 @@ Orders Supervisor::requestFromVessel(double now_s, const Situation& situation,
   request.thrust_share =
       std::min(options_.margins.thrust_share,
                freeThrustShare() + times_refused_ * options_.margins.thrust_share_step);
-  request.start =
-      flatFromState(situation.state, vessel_.paper,
-                    kStartShare * request.thrust_share * 2.0 * vessel_.thrusters.ahead_max_n);
+  request.start = stopping::flatFromState(
+      situation.state, vessel_.paper,
+      kStartShare * request.thrust_share * 2.0 * vessel_.thrusters.ahead_max_n);
   request.start.position += latency_s_ * request.start.velocity;
   request.start_psi_rad = situation.state[vessel::kPsi];
   request.start_time_s = now_s + latency_s_;
@@ -170,8 +171,8 @@ Orders Supervisor::takeMoving(double now_s, const PlanReply& reply, const Pendin
     sail({reply.trajectory, asked.request.start_time_s}, asked.request, now_s);
   } else {
     const double began = sailed_.start_time_s;
-    Spliced way = splice(sailed_.trajectory, now_s - began, asked.request.start_time_s - began,
-                         reply.trajectory);
+    stopping::Spliced way = stopping::splice(sailed_.trajectory, now_s - began,
+                                             asked.request.start_time_s - began, reply.trajectory);
     sail({std::move(way.trajectory), began + way.start_s}, asked.request, now_s);
   }
   return Orders{std::nullopt, sailed_, false};
@@ -222,7 +223,7 @@ Orders Supervisor::tryBackingOff(double now_s, const std::string& why, const Sit
     return {};
   }
   std::optional<trajectory::Trajectory> way =
-      backOff(situation.state, field, vessel_, situation.disturbance_n);
+      stopping::backOff(situation.state, field, vessel_, situation.disturbance_n);
   if (!way) {
     return {};
   }

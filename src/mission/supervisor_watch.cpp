@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "otter_nav/mission/back_off.hpp"
 #include "otter_nav/mission/supervisor.hpp"
+#include "otter_nav/stopping/back_off.hpp"
+#include "otter_nav/stopping/braking.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -18,7 +19,7 @@ bool atRest(const vessel::State& state) {
          std::abs(state[vessel::kYawRate]) < kAtRestRadps;
 }
 
-std::string conflictText(const Conflict& conflict) {
+std::string conflictText(const stopping::Conflict& conflict) {
   char text[128];
   std::snprintf(text, sizeof(text), "only %.2f m clear at (%.1f m, %.1f m) on the way",
                 conflict.clearance_m, conflict.position.x(), conflict.position.y());
@@ -52,14 +53,15 @@ Orders Supervisor::watchTheWay(double now_s, const Situation& situation,
   const double at = now_s - sailed_.start_time_s;
   const double least = options_.critical_clearance_m;
   const double slack = options_.clearance_slack_m;
-  const Conflict ahead =
-      firstConflict(sailed_.trajectory, at, field, std::max(least, sailed_clearance_m_ - slack));
+  const stopping::Conflict ahead = stopping::firstConflict(
+      sailed_.trajectory, at, field, std::max(least, sailed_clearance_m_ - slack));
   if (ahead.found) {
     if (phase_ == Phase::kSailing) {
       enter(Phase::kReplanning, conflictText(ahead));
       for_clearance_ = true;
     }
-    const Conflict blocking = firstConflict(sailed_.trajectory, at, field, least);
+    const stopping::Conflict blocking =
+        stopping::firstConflict(sailed_.trajectory, at, field, least);
     if (blocking.found && blocking.time_s - at < options_.brake_horizon_s &&
         mustBrake(now_s, field)) {
       return brake(now_s, field, conflictText(blocking));
@@ -107,16 +109,16 @@ Orders Supervisor::replanIfNeeded(double now_s, const Situation& situation,
 
 bool Supervisor::mustBrake(double now_s, const map::DistanceField& field) const {
   const double later = now_s - sailed_.start_time_s + options_.stop_reserve_s;
-  const BrakingOptions braking{options_.brake_thrust_share,
-                               options_.margins.plan_clearances_m.back()};
-  return !brakingTrajectory(sailed_.trajectory, later, field, vessel_, braking).clear;
+  const stopping::BrakingOptions braking{options_.brake_thrust_share,
+                                         options_.margins.plan_clearances_m.back()};
+  return !stopping::brakingTrajectory(sailed_.trajectory, later, field, vessel_, braking).clear;
 }
 
 Orders Supervisor::brake(double now_s, const map::DistanceField& field, std::string reason) {
-  const BrakingOptions braking{options_.brake_thrust_share,
-                               options_.margins.plan_clearances_m.back()};
-  Braking stop =
-      brakingTrajectory(sailed_.trajectory, now_s - sailed_.start_time_s, field, vessel_, braking);
+  const stopping::BrakingOptions braking{options_.brake_thrust_share,
+                                         options_.margins.plan_clearances_m.back()};
+  stopping::Braking stop = stopping::brakingTrajectory(
+      sailed_.trajectory, now_s - sailed_.start_time_s, field, vessel_, braking);
   if (stop.trajectory.empty()) {
     return stopByItself(now_s, std::move(reason));
   }
@@ -148,7 +150,7 @@ Orders Supervisor::watchBackingOff(double now_s, const Situation& situation,
   constexpr double kTouchesM = 0.05;  // half of what it set off with
   const double at = now_s - sailed_.start_time_s;
   if (at < sailed_.trajectory.duration() &&
-      !outlineKeepsClear(sailed_.trajectory, at, vessel_, field, kTouchesM)) {
+      !stopping::outlineKeepsClear(sailed_.trajectory, at, vessel_, field, kTouchesM)) {
     return stopByItself(now_s, "something came up where the vessel backs off to");
   }
   return watchTheStop(now_s, situation);

@@ -6,7 +6,7 @@
 #include <deque>
 #include <optional>
 
-#include "otter_nav/mission/braking.hpp"
+#include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -42,7 +42,7 @@ class ReferenceLog {
     if (entry == nullptr || entry->trajectory.empty()) {
       return std::nullopt;
     }
-    return trajectory::length(mission::remainder(entry->trajectory, time_s - entry->start_s));
+    return trajectory::length(stopping::remainder(entry->trajectory, time_s - entry->start_s));
   }
 
  private:

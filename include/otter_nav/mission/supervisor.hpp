@@ -18,7 +18,6 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/mission/braking.hpp"
 #include "otter_nav/mission/margins.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"

@@ -1,4 +1,4 @@
-#include "otter_nav/mission/braking.hpp"
+#include "otter_nav/stopping/braking.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "straight_stop.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::stopping {
 namespace {
 
 using trajectory::Piece;
@@ -196,4 +197,4 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s, const map::Dist
   return best;
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::stopping

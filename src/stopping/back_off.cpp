@@ -1,4 +1,4 @@
-#include "otter_nav/mission/back_off.hpp"
+#include "otter_nav/stopping/back_off.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "otter_nav/optimizer/verification.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::stopping {
 namespace {
 
 using trajectory::Piece;
@@ -94,4 +94,4 @@ std::optional<Trajectory> backOff(const vessel::State& state, const map::Distanc
   return std::nullopt;
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::stopping

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace otter_nav::mission {
+namespace otter_nav::stopping {
 namespace {
 
 using vessel::FlatPoint;
@@ -135,4 +135,4 @@ trajectory::Trajectory straightStop(const FlatPoint& from, const StraightStop& s
   return trajectory::Trajectory(std::move(pieces));
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::stopping

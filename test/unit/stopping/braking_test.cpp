@@ -1,13 +1,15 @@
-#include "otter_nav/mission/braking.hpp"
+#include "otter_nav/stopping/braking.hpp"
 
 #include <gtest/gtest.h>
 
+#include "../mission/waters.hpp"
 #include "otter_nav/optimizer/verification.hpp"
-#include "waters.hpp"
+#include "otter_nav/stopping/splice.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::stopping {
 namespace {
 
+namespace test = mission::test;
 using test::block;
 using test::circle;
 using test::eastward;
@@ -160,4 +162,4 @@ TEST(FlatFromState, SlowsDownWhereTheForceIsTooSmallForTheSpeed) {
 }
 
 }  // namespace
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::stopping

@@ -7,7 +7,7 @@
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::stopping {
 
 // Room to turn on the spot: the hull's corners, and some more, m from its centre.
 [[nodiscard]] double turningRoom(const vessel::Hull& hull);
@@ -27,4 +27,4 @@ namespace otter_nav::mission {
                                      const vessel::Parameters& vessel,
                                      const map::DistanceField& field, double least_m);
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::stopping

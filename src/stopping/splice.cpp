@@ -1,13 +1,14 @@
-// What is left of a sailed trajectory: cut, checked, continued.
+#include "otter_nav/stopping/splice.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "otter_nav/mission/braking.hpp"
+#include "otter_nav/stopping/braking.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::stopping {
 namespace {
 
 using trajectory::kCoefficients;
@@ -131,4 +132,4 @@ vessel::FlatPoint flatFromState(const vessel::State& state, const vessel::PaperM
   return z;
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::stopping

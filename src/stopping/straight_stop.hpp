@@ -4,7 +4,7 @@
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/flatness.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::stopping {
 
 struct StraightStop {
   double straighten_s = 1.0;  // the turn dies out within
@@ -17,4 +17,4 @@ struct StraightStop {
 [[nodiscard]] trajectory::Trajectory straightStop(const vessel::FlatPoint& from,
                                                   const StraightStop& stop);
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::stopping
