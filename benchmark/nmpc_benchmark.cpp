@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "otter_nav/config/share.hpp"
-#include "otter_nav/tracker/ipopt_solver.hpp"
+#include "tracker/oracle/ipopt_solver.hpp"
 #include "progress_bar.hpp"
 #include "tracking/nmpc_cases.hpp"
 #include "tracking/percentiles.hpp"

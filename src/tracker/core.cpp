@@ -1,4 +1,4 @@
-#include "core.hpp"
+#include "tracker/core.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/tracker/trajectory_check.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
+#include "tracker/trajectory_check.hpp"
 
 namespace otter_nav::tracker {
 namespace {

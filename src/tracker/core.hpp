@@ -3,12 +3,12 @@
 
 #include <atomic>
 
-#include "otter_nav/tracker/handover.hpp"
-#include "otter_nav/tracker/navigator.hpp"
-#include "otter_nav/tracker/reference.hpp"
-#include "otter_nav/tracker/rti_solver.hpp"
-#include "otter_nav/tracker/station_keeper.hpp"
 #include "otter_nav/tracker/tracker.hpp"
+#include "tracker/handover.hpp"
+#include "tracker/navigator.hpp"
+#include "tracker/ocp/rti_solver.hpp"
+#include "tracker/reference.hpp"
+#include "tracker/station_keeper.hpp"
 
 namespace otter_nav::tracker {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core.hpp"
+#include "tracker/core.hpp"
 
 namespace otter_nav::tracker {
 

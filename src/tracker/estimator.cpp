@@ -1,4 +1,4 @@
-#include "otter_nav/tracker/estimator.hpp"
+#include "tracker/estimator.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

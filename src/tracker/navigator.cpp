@@ -1,4 +1,4 @@
-#include "otter_nav/tracker/navigator.hpp"
+#include "tracker/navigator.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "otter_nav/tracker/reference.hpp"
+#include "tracker/reference.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "otter_nav/tracker/station_keeper.hpp"
+#include "tracker/station_keeper.hpp"
 
 #include <algorithm>
 #include <cmath>

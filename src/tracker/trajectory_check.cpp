@@ -1,4 +1,4 @@
-#include "otter_nav/tracker/trajectory_check.hpp"
+#include "tracker/trajectory_check.hpp"
 
 #include <cmath>
 #include <string>

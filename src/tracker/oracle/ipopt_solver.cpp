@@ -1,10 +1,10 @@
-#include "otter_nav/tracker/ipopt_solver.hpp"
+#include "tracker/oracle/ipopt_solver.hpp"
 
 #include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>
 #include <string>
 
-#include "shooting_problem.hpp"
+#include "tracker/oracle/shooting_problem.hpp"
 
 namespace otter_nav::tracker {
 

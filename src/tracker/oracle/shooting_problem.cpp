@@ -1,4 +1,4 @@
-#include "shooting_problem.hpp"
+#include "tracker/oracle/shooting_problem.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The estimator alone, fed with what the model does under known disturbances.
-#include "otter_nav/tracker/estimator.hpp"
+#include "tracker/estimator.hpp"
 
 #include <gtest/gtest.h>
 

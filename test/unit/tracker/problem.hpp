@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "otter_nav/tracker/rti_solver.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "tracker/ocp/rti_solver.hpp"
 
 namespace otter_nav::tracker::test {
 

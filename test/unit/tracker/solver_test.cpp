@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "otter_nav/base/rk4.hpp"
-#include "otter_nav/tracker/ipopt_solver.hpp"
 #include "problem.hpp"
+#include "tracker/oracle/ipopt_solver.hpp"
 
 namespace otter_nav::tracker {
 namespace {

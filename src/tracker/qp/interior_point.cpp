@@ -1,9 +1,9 @@
-#include "otter_nav/tracker/interior_point.hpp"
+#include "tracker/qp/interior_point.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "otter_nav/tracker/rti_solver.hpp"
+#include "tracker/ocp/rti_solver.hpp"
 
 namespace otter_nav::tracker {
 namespace {

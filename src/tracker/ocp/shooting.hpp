@@ -2,10 +2,10 @@
 // (paper, equation 7), four stages at a time.
 #pragma once
 
-#include "otter_nav/tracker/pack.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/types.hpp"
+#include "tracker/qp/pack.hpp"
 
 namespace otter_nav::tracker {
 

@@ -1,4 +1,4 @@
-#include "otter_nav/tracker/rti_solver.hpp"
+#include "tracker/ocp/rti_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

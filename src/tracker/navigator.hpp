@@ -5,8 +5,8 @@
 #include <array>
 #include <string_view>
 
-#include "otter_nav/tracker/estimator.hpp"
 #include "otter_nav/tracker/options.hpp"
+#include "tracker/estimator.hpp"
 
 namespace otter_nav::tracker {
 

@@ -12,9 +12,9 @@
 #pragma once
 
 #include "otter_nav/tracker/options.hpp"
-#include "otter_nav/tracker/rti_solver.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/model.hpp"
+#include "tracker/ocp/rti_solver.hpp"
 
 namespace otter_nav::tracker {
 

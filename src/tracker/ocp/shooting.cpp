@@ -1,4 +1,4 @@
-#include "otter_nav/tracker/shooting.hpp"
+#include "tracker/ocp/shooting.hpp"
 
 #include <algorithm>
 

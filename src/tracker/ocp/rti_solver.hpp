@@ -15,11 +15,11 @@
 
 #include <array>
 
-#include "otter_nav/tracker/interior_point.hpp"
 #include "otter_nav/tracker/limits.hpp"
-#include "otter_nav/tracker/riccati.hpp"
-#include "otter_nav/tracker/shooting.hpp"
 #include "otter_nav/tracker/solver_status.hpp"
+#include "tracker/ocp/shooting.hpp"
+#include "tracker/qp/interior_point.hpp"
+#include "tracker/qp/riccati.hpp"
 
 namespace otter_nav::tracker {
 

@@ -1,4 +1,4 @@
-#include "otter_nav/tracker/riccati.hpp"
+#include "tracker/qp/riccati.hpp"
 
 namespace otter_nav::tracker {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/tracker/rti_solver.hpp"
+#include "tracker/ocp/rti_solver.hpp"
 
 namespace otter_nav::tracker {
 

@@ -2,7 +2,7 @@
 // Hessian, so its Newton steps are the solver's own Riccati recursion.
 #include <algorithm>
 
-#include "otter_nav/tracker/rti_solver.hpp"
+#include "tracker/ocp/rti_solver.hpp"
 
 namespace otter_nav::tracker {
 namespace {

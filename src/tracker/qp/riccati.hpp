@@ -7,8 +7,8 @@
 // the same recursion serve the active-set iterations.
 #pragma once
 
-#include "otter_nav/tracker/pack.hpp"
-#include "otter_nav/tracker/shooting.hpp"
+#include "tracker/ocp/shooting.hpp"
+#include "tracker/qp/pack.hpp"
 
 namespace otter_nav::tracker {
 

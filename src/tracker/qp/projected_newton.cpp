@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "otter_nav/tracker/rti_solver.hpp"
+#include "tracker/ocp/rti_solver.hpp"
 
 namespace otter_nav::tracker {
 namespace {
