@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/optimizer/local_optimizer.hpp"
 
 namespace otter_nav::optimizer {
@@ -10,10 +11,6 @@ constexpr double kStepS = 0.1;
 constexpr double kLeastSlackM = 0.01;
 constexpr double kSlowMps = 0.3;        // slower, the start's and goal's pieces are rebuilt anyway
 constexpr double kTurningRadps = 0.15;  // a course turning less counts as straight
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 }  // namespace
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "aims.hpp"
-#include "assembly.hpp"
-#include "otter_nav/optimizer/initial_way.hpp"
-#include "otter_nav/optimizer/spline_problem.hpp"
-#include "spline_solver.hpp"
-#include "stop_and_spin.hpp"
-#include "way_ends.hpp"
+#include "optimizer/ends/path_ends.hpp"
+#include "optimizer/ends/stop_and_spin.hpp"
+#include "optimizer/objective/spline_problem.hpp"
+#include "optimizer/solve/assembly.hpp"
+#include "optimizer/solve/initial_spline.hpp"
+#include "optimizer/solve/spline_solver.hpp"
+#include "optimizer/solve/targets.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -164,7 +164,9 @@ class GlobalOptimizer::Solver {
       spline_.spans[i].duration_free = false;
       for (std::size_t k = 0; k < kQuadraturePoints; ++k) {
         const BasisMatrix basis =
-            scaleBasis(hermiteBasis(quadraturePoints()[k]), spline_.spans[i].duration_s).value;
+            trajectory::scaleBasis(trajectory::hermiteBasis(trajectory::quadraturePoints()[k]),
+                                   spline_.spans[i].duration_s)
+                .value;
         originals_[i][k] = spline_.knots[i].state * basis.row(0).head<4>().transpose() +
                            spline_.knots[i + 1].state * basis.row(0).tail<4>().transpose();
       }

@@ -1,11 +1,12 @@
-#include "piece_check.hpp"
+#include "optimizer/piece_check.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "piece_polynomials.hpp"
+#include "otter_nav/base/planar.hpp"
+#include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -59,12 +60,12 @@ HullCircles hullCircles(const vessel::Hull& hull) {
 PieceCheck::PieceCheck(const trajectory::Piece& piece, const vessel::Parameters& vessel,
                        const CheckOptions& options)
     : piece_(piece), vessel_(vessel), options_(options) {
-  velocity_ = differentiate<8>(piece.position);
-  acceleration_ = differentiate<7>(velocity_);
-  jerk_ = differentiate<6>(acceleration_);
-  snap_ = differentiate<5>(jerk_);
+  velocity_ = trajectory::differentiate<8>(piece.position);
+  acceleration_ = trajectory::differentiate<7>(velocity_);
+  jerk_ = trajectory::differentiate<6>(acceleration_);
+  snap_ = trajectory::differentiate<5>(jerk_);
   if (piece.kind == trajectory::PieceKind::kSail) {
-    direction_ = lineOf(piece);
+    direction_ = trajectory::lineOf(piece);
     straight_ = direction_.squaredNorm() > 0.5;
   }
 }
@@ -72,8 +73,8 @@ PieceCheck::PieceCheck(const trajectory::Piece& piece, const vessel::Parameters&
 PieceCheck::Point PieceCheck::at(double t_s) const {
   const vessel::PaperModel& m = vessel_.paper;
   Point p;
-  p.velocity = evaluate<7>(velocity_, t_s);
-  const Eigen::Vector2d a = evaluate<6>(acceleration_, t_s);
+  p.velocity = trajectory::evaluate<7>(velocity_, t_s);
+  const Eigen::Vector2d a = trajectory::evaluate<6>(acceleration_, t_s);
   p.w = m.m1_kg * a + m.d2_kgps * p.velocity;
   if (straight_) {
     const double force = m.m1_kg * direction_.dot(a) + m.d1_kgps * direction_.dot(p.velocity);
@@ -81,9 +82,9 @@ PieceCheck::Point PieceCheck::at(double t_s) const {
     p.yaw_rate_radps = 0.0;
     return p;
   }
-  const Eigen::Vector2d j = evaluate<5>(jerk_, t_s);
+  const Eigen::Vector2d j = trajectory::evaluate<5>(jerk_, t_s);
   const Eigen::Vector2d w1 = m.m1_kg * j + m.d2_kgps * a;
-  const Eigen::Vector2d w2 = m.m1_kg * evaluate<4>(snap_, t_s) + m.d2_kgps * j;
+  const Eigen::Vector2d w2 = m.m1_kg * trajectory::evaluate<4>(snap_, t_s) + m.d2_kgps * j;
   const double norm2 = std::max(p.w.squaredNorm(), 1e-12);
   p.yaw_rate_radps = cross(p.w, w1) / norm2;
   const double yaw_acceleration = (cross(p.w, w2) - 2.0 * p.yaw_rate_radps * p.w.dot(w1)) / norm2;
@@ -117,13 +118,14 @@ Eigen::Vector2d PieceCheck::bowAt(double t_s) const {
   if (straight_) {
     return direction_;
   }
-  const Eigen::Vector2d velocity = evaluate<7>(velocity_, t_s);
-  const Eigen::Vector2d w =
-      vessel_.paper.m1_kg * evaluate<6>(acceleration_, t_s) + vessel_.paper.d2_kgps * velocity;
+  const Eigen::Vector2d velocity = trajectory::evaluate<7>(velocity_, t_s);
+  const Eigen::Vector2d w = vessel_.paper.m1_kg * trajectory::evaluate<6>(acceleration_, t_s) +
+                            vessel_.paper.d2_kgps * velocity;
   Eigen::Vector2d ahead = velocity;
   if (velocity.norm() < kSlowMps) {
     const double inward = std::min(1e-2, 0.25 * piece_.duration_s);
-    ahead = evaluate<7>(velocity_, t_s < 0.5 * piece_.duration_s ? t_s + inward : t_s - inward);
+    ahead = trajectory::evaluate<7>(velocity_,
+                                    t_s < 0.5 * piece_.duration_s ? t_s + inward : t_s - inward);
   }
   return w.dot(ahead) >= 0.0 ? w.normalized() : Eigen::Vector2d(-w.normalized());
 }
@@ -133,8 +135,8 @@ PieceCheck::Point PieceCheck::inSpin(double t_s) const {
   const Eigen::Vector3d psi = piece_.spinHeading(t_s);
   const Eigen::Vector2d bow(std::cos(psi[0]), std::sin(psi[0]));
   Point p;
-  p.velocity = evaluate<7>(velocity_, t_s);
-  const Eigen::Vector2d a = evaluate<6>(acceleration_, t_s);
+  p.velocity = trajectory::evaluate<7>(velocity_, t_s);
+  const Eigen::Vector2d a = trajectory::evaluate<6>(acceleration_, t_s);
   p.w = m.m1_kg * a + m.d2_kgps * p.velocity;
   p.sway_n = cross(bow, p.w);
   p.yaw_rate_radps = psi[1];
@@ -218,14 +220,14 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
 
 void PieceCheck::checkClearance(const map::DistanceField& field, PieceReport& report) const {
   const HullCircles hull = hullCircles(vessel_.hull);
-  const double speed = std::max(speedBound(velocity_, piece_.duration_s), 1e-3);
+  const double speed = std::max(trajectory::speedBound(velocity_, piece_.duration_s), 1e-3);
   const double end_speed = speed + hull.offset_m * (1.1 * report.yaw_rate_radps + 0.01);
   const double around = hull.offset_m + hull.radius_m;
   report.clearance_m = std::numeric_limits<double>::infinity();
   double t = 0.0;
   while (report.fault == Fault::kNone) {
     report.time_s = t;
-    const Eigen::Vector2d p = evaluate<8>(piece_.position, t);
+    const Eigen::Vector2d p = trajectory::evaluate<8>(piece_.position, t);
     const double clearance = field.clearance(p);
     report.clearance_m = std::min(report.clearance_m, clearance);
     const double slack = clearance - options_.clearance_m;

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "optimizer/piece_check.hpp"
 #include "otter_nav/base/angles.hpp"
-#include "piece_check.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

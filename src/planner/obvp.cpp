@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "otter_nav/planner/real_roots.hpp"
+#include "otter_nav/trajectory/polynomial/real_roots.hpp"
 
 namespace otter_nav::planner {
 
@@ -29,8 +29,10 @@ double SteerCost::at(double duration_s) const {
 
 std::optional<double> SteerCost::bestDuration() const {
   constexpr double kShortestS = 1e-3;
-  const Polynomial slope = {-5.0 * c5_, -4.0 * c4_, -3.0 * c3_, -2.0 * c2_, -c1_, 0.0, sigma_};
-  const Roots roots = realRoots(slope, kShortestS, 1.01 * rootBound(slope) + kShortestS);
+  const trajectory::Polynomial slope = {-5.0 * c5_, -4.0 * c4_, -3.0 * c3_, -2.0 * c2_,
+                                        -c1_,       0.0,        sigma_};
+  const trajectory::Roots roots =
+      trajectory::realRoots(slope, kShortestS, 1.01 * trajectory::rootBound(slope) + kShortestS);
   std::optional<double> best;
   double best_cost = std::numeric_limits<double>::infinity();
   for (int i = 0; i < roots.count; ++i) {

@@ -1,6 +1,6 @@
 // Launches and arrivals against the model they come from: integrated afresh under the thrusts that
 // the pieces ask for, they must lead where the pieces lead.
-#include "otter_nav/optimizer/end_manoeuvre.hpp"
+#include "optimizer/ends/end_manoeuvre.hpp"
 
 #include <gtest/gtest.h>
 

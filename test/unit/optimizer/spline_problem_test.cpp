@@ -1,6 +1,6 @@
 // The objective's derivatives against finite differences, its closed-form step against a dense
 // solver.
-#include "otter_nav/optimizer/spline_problem.hpp"
+#include "optimizer/objective/spline_problem.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "otter_nav/optimizer/end_manoeuvre.hpp"
+#include "optimizer/ends/end_manoeuvre.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
 
 namespace otter_nav::optimizer {

@@ -1,6 +1,6 @@
-#include "otter_nav/optimizer/hermite_basis.hpp"
+#include "otter_nav/trajectory/polynomial/hermite_basis.hpp"
 
-namespace otter_nav::optimizer {
+namespace otter_nav::trajectory {
 namespace {
 
 // Coefficients of s^0..s^7 (rows) of each basis function (columns), see trajectory::hermitePiece.
@@ -77,4 +77,4 @@ ScaledBasis scaleBasis(const BasisMatrix& basis, double duration_s) {
   return scaled;
 }
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::trajectory

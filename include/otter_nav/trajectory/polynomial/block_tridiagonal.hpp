@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace otter_nav::optimizer {
+namespace otter_nav::trajectory {
 
 template <int Size>
 class BlockTridiagonal {
@@ -67,4 +67,4 @@ class BlockTridiagonal {
   std::vector<Vector> solution_;
 };
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::trajectory

@@ -1,10 +1,10 @@
-#include "way_ends.hpp"
+#include "optimizer/ends/path_ends.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/piece_check.hpp"
 #include "otter_nav/base/angles.hpp"
-#include "piece_check.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

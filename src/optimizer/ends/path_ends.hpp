@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "optimizer/ends/end_manoeuvre.hpp"
+#include "optimizer/solve/initial_spline.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/optimizer/end_manoeuvre.hpp"
-#include "otter_nav/optimizer/initial_way.hpp"
 #include "otter_nav/optimizer/verification.hpp"
 
 namespace otter_nav::optimizer {

@@ -1,9 +1,9 @@
-#include "aims.hpp"
+#include "optimizer/solve/targets.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "piece_check.hpp"
+#include "optimizer/piece_check.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

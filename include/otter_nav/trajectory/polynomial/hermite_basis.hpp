@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 
-namespace otter_nav::optimizer {
+namespace otter_nav::trajectory {
 
 constexpr int kOrders = 5;     // position to snap
 constexpr int kEndValues = 8;  // p, v, a, j at both ends
@@ -30,4 +30,4 @@ struct ScaledBasis {
 };
 [[nodiscard]] ScaledBasis scaleBasis(const BasisMatrix& basis, double duration_s);
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::trajectory

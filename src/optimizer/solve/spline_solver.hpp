@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "otter_nav/optimizer/spline_problem.hpp"
+#include "optimizer/objective/spline_problem.hpp"
 
 namespace otter_nav::optimizer {
 

@@ -1,22 +1,22 @@
-#include "piece_polynomials.hpp"
+#include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace otter_nav::optimizer {
+namespace otter_nav::trajectory {
 namespace {
 
 constexpr double kStraightShare = 1e-9;  // of a coefficient, that may point off the line
 
 }  // namespace
 
-Eigen::Vector2d lineOf(const trajectory::Piece& piece) {
+Eigen::Vector2d lineOf(const Piece& piece) {
   Eigen::Vector2d longest = Eigen::Vector2d::Zero();
   double longest_m = 0.0;
-  std::array<double, trajectory::kCoefficients> size{};
+  std::array<double, kCoefficients> size{};
   double power = 1.0;
-  for (int k = 1; k < trajectory::kCoefficients; ++k) {
+  for (int k = 1; k < kCoefficients; ++k) {
     power *= piece.duration_s;
     const double length = piece.position.col(k).norm() * power;
     size[static_cast<std::size_t>(k)] = power;
@@ -25,7 +25,7 @@ Eigen::Vector2d lineOf(const trajectory::Piece& piece) {
       longest = piece.position.col(k).normalized();
     }
   }
-  for (int k = 1; k < trajectory::kCoefficients; ++k) {
+  for (int k = 1; k < kCoefficients; ++k) {
     const double off = std::abs(cross(longest, piece.position.col(k)));
     if (off * size[static_cast<std::size_t>(k)] > kStraightShare * longest_m) {
       return Eigen::Vector2d::Zero();
@@ -59,4 +59,4 @@ double speedBound(const Eigen::Matrix<double, 2, 7>& velocity, double duration_s
   return bound;
 }
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::trajectory

@@ -1,10 +1,10 @@
-#include "assembly.hpp"
+#include "optimizer/solve/assembly.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "piece_check.hpp"
+#include "optimizer/piece_check.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

@@ -1,14 +1,12 @@
-#include "otter_nav/optimizer/flat_gradient.hpp"
+#include "optimizer/objective/flat_gradient.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::optimizer {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // The gradient of cross(a, b) with respect to a; with respect to b it is -crossRow(a).
 Eigen::Vector2d crossRow(const Eigen::Vector2d& b) {

@@ -1,11 +1,11 @@
-#include "otter_nav/optimizer/end_manoeuvre.hpp"
+#include "optimizer/ends/end_manoeuvre.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "glide.hpp"
+#include "optimizer/ends/forced_motion.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

@@ -1,9 +1,9 @@
-#include "otter_nav/planner/real_roots.hpp"
+#include "otter_nav/trajectory/polynomial/real_roots.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace otter_nav::planner {
+namespace otter_nav::trajectory {
 namespace {
 
 double valueAt(const Polynomial& c, int degree, double x) {
@@ -92,4 +92,4 @@ double rootBound(const Polynomial& polynomial) {
   return 2.0 * bound;
 }
 
-}  // namespace otter_nav::planner
+}  // namespace otter_nav::trajectory

@@ -1,4 +1,4 @@
-#include "glide.hpp"
+#include "optimizer/ends/forced_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "optimizer/objective/spline_problem.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/optimizer/spline_problem.hpp"
 #include "otter_nav/vessel/flatness.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 

@@ -1,10 +1,10 @@
 // A spline and the manoeuvres at its ends as one trajectory, and how much it asks for.
 #pragma once
 
-#include "otter_nav/optimizer/spline_problem.hpp"
+#include "optimizer/ends/path_ends.hpp"
+#include "optimizer/objective/spline_problem.hpp"
 #include "otter_nav/optimizer/verification.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
-#include "way_ends.hpp"
 
 namespace otter_nav::optimizer {
 

@@ -17,14 +17,20 @@
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/optimizer/block_tridiagonal.hpp"
-#include "otter_nav/optimizer/hermite_basis.hpp"
+#include "otter_nav/trajectory/polynomial/block_tridiagonal.hpp"
+#include "otter_nav/trajectory/polynomial/hermite_basis.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::optimizer {
 
+using trajectory::BasisMatrix;
+using trajectory::kEndValues;
+using trajectory::kOrders;
+using trajectory::kQuadraturePoints;
+using trajectory::ScaledBasis;
+
 constexpr int kBlockSize = 9;  // p, v, a, j of a knot (x and y each) and the duration
-using System = BlockTridiagonal<kBlockSize>;
+using System = trajectory::BlockTridiagonal<kBlockSize>;
 
 // How an end's state depends, to first order, on the two parameters of the manoeuvre it joins.
 struct EndFamily {

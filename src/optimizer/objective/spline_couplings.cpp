@@ -1,4 +1,4 @@
-#include "spline_couplings.hpp"
+#include "optimizer/objective/spline_couplings.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

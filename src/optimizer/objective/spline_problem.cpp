@@ -1,10 +1,11 @@
-#include "otter_nav/optimizer/spline_problem.hpp"
+#include "optimizer/objective/spline_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "otter_nav/optimizer/flat_gradient.hpp"
-#include "spline_couplings.hpp"
+#include "optimizer/objective/flat_gradient.hpp"
+#include "optimizer/objective/spline_couplings.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -17,10 +18,6 @@ constexpr double kForceFloorN = 3.0;  // |w| below this is treated as this
 constexpr double kSlowMps = 0.5;      // below it the length's curvature is bounded
 
 using Rows = Eigen::Matrix<double, 2, kOrders>;  // derivatives by position ... snap
-
-Eigen::Vector2d across(const Eigen::Vector2d& v) {
-  return {-v.y(), v.x()};
-}
 
 }  // namespace
 
@@ -41,7 +38,7 @@ struct SplineProblem::Local {
   Rows slope;  // of the point's derivatives with respect to the duration
 
   [[nodiscard]] Rows at(const BasisMatrix& unit_basis) {
-    basis = scaleBasis(unit_basis, duration_s);
+    basis = trajectory::scaleBasis(unit_basis, duration_s);
     slope.noalias() = ends * basis.slope.transpose();
     return ends * basis.value.transpose();
   }
@@ -84,10 +81,10 @@ struct SplineProblem::Local {
 
 SplineProblem::SplineProblem(const vessel::Parameters& vessel) : vessel_(vessel) {
   for (std::size_t i = 0; i < quadrature_.size(); ++i) {
-    quadrature_[i] = hermiteBasis(quadraturePoints()[i]);
+    quadrature_[i] = trajectory::hermiteBasis(trajectory::quadraturePoints()[i]);
   }
   for (std::size_t i = 0; i < clearance_.size(); ++i) {
-    clearance_[i] = hermiteBasis((static_cast<double>(i) + 0.5) / kClearancePoints);
+    clearance_[i] = trajectory::hermiteBasis((static_cast<double>(i) + 0.5) / kClearancePoints);
   }
 }
 
@@ -140,7 +137,7 @@ void SplineProblem::addFree(const Rows& z, Local& local) const {
 void SplineProblem::addQuadraturePoint(std::size_t i, int point, Local& local) const {
   const auto index = static_cast<std::size_t>(point);
   const Rows z = local.at(quadrature_[index]);
-  const double share = quadratureWeights()[index];
+  const double share = trajectory::quadratureWeights()[index];
   const double dt = local.duration_s * share;
   const double half_inverse = 0.5 / local.duration_s;
 

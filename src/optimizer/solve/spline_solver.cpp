@@ -1,4 +1,4 @@
-#include "spline_solver.hpp"
+#include "optimizer/solve/spline_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

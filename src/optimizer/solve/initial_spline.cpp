@@ -1,4 +1,4 @@
-#include "otter_nav/optimizer/initial_way.hpp"
+#include "optimizer/solve/initial_spline.hpp"
 
 #include <algorithm>
 #include <cmath>

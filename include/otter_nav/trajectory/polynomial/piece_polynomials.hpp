@@ -4,13 +4,10 @@
 
 #include <Eigen/Core>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 
-namespace otter_nav::optimizer {
-
-inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
+namespace otter_nav::trajectory {
 
 template <int Columns>
 Eigen::Matrix<double, 2, Columns - 1> differentiate(const Eigen::Matrix<double, 2, Columns>& c) {
@@ -31,9 +28,9 @@ Eigen::Vector2d evaluate(const Eigen::Matrix<double, 2, Columns>& c, double t) {
 }
 
 // The direction all of a piece's motion is along, or zero.
-[[nodiscard]] Eigen::Vector2d lineOf(const trajectory::Piece& piece);
+[[nodiscard]] Eigen::Vector2d lineOf(const Piece& piece);
 
 // No less than the speed anywhere on the piece.
 [[nodiscard]] double speedBound(const Eigen::Matrix<double, 2, 7>& velocity, double duration_s);
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::trajectory

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "turn_profile.hpp"
+#include "optimizer/ends/turn_profile.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

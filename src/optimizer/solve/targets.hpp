@@ -1,10 +1,10 @@
 // What an attempt of the global optimiser aims at; later attempts are more careful.
 #pragma once
 
+#include "optimizer/ends/path_ends.hpp"
+#include "optimizer/objective/spline_problem.hpp"
+#include "optimizer/solve/initial_spline.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
-#include "otter_nav/optimizer/initial_way.hpp"
-#include "otter_nav/optimizer/spline_problem.hpp"
-#include "way_ends.hpp"
 
 namespace otter_nav::optimizer {
 

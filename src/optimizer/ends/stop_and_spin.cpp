@@ -1,4 +1,4 @@
-#include "stop_and_spin.hpp"
+#include "optimizer/ends/stop_and_spin.hpp"
 
 #include <algorithm>
 #include <cmath>

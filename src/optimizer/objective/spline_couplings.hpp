@@ -2,7 +2,7 @@
 // their neighbours, ends that move with their manoeuvres, and what does not move.
 #pragma once
 
-#include "otter_nav/optimizer/spline_problem.hpp"
+#include "optimizer/objective/spline_problem.hpp"
 
 namespace otter_nav::optimizer {
 

@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "optimizer/ends/turn_profile.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 #include "otter_nav/vessel/parameters.hpp"
-#include "turn_profile.hpp"
 
 namespace otter_nav::optimizer {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace otter_nav::planner {
+namespace otter_nav::trajectory {
 
 constexpr int kMaxPolynomialDegree = 6;
 
@@ -26,4 +26,4 @@ struct Roots {
 // constant.
 [[nodiscard]] double rootBound(const Polynomial& polynomial);
 
-}  // namespace otter_nav::planner
+}  // namespace otter_nav::trajectory

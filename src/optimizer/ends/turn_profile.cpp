@@ -1,4 +1,4 @@
-#include "turn_profile.hpp"
+#include "optimizer/ends/turn_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
