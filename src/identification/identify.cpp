@@ -128,7 +128,7 @@ Result<Fit> fitPaper(const Identification& work, const Options& options) {
   const vessel::PaperModel h =
       regress(work.data, windows, work.guess.thrusters, 1.0, options.paper_bounds);
   Eigen::VectorXd regressed = problem.startPoint();
-  regressed.head<5>() << h.m1_kg, h.m2_kgm2, h.d1_kgps, h.d2_kgps, h.d3_kgm2ps;
+  regressed.head<kPaperCount>() = coefficientsOf(h);
   const Eigen::VectorXd start = betterStart(problem, problem.startPoint(), regressed);
   const Status identifiable = checkIdentifiable(problem, start, options.identifiable_limit);
   if (!identifiable) {
@@ -155,11 +155,11 @@ double topSpeed(const vessel::ManoeuvringModel& m, const vessel::Thrusters& thru
 }
 
 vessel::PaperModel paperFrom(const Fit& fit) {
-  Eigen::VectorXd values(5);
-  for (int i = 0; i < 5; ++i) {
+  Eigen::VectorXd values(kPaperCount);
+  for (int i = 0; i < kPaperCount; ++i) {
     values[i] = fit.estimates[static_cast<std::size_t>(i)].value;
   }
-  return paperOf(values);
+  return modelOf<vessel::PaperModel>(values);
 }
 
 // They are not estimated: the guess's stay.

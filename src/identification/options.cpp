@@ -1,3 +1,4 @@
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/identification/identify.hpp"
 
 namespace otter_nav::identification {
@@ -41,25 +42,14 @@ Status readSolver(config::Section section, SolverOptions& o) {
   return section.finish();
 }
 
-Status readBound(config::Section section, vessel::PaperModel& h) {
-  const config::Range positive{1e-3, 1e6};
-  section.read("m1_kg", h.m1_kg, positive);
-  section.read("m2_kgm2", h.m2_kgm2, positive);
-  section.read("d1_kgps", h.d1_kgps, positive);
-  section.read("d2_kgps", h.d2_kgps, positive);
-  section.read("d3_kgm2ps", h.d3_kgm2ps, positive);
-  return section.finish();
-}
-
 Status readPaper(config::Section section, Options& o) {
   section.read("speed_min_mps", o.paper_speed_min_mps, {-100.0, 100.0});
   section.read("speed_max_mps", o.paper_speed_max_mps, {-100.0, 100.0});
   section.read("identifiable_limit", o.identifiable_limit, {0.001, 100.0});
-  Status status = readBound(section.child("lower"), o.paper_bounds.lower);
-  if (status) {
-    status = readBound(section.child("upper"), o.paper_bounds.upper);
-  }
-  return status ? section.finish() : status;
+  config::FieldReader bounds(section);
+  bounds.group("lower", o.paper_bounds.lower, "");
+  bounds.group("upper", o.paper_bounds.upper, "");
+  return bounds.groups() ? section.finish() : bounds.groups();
 }
 
 Status readManoeuvring(config::Section section, Options& o) {

@@ -1,24 +1,11 @@
 #include "otter_nav/identification/parameter_set.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
 namespace otter_nav::identification {
 namespace {
-
-constexpr int kPaperCount = 5;
-using PaperVector = Eigen::Matrix<double, kPaperCount, 1>;
-
-PaperVector vectorOf(const vessel::PaperModel& h) {
-  PaperVector v;
-  v << h.m1_kg, h.m2_kgm2, h.d1_kgps, h.d2_kgps, h.d3_kgm2ps;
-  return v;
-}
-
-constexpr std::array<const char*, kPaperCount> kPaperNames = {"m1_kg", "m2_kgm2", "d1_kgps",
-                                                              "d2_kgps", "d3_kgm2ps"};
 
 // How far inertias, and anything else per its magnitude, may be off the guess.
 constexpr double kInertiaFactor = 4.0;
@@ -27,82 +14,76 @@ constexpr double kOtherFactor = 10.0;
 constexpr double kReferenceSpeed = 1.0;
 constexpr double kReferenceYawRate = 0.5;
 
-Parameter inertia(const char* name, double guess, double prior_relative) {
-  return {name,
-          guess,
-          guess / kInertiaFactor,
-          guess * kInertiaFactor,
-          guess,
-          0.5 * prior_relative * guess};
-}
-
-Parameter drag(const char* name, double guess, double magnitude, double prior_relative) {
-  return {name,      guess,
-          0.0,       std::max(kOtherFactor * magnitude, kOtherFactor * guess),
-          magnitude, prior_relative * magnitude};
-}
-
-Parameter signedTerm(const char* name, double guess, double magnitude, double prior_relative) {
+// What a coefficient of the range's kind may become; `magnitude` is how much of it matters.
+Parameter parameterOf(const char* name, const config::Range& range, double guess, double magnitude,
+                      double prior_relative) {
+  const double prior_sigma = prior_relative * magnitude;
+  if (range.min > 0.0) {
+    return {name, guess, guess / kInertiaFactor, guess * kInertiaFactor, guess, 0.5 * prior_sigma};
+  }
+  if (range.min == 0.0) {
+    return {name, guess, 0.0, kOtherFactor * std::max(magnitude, guess), magnitude, prior_sigma};
+  }
   const double reach = std::max(kOtherFactor * magnitude, 2.0 * std::abs(guess));
-  return {name, guess, -reach, reach, magnitude, prior_relative * magnitude};
+  return {name, guess, -reach, reach, magnitude, prior_sigma};
+}
+
+// Magnitudes are the guess's own numbers, for terms that may be zero those that they act beside.
+vessel::ManoeuvringModel magnitudesOf(const vessel::ManoeuvringModel& guess) {
+  vessel::ManoeuvringModel m = guess;
+  m.surge_centripetal_kg = guess.surge_inertia_kg;
+  m.sway_centripetal_kg = guess.sway_inertia_kg;
+  m.munk_kg = guess.surge_inertia_kg;
+  m.surge_drag_quadratic_kgpm = guess.surge_drag_kgps / kReferenceSpeed;
+  m.sway_drag_quadratic_kgpm = guess.sway_drag_kgps / kReferenceSpeed;
+  m.yaw_drag_quadratic_kgm2 = guess.yaw_drag_kgm2ps / kReferenceYawRate;
+  m.sway_from_yaw_kgmps = guess.sway_inertia_kg * kReferenceSpeed;
+  m.yaw_from_sway_kgmps = guess.sway_inertia_kg * kReferenceSpeed;
+  return m;
 }
 
 }  // namespace
 
 Result<ParameterSet> paperSet(const vessel::PaperModel& guess, const PaperBounds& bounds) {
-  const PaperVector values = vectorOf(guess);
-  const PaperVector lower = vectorOf(bounds.lower);
-  const PaperVector upper = vectorOf(bounds.upper);
+  const auto values = coefficientsOf(guess);
+  const auto lower = coefficientsOf(bounds.lower);
+  const auto upper = coefficientsOf(bounds.upper);
+  const std::vector<const char*> names = coefficientNames<vessel::PaperModel>();
   ParameterSet set;
   set.map.resize(kCoefficientCount, kPaperCount);
   for (int i = 0; i < kPaperCount; ++i) {
+    const char* name = names[static_cast<std::size_t>(i)];
     if (values[i] < lower[i] || values[i] > upper[i]) {
       std::ostringstream out;
-      out << "the guess of " << kPaperNames[i] << " is " << values[i] << ", allowed is " << lower[i]
-          << " to " << upper[i];
+      out << "the guess of " << name << " is " << values[i] << ", allowed is " << lower[i] << " to "
+          << upper[i];
       return failure(out.str());
     }
     Parameter parameter;
-    parameter.name = kPaperNames[i];
+    parameter.name = name;
     parameter.guess = values[i];
     parameter.lower = lower[i];
     parameter.upper = upper[i];
     parameter.scale = values[i];
     set.parameters.push_back(parameter);
     // fromPaper() is linear in h without a constant, so a unit vector gives a column.
-    const PaperVector unit = PaperVector::Unit(i);
-    set.map.col(i) = coefficientsOf(vessel::ManoeuvringModel::fromPaper(paperOf(unit)));
+    const auto unit = modelOf<vessel::PaperModel>(Eigen::VectorXd::Unit(kPaperCount, i));
+    set.map.col(i) = coefficientsOf(vessel::ManoeuvringModel::fromPaper(unit));
   }
   return set;
 }
 
-ParameterSet manoeuvringSet(const vessel::ManoeuvringModel& g, double prior) {
-  const double sway_speed_force = g.sway_inertia_kg * kReferenceSpeed;
+ParameterSet manoeuvringSet(const vessel::ManoeuvringModel& guess, double prior_relative) {
+  const Coefficients values = coefficientsOf(guess);
+  const Coefficients magnitudes = coefficientsOf(magnitudesOf(guess));
   ParameterSet set;
-  set.parameters = {
-      inertia("surge_inertia_kg", g.surge_inertia_kg, prior),
-      inertia("sway_inertia_kg", g.sway_inertia_kg, prior),
-      inertia("yaw_inertia_kgm2", g.yaw_inertia_kgm2, prior),
-      signedTerm("surge_centripetal_kg", g.surge_centripetal_kg, g.surge_inertia_kg, prior),
-      signedTerm("sway_centripetal_kg", g.sway_centripetal_kg, g.sway_inertia_kg, prior),
-      signedTerm("munk_kg", g.munk_kg, g.surge_inertia_kg, prior),
-      drag("surge_drag_kgps", g.surge_drag_kgps, g.surge_drag_kgps, prior),
-      drag("sway_drag_kgps", g.sway_drag_kgps, g.sway_drag_kgps, prior),
-      drag("yaw_drag_kgm2ps", g.yaw_drag_kgm2ps, g.yaw_drag_kgm2ps, prior),
-      drag("surge_drag_quadratic_kgpm", g.surge_drag_quadratic_kgpm,
-           g.surge_drag_kgps / kReferenceSpeed, prior),
-      drag("sway_drag_quadratic_kgpm", g.sway_drag_quadratic_kgpm,
-           g.sway_drag_kgps / kReferenceSpeed, prior),
-      drag("yaw_drag_quadratic_kgm2", g.yaw_drag_quadratic_kgm2,
-           g.yaw_drag_kgm2ps / kReferenceYawRate, prior),
-      signedTerm("sway_from_yaw_kgmps", g.sway_from_yaw_kgmps, sway_speed_force, prior),
-      signedTerm("yaw_from_sway_kgmps", g.yaw_from_sway_kgmps, sway_speed_force, prior)};
+  vessel::ManoeuvringModel model;
+  forEachCoefficient(model, [&](const char* key, double&, const config::Range& range) {
+    const auto i = static_cast<int>(set.parameters.size());
+    set.parameters.push_back(parameterOf(key, range, values[i], magnitudes[i], prior_relative));
+  });
   set.map = CoefficientMap::Identity(kCoefficientCount, kCoefficientCount);
   return set;
-}
-
-vessel::PaperModel paperOf(const Eigen::VectorXd& values) {
-  return {values[0], values[1], values[2], values[3], values[4]};
 }
 
 }  // namespace otter_nav::identification

@@ -70,7 +70,7 @@ vessel::State Problem::residual(const vessel::State& state, const Sample& sample
 Model Problem::modelAt(const Eigen::VectorXd& variables) const {
   const Eigen::Index parameters = set_.map.cols();
   Model model;
-  model.coefficients = modelOf(set_.map * variables.head(parameters));
+  model.coefficients = modelOf<vessel::ManoeuvringModel>(set_.map * variables.head(parameters));
   model.thrusters = thrusters_;
   if (options_.estimate_current) {
     model.current_mps = variables.segment<2>(parameters);

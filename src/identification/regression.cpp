@@ -75,11 +75,10 @@ vessel::PaperModel regress(const DataSet& data, const std::vector<Stretch>& wind
   }
   const Eigen::Vector3d p = plane.solve();
   const Eigen::Vector2d y = yaw.solve();
-  const vessel::PaperModel& lo = bounds.lower;
-  const vessel::PaperModel& hi = bounds.upper;
-  return {std::clamp(p[0], lo.m1_kg, hi.m1_kg), std::clamp(y[0], lo.m2_kgm2, hi.m2_kgm2),
-          std::clamp(p[1], lo.d1_kgps, hi.d1_kgps), std::clamp(p[2], lo.d2_kgps, hi.d2_kgps),
-          std::clamp(y[1], lo.d3_kgm2ps, hi.d3_kgm2ps)};
+  const vessel::PaperModel free{p[0], y[0], p[1], p[2], y[1]};
+  return modelOf<vessel::PaperModel>(coefficientsOf(free)
+                                         .cwiseMax(coefficientsOf(bounds.lower))
+                                         .cwiseMin(coefficientsOf(bounds.upper)));
 }
 
 }  // namespace otter_nav::identification

@@ -1,8 +1,12 @@
 #include "otter_nav/identification/sensitivity.hpp"
 
 #include <cmath>
+#include <utility>
 
+#include "otter_nav/base/dual.hpp"
 #include "otter_nav/base/rk4.hpp"
+#include "otter_nav/vessel/motion_law.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::identification {
 
@@ -15,11 +19,31 @@ using vessel::State;
 
 namespace {
 
-vessel::Disturbance constantDisturbance(const Model& model) {
-  vessel::Disturbance disturbance;
-  disturbance.current_mps = model.current_mps;
-  return disturbance;
+// Directions of the rates' derivatives: the coefficients', then these.
+enum Direction : int { kByPsi = kCoefficientCount, kByU, kByV, kByR, kByCurrentX, kByCurrentY };
+constexpr int kDirections = kByCurrentY + 1;
+using Coefficient = Dual<double, (Directions{1} << kCoefficientCount) - 1U>;
+using SeededModel = vessel::BasicManoeuvringModel<Coefficient>;
+
+SeededModel seeded(vessel::ManoeuvringModel model) {
+  const Coefficients values = coefficientsOf(model);
+  SeededModel result;
+  int i = 0;
+  forEachCoefficient(result, [&](const char*, Coefficient& c, const config::Range&) {
+    c = Coefficient(values[i]);
+    c.slopes[i++] = 1.0;
+  });
+  return result;
 }
+
+// A step's model: its coefficients as variables, and the derived numbers.
+struct Law {
+  const Model& model;
+  SeededModel coefficients;
+  vessel::Mobility<Coefficient> mobility;
+  explicit Law(const Model& m)
+      : model(m), coefficients(seeded(m.coefficients)), mobility(coefficients) {}
+};
 
 // State and sensitivity rates together.
 struct Rates {
@@ -27,93 +51,79 @@ struct Rates {
   Sensitivity sensitivity;
 };
 
-void rates(const Model& model, const CoefficientMap& map, bool with_current,
-           const vessel::Thrusts& thrusts, const State& state, const Sensitivity& sensitivity,
-           Rates& out) {
-  const vessel::Linearization l = vessel::linearize(state, thrusts, model.coefficients,
-                                                    model.thrusters, constantDisturbance(model));
-  out.state = l.derivative;
-  // Nothing depends on the position, and the heading's rate is the yaw rate: only these columns.
+using RateJacobian = Eigen::Matrix<double, kStateSize, kDirections>;
+
+template <typename Value, Directions Set, std::size_t... D>
+void setRow(const Dual<Value, Set>& rate, int row, RateJacobian& j, std::index_sequence<D...>) {
+  ((j(row, static_cast<int>(D)) = slope<static_cast<int>(D)>(rate)), ...);
+}
+
+// x' with its derivatives by coefficients, heading, body velocities and current.
+RateJacobian rateJacobian(const Law& law, const vessel::Tau& tau, const State& x, State& rate) {
+  const vessel::Turned<kByPsi, double> psi(std::cos(x[kPsi]), std::sin(x[kPsi]));
+  const auto u = variable<kByU>(x[kSurge]);
+  const auto v = variable<kByV>(x[kSway]);
+  const auto r = variable<kByR>(x[kYawRate]);
+  const auto current_x = variable<kByCurrentX>(law.model.current_mps.x());
+  const auto current_y = variable<kByCurrentY>(law.model.current_mps.y());
+  const auto position = vessel::positionRate(psi.cosine, psi.sine, u, v);
+  const auto acceleration =
+      vessel::bodyAcceleration(law.coefficients, law.mobility, vessel::Body{0.0, 0.0, 0.0},
+                               vessel::aheadPart(psi.cosine, psi.sine, current_x, current_y),
+                               vessel::portPart(psi.cosine, psi.sine, current_x, current_y), u, v,
+                               r, tau.surge_n, tau.yaw_nm);
+  rate << position.x.value, position.y.value, x[kYawRate], acceleration.surge.value,
+      acceleration.sway.value, acceleration.yaw.value;
+  RateJacobian j;
+  constexpr std::make_index_sequence<kDirections> kAll;
+  setRow(position.x, vessel::kX, j, kAll);
+  setRow(position.y, vessel::kY, j, kAll);
+  setRow(r, kPsi, j, kAll);
+  setRow(acceleration.surge, kSurge, j, kAll);
+  setRow(acceleration.sway, kSway, j, kAll);
+  setRow(acceleration.yaw, kYawRate, j, kAll);
+  return j;
+}
+
+void rates(const Law& law, const CoefficientMap& map, bool with_current, const vessel::Tau& tau,
+           const State& state, const Sensitivity& sensitivity, Rates& out) {
+  const RateJacobian j = rateJacobian(law, tau, state, out.state);
+  // Nothing depends on the position: only the columns from the heading on.
   out.sensitivity.resize(kStateSize, sensitivity.cols());
-  out.sensitivity.noalias() =
-      l.state_jacobian.rightCols<4>().lazyProduct(sensitivity.bottomRows<4>());
+  out.sensitivity.noalias() = j.middleCols<4>(kByPsi).lazyProduct(sensitivity.bottomRows<4>());
   const Eigen::Index parameters = map.cols();
   out.sensitivity.bottomLeftCorner(3, parameters).noalias() +=
-      coefficientJacobian(state, l.derivative, model).lazyProduct(map);
+      j.bottomLeftCorner<3, kCoefficientCount>().lazyProduct(map);
   if (with_current) {
-    out.sensitivity.block(3, parameters, 3, 2) += currentJacobian(state, l.state_jacobian);
+    out.sensitivity.block(3, parameters, 3, 2) += j.bottomRightCorner<3, 2>();
   }
 }
 
 }  // namespace
 
-CoefficientJacobian coefficientJacobian(const State& state, const State& derivative,
-                                        const Model& model) {
-  const vessel::ManoeuvringModel& m = model.coefficients;
-  const double c = std::cos(state[kPsi]);
-  const double s = std::sin(state[kPsi]);
-  const double current_surge = c * model.current_mps.x() + s * model.current_mps.y();
-  const double current_sway = -s * model.current_mps.x() + c * model.current_mps.y();
-  const double u = state[kSurge] - current_surge;
-  const double v = state[kSway] - current_sway;
-  const double r = state[kYawRate];
-  const double per_surge = 1.0 / m.surge_inertia_kg;
-  const double per_sway = 1.0 / m.sway_inertia_kg;
-  const double per_yaw = 1.0 / m.yaw_inertia_kgm2;
-
-  CoefficientJacobian j = CoefficientJacobian::Zero();
-  // Inertias divide the forces: what is left of the rate without the turning of the current.
-  j(0, kSurgeInertia) = -(derivative[kSurge] - r * current_sway) * per_surge;
-  j(1, kSwayInertia) = -(derivative[kSway] + r * current_surge) * per_sway;
-  j(2, kYawInertia) = -derivative[kYawRate] * per_yaw;
-  j(0, kSurgeCentripetal) = v * r * per_surge;
-  j(0, kSurgeDrag) = -u * per_surge;
-  j(0, kSurgeDragQuadratic) = -std::abs(u) * u * per_surge;
-  j(1, kSwayCentripetal) = -u * r * per_sway;
-  j(1, kSwayDrag) = -v * per_sway;
-  j(1, kSwayDragQuadratic) = -std::abs(v) * v * per_sway;
-  j(1, kSwayFromYaw) = -r * per_sway;
-  j(2, kMunk) = -u * v * per_yaw;
-  j(2, kYawDrag) = -r * per_yaw;
-  j(2, kYawDragQuadratic) = -std::abs(r) * r * per_yaw;
-  j(2, kYawFromSway) = -v * per_yaw;
-  return j;
-}
-
-Eigen::Matrix<double, 3, 2> currentJacobian(const State& state,
-                                            const vessel::StateJacobian& jacobian) {
-  // Velocities through the water fall as the current's body components rise; the current itself
-  // turns in the body frame: u_c' = r v_c, v_c' = -r u_c.
-  Eigen::Matrix<double, 3, 2> by_body = -jacobian.block<3, 2>(kSurge, kSurge);
-  by_body(0, 1) += state[kYawRate];
-  by_body(1, 0) -= state[kYawRate];
-  Eigen::Matrix2d body_from_earth;
-  body_from_earth << std::cos(state[kPsi]), std::sin(state[kPsi]), -std::sin(state[kPsi]),
-      std::cos(state[kPsi]);
-  return by_body * body_from_earth;
-}
-
 void stepWithSensitivity(const Model& model, const CoefficientMap& map, bool with_current,
                          const vessel::Thrusts& thrusts, double dt, State& state,
                          Sensitivity& sensitivity) {
+  const Law law(model);
+  const vessel::Tau tau = vessel::tauFromThrusts(thrusts, model.thrusters);
   Rates k1;
   Rates k2;
   Rates k3;
   Rates k4;
-  rates(model, map, with_current, thrusts, state, sensitivity, k1);
-  rates(model, map, with_current, thrusts, state + 0.5 * dt * k1.state,
+  rates(law, map, with_current, tau, state, sensitivity, k1);
+  rates(law, map, with_current, tau, state + 0.5 * dt * k1.state,
         sensitivity + 0.5 * dt * k1.sensitivity, k2);
-  rates(model, map, with_current, thrusts, state + 0.5 * dt * k2.state,
+  rates(law, map, with_current, tau, state + 0.5 * dt * k2.state,
         sensitivity + 0.5 * dt * k2.sensitivity, k3);
-  rates(model, map, with_current, thrusts, state + dt * k3.state, sensitivity + dt * k3.sensitivity,
-        k4);
+  rates(law, map, with_current, tau, state + dt * k3.state, sensitivity + dt * k3.sensitivity, k4);
   state += dt / 6.0 * (k1.state + 2.0 * k2.state + 2.0 * k3.state + k4.state);
   sensitivity +=
       dt / 6.0 * (k1.sensitivity + 2.0 * k2.sensitivity + 2.0 * k3.sensitivity + k4.sensitivity);
 }
 
 State step(const Model& model, const vessel::Thrusts& thrusts, double dt, const State& state) {
-  const vessel::Disturbance disturbance = constantDisturbance(model);
+  vessel::Disturbance disturbance;
+  disturbance.current_mps = model.current_mps;
   return rk4Step(
       [&](double /*t*/, const State& x) {
         return vessel::stateDerivative(x, thrusts, model.coefficients, model.thrusters,

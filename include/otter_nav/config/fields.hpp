@@ -41,6 +41,13 @@ class FieldReader {
   void operator()(const char* key, Number& value, Range range, const char* /*effect*/) {
     section_.read(key, value, range);
   }
+  // What a file may leave out keeps its default.
+  template <typename Number>
+  void optional(const char* key, Number& value, Range range, const char* /*effect*/) {
+    if (section_.has(key)) {
+      section_.read(key, value, range);
+    }
+  }
   void operator()(const char* key, bool& value, const char* /*effect*/) {
     section_.read(key, value);
   }
@@ -76,6 +83,13 @@ class FieldReader {
     }
   }
 
+  template <typename Group>
+  void optionalGroup(const char* key, Group& options, const char* effect) {
+    if (section_.has(key)) {
+      group(key, options, effect);
+    }
+  }
+
   // The first fault of a group, if any; the section's own come from Section::finish().
   [[nodiscard]] const Status& groups() const { return status_; }
 
@@ -92,6 +106,10 @@ class FieldWriter {
   template <typename Number>
   void operator()(const char* key, const Number& value, Range /*range*/, const char* effect) {
     line(key, text(value), effect);
+  }
+  template <typename Number>
+  void optional(const char* key, const Number& value, Range range, const char* effect) {
+    (*this)(key, value, range, effect);
   }
   void operator()(const char* key, const bool& value, const char* effect) {
     line(key, value ? "true" : "false", effect);
@@ -130,14 +148,18 @@ class FieldWriter {
     Group::describe(options, writer);
     text_ << writer.str();
   }
+  template <typename Group>
+  void optionalGroup(const char* key, const Group& options, const char* effect) {
+    group(key, options, effect);
+  }
 
   [[nodiscard]] std::string str() const { return text_.str(); }
 
  private:
   static std::string text(double value);  // the shortest that reads back to the same number
   void line(const std::string& key, const std::string& value, const std::string& effect) {
-    text_ << indent_ << key << ':' << (value.empty() ? "" : " ") << value << "  # " << effect
-          << '\n';
+    text_ << indent_ << key << ':' << (value.empty() ? "" : " ") << value
+          << (effect.empty() ? "" : "  # ") << effect << '\n';
   }
 
   std::string indent_;

@@ -43,6 +43,4 @@ struct PaperBounds {
 [[nodiscard]] ParameterSet manoeuvringSet(const vessel::ManoeuvringModel& guess,
                                           double prior_relative);
 
-[[nodiscard]] vessel::PaperModel paperOf(const Eigen::VectorXd& values);
-
 }  // namespace otter_nav::identification

@@ -16,25 +16,15 @@ constexpr int kMaxColumns = kMaxParameters + vessel::kStateSize;
 // d state / d (parameters, initial state).
 using Sensitivity =
     Eigen::Matrix<double, vessel::kStateSize, Eigen::Dynamic, 0, vessel::kStateSize, kMaxColumns>;
-// Parameters to coefficients, and d accelerations / d coefficients.
+// Parameters to coefficients.
 using CoefficientMap =
     Eigen::Matrix<double, kCoefficientCount, Eigen::Dynamic, 0, kCoefficientCount, kMaxParameters>;
-using CoefficientJacobian = Eigen::Matrix<double, 3, kCoefficientCount>;
 
 struct Model {
   vessel::ManoeuvringModel coefficients;
   vessel::Thrusters thrusters;
   Eigen::Vector2d current_mps = Eigen::Vector2d::Zero();
 };
-
-// d (u', v', r') / d coefficients at a state whose derivative is `derivative`.
-[[nodiscard]] CoefficientJacobian coefficientJacobian(const vessel::State& state,
-                                                      const vessel::State& derivative,
-                                                      const Model& model);
-
-// d (u', v', r') / d current (earth frame), from the model's Jacobian at the state.
-[[nodiscard]] Eigen::Matrix<double, 3, 2> currentJacobian(const vessel::State& state,
-                                                          const vessel::StateJacobian& jacobian);
 
 // Advances `state` and its sensitivity by one step of dt seconds. `map` is d coefficients /
 // d parameters; with `with_current` the two columns after the parameters are the current's. The

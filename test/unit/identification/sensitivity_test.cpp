@@ -60,8 +60,8 @@ TEST(Sensitivity, MatchesDifferencesOfTheRollout) {
     const double h = 1e-3;
     Model up = model;
     Model down = model;
-    up.coefficients = modelOf(values + h * Coefficients::Unit(i));
-    down.coefficients = modelOf(values - h * Coefficients::Unit(i));
+    up.coefficients = modelOf<vessel::ManoeuvringModel>(values + h * Coefficients::Unit(i));
+    down.coefficients = modelOf<vessel::ManoeuvringModel>(values - h * Coefficients::Unit(i));
     compare(i, h, rollout(up, startState()), rollout(down, startState()));
   }
   for (int i = 0; i < 2; ++i) {
@@ -112,13 +112,11 @@ TEST(Coefficients, RoundTripAndPaperMap) {
   for (int i = 0; i < kCoefficientCount; ++i) {
     c[i] = i + 1.0;
   }
-  EXPECT_EQ(coefficientsOf(modelOf(c)), c);
+  EXPECT_EQ(coefficientsOf(modelOf<vessel::ManoeuvringModel>(c)), c);
   const vessel::PaperModel h{92.0, 31.0, 71.0, 140.0, 55.0};
   const Result<ParameterSet> set = paperSet(h, {});
   ASSERT_TRUE(set);
-  Eigen::VectorXd values(5);
-  values << h.m1_kg, h.m2_kgm2, h.d1_kgps, h.d2_kgps, h.d3_kgm2ps;
-  EXPECT_EQ(Coefficients(set->map * values),
+  EXPECT_EQ(Coefficients(set->map * coefficientsOf(h)),
             coefficientsOf(vessel::ManoeuvringModel::fromPaper(h)));
 }
 
