@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "otter_nav/vessel/motion_law.hpp"
+
 namespace otter_nav::tracker {
 namespace {
 
@@ -25,82 +27,36 @@ struct StageModel::Sensitivity {
   Pack x[kColumns], y[kColumns], q[4][kColumns];
 };
 
-StageModel::StageModel(const vessel::ManoeuvringModel& m, const vessel::Thrusters& thrusters)
-    : surge_centripetal_(m.surge_centripetal_kg / m.surge_inertia_kg),
-      sway_centripetal_(m.sway_centripetal_kg / m.sway_inertia_kg),
-      munk_(m.munk_kg / m.yaw_inertia_kgm2),
-      surge_drag_(m.surge_drag_kgps / m.surge_inertia_kg),
-      sway_drag_(m.sway_drag_kgps / m.sway_inertia_kg),
-      yaw_drag_(m.yaw_drag_kgm2ps / m.yaw_inertia_kgm2),
-      surge_drag2_(m.surge_drag_quadratic_kgpm / m.surge_inertia_kg),
-      sway_drag2_(m.sway_drag_quadratic_kgpm / m.sway_inertia_kg),
-      yaw_drag2_(m.yaw_drag_quadratic_kgm2 / m.yaw_inertia_kgm2),
-      sway_from_yaw_(m.sway_from_yaw_kgmps / m.sway_inertia_kg),
-      yaw_from_sway_(m.yaw_from_sway_kgmps / m.yaw_inertia_kgm2),
-      surge_mobility_(1.0 / m.surge_inertia_kg),
-      sway_mobility_(1.0 / m.sway_inertia_kg),
-      yaw_mobility_(1.0 / m.yaw_inertia_kgm2),
-      lever_(thrusters.lever_arm_m),
-      wind_surge_(m.wind_surge_kgpm / m.surge_inertia_kg),
-      wind_sway_(m.wind_sway_kgpm / m.sway_inertia_kg),
-      wind_yaw_(m.wind_yaw_kg / m.yaw_inertia_kgm2) {}
-
-void StageModel::setDisturbance(const vessel::Disturbance& disturbance) {
-  current_x_ = disturbance.current_mps.x();
-  current_y_ = disturbance.current_mps.y();
-  force_x_ = disturbance.force_n.x();
-  force_y_ = disturbance.force_n.y();
-  moment_ = disturbance.moment_nm;
-  wind_x_ = disturbance.wind_mps.x();
-  wind_y_ = disturbance.wind_mps.y();
-}
-
-// vessel::stateDerivative and its Jacobian, see vessel/model.cpp for the derivation.
-void StageModel::differentiate(const Pack (&q)[4], Pack surge_acceleration, Pack yaw_acceleration,
-                               Derivative& d) const {
-  const Pack r = q[kRowR];
+// The law on dual numbers: what it does not depend on costs nothing.
+void StageModel::differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, Derivative& d) const {
   sinCos(q[kRowPsi], d.sine, d.cosine);
-  const Pack current_u = d.cosine * current_x_ + d.sine * current_y_;
-  const Pack current_v = d.cosine * current_y_ - d.sine * current_x_;
-  const Pack force_u = d.cosine * force_x_ + d.sine * force_y_;
-  const Pack force_v = d.cosine * force_y_ - d.sine * force_x_;
-  const Pack wind_u = d.cosine * wind_x_ + d.sine * wind_y_;
-  const Pack wind_v = d.cosine * wind_y_ - d.sine * wind_x_;
-  const Pack gust_u = wind_surge_ * abs(wind_u);
-  const Pack gust_v = wind_sway_ * abs(wind_v);
-  const Pack u = q[kRowU] - current_u;
-  const Pack v = q[kRowV] - current_v;
-  const Pack drag2_u = surge_drag2_ * abs(u);
-  const Pack drag2_v = sway_drag2_ * abs(v);
-  const Pack drag2_r = yaw_drag2_ * abs(r);
-
-  d.rate[0] = d.cosine * q[kRowU] - d.sine * q[kRowV];
-  d.rate[1] = d.sine * q[kRowU] + d.cosine * q[kRowV];
-  d.rate[2] = r;
-  d.rate[3] = surge_centripetal_ * v * r + surge_acceleration + force_u * surge_mobility_ +
-              gust_u * wind_u - (surge_drag_ + drag2_u) * u + r * current_v;
-  d.rate[4] = force_v * sway_mobility_ + gust_v * wind_v - sway_centripetal_ * u * r -
-              (sway_drag_ + drag2_v) * v - sway_from_yaw_ * r - r * current_u;
-  d.rate[5] = yaw_acceleration + moment_ * yaw_mobility_ + wind_yaw_ * wind_u * wind_v -
-              (yaw_drag_ + drag2_r) * r - munk_ * u * v - yaw_from_sway_ * v;
-
-  d.x_psi = -d.rate[1];
-  d.y_psi = d.rate[0];
-  d.u[kRowU] = -surge_drag_ - 2.0 * drag2_u;
-  d.u[kRowV] = surge_centripetal_ * r;
-  d.u[kRowR] = surge_centripetal_ * v + current_v;
-  d.u[kRowPsi] = d.u[kRowV] * current_u - d.u[kRowU] * current_v + force_v * surge_mobility_ -
-                 r * current_u + 2.0 * gust_u * wind_v;
-  d.v[kRowU] = -sway_centripetal_ * r;
-  d.v[kRowV] = -sway_drag_ - 2.0 * drag2_v;
-  d.v[kRowR] = -sway_centripetal_ * u - sway_from_yaw_ - current_u;
-  d.v[kRowPsi] = d.v[kRowV] * current_u - d.v[kRowU] * current_v - force_u * sway_mobility_ -
-                 r * current_v - 2.0 * gust_v * wind_u;
-  d.r[kRowU] = -munk_ * v;
-  d.r[kRowV] = -munk_ * u - yaw_from_sway_;
-  d.r[kRowR] = -yaw_drag_ - 2.0 * drag2_r;
-  d.r[kRowPsi] = d.r[kRowV] * current_u - d.r[kRowU] * current_v +
-                 wind_yaw_ * (wind_v * wind_v - wind_u * wind_u);
+  const vessel::Turned<kRowPsi, Pack> psi(d.cosine, d.sine);
+  const auto u = variable<kRowU>(q[kRowU]);
+  const auto v = variable<kRowV>(q[kRowV]);
+  const auto r = variable<kRowR>(q[kRowR]);
+  const Eigen::Vector2d& current = disturbance_.current_mps;
+  const auto position = vessel::positionRate(psi.cosine, psi.sine, u, v);
+  const auto acceleration = vessel::bodyAcceleration(
+      model_, mobility_, vessel::outsideForce(psi.cosine, psi.sine, model_, disturbance_),
+      vessel::aheadPart(psi.cosine, psi.sine, current.x(), current.y()),
+      vessel::portPart(psi.cosine, psi.sine, current.x(), current.y()), u, v, r, surge_n, yaw_nm);
+  d.rate[0] = position.x.value;
+  d.rate[1] = position.y.value;
+  d.rate[2] = q[kRowR];
+  d.rate[3] = acceleration.surge.value;
+  d.rate[4] = acceleration.sway.value;
+  d.rate[5] = acceleration.yaw.value;
+  d.x_psi = slope<kRowPsi>(position.x);
+  d.y_psi = slope<kRowPsi>(position.y);
+  const auto setRow = [](const auto& rate, Pack(&row)[4]) {
+    row[kRowPsi] = slope<kRowPsi>(rate);
+    row[kRowU] = slope<kRowU>(rate);
+    row[kRowV] = slope<kRowV>(rate);
+    row[kRowR] = slope<kRowR>(rate);
+  };
+  setRow(acceleration.surge, d.u);
+  setRow(acceleration.sway, d.v);
+  setRow(acceleration.yaw, d.r);
 }
 
 void StageModel::propagate(const Derivative& d, const Sensitivity& s, Sensitivity& rate) const {
@@ -116,8 +72,8 @@ void StageModel::propagate(const Derivative& d, const Sensitivity& s, Sensitivit
     rate.q[kRowV][c] = d.v[kRowPsi] * psi + d.v[kRowU] * u + d.v[kRowV] * v + d.v[kRowR] * r;
     rate.q[kRowR][c] = d.r[kRowPsi] * psi + d.r[kRowU] * u + d.r[kRowV] * v + d.r[kRowR] * r;
   }
-  rate.q[kRowU][kSurgeForce] += surge_mobility_;
-  rate.q[kRowR][kYawMoment] += yaw_mobility_;
+  rate.q[kRowU][kSurgeForce] += mobility_.surge;
+  rate.q[kRowR][kYawMoment] += mobility_.yaw;
 }
 
 namespace {
@@ -156,8 +112,8 @@ void StageModel::linearize(const vessel::State* states, const vessel::Thrusts* t
                        thrusts[index[3]][0]};
     const Pack right = {thrusts[index[0]][1], thrusts[index[1]][1], thrusts[index[2]][1],
                         thrusts[index[3]][1]};
-    const Pack surge_acceleration = (left + right) * surge_mobility_;
-    const Pack yaw_acceleration = (right - left) * (lever_ * yaw_mobility_);
+    const Pack surge_n = left + right;
+    const Pack yaw_nm = (right - left) * lever_m_;
     Pack start[6];
     for (int row = 0; row < 6; ++row) {
       start[row] = gather(states, index, row);
@@ -178,7 +134,7 @@ void StageModel::linearize(const vessel::State* states, const vessel::Thrusts* t
           s.q[row][c] = k == 0 ? unit : unit + node * rate.q[row][c];
         }
       }
-      differentiate(q, surge_acceleration, yaw_acceleration, d);
+      differentiate(q, surge_n, yaw_nm, d);
       propagate(d, s, rate);
       const double weight = kWeights[k] * step_s;
       for (int row = 0; row < 6; ++row) {
@@ -199,7 +155,7 @@ void StageModel::linearize(const vessel::State* states, const vessel::Thrusts* t
       if (row >= 2) {
         a[row - 2] += 1.0;
       }
-      const Pack yaw_part = lever_ * columns[kYawMoment];
+      const Pack yaw_part = lever_m_ * columns[kYawMoment];
       Pack bc[4] = {columns[kSurgeForce] - yaw_part, columns[kSurgeForce] + yaw_part,
                     start[row] + moved[row] - gather(states, next, row), Pack{}};
       scatter(a, bc, row, stages + first);

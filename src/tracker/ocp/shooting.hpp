@@ -16,11 +16,12 @@ struct alignas(32) Stage {
   Pack bc[6];  // columns F_left, F_right, gap to the next stage's state, 0
 };
 
-// The manoeuvring model divided by its inertias, with thrust levers and disturbance.
+// The manoeuvring model with thrust levers and disturbance.
 class StageModel {
  public:
-  StageModel(const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters);
-  void setDisturbance(const vessel::Disturbance& disturbance);
+  StageModel(const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters)
+      : model_(model), mobility_(model), lever_m_(thrusters.lever_arm_m) {}
+  void setDisturbance(const vessel::Disturbance& disturbance) { disturbance_ = disturbance; }
 
   // Stages 0 to `count` - 1 from `states` (count + 1) and `thrusts` (count); step in s. `stages`
   // has room for `count` rounded up to a multiple of kLanes.
@@ -30,19 +31,13 @@ class StageModel {
  private:
   struct Derivative;
   struct Sensitivity;
-  void differentiate(const Pack (&q)[4], Pack surge_acceleration, Pack yaw_acceleration,
-                     Derivative& d) const;
+  void differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, Derivative& d) const;
   void propagate(const Derivative& d, const Sensitivity& s, Sensitivity& rate) const;
 
-  double surge_centripetal_, sway_centripetal_, munk_;
-  double surge_drag_, sway_drag_, yaw_drag_;
-  double surge_drag2_, sway_drag2_, yaw_drag2_;
-  double sway_from_yaw_, yaw_from_sway_;
-  double surge_mobility_, sway_mobility_, yaw_mobility_;  // 1 / inertia
-  double lever_;
-  double current_x_ = 0.0, current_y_ = 0.0, force_x_ = 0.0, force_y_ = 0.0, moment_ = 0.0;
-  double wind_x_ = 0.0, wind_y_ = 0.0;
-  double wind_surge_, wind_sway_, wind_yaw_;
+  vessel::ManoeuvringModel model_;
+  vessel::Mobility<double> mobility_;
+  double lever_m_;
+  vessel::Disturbance disturbance_;
 };
 
 }  // namespace otter_nav::tracker
