@@ -61,8 +61,8 @@ struct Bench {
       std::printf("%s: %s\n", label.c_str(), guide.error().message.c_str());
       return;
     }
-    optimizer::Boundary start;
-    optimizer::Boundary goal;
+    trajectory::Boundary start;
+    trajectory::Boundary goal;
     start.flat.position = mission.start.position;
     start.psi_rad = mission.start.psi_rad;
     goal.flat.position = mission.goal.position;

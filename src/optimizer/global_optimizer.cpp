@@ -26,8 +26,8 @@ class GlobalOptimizer::Solver {
   Solver(const GlobalOptions& options, const vessel::Parameters& vessel)
       : options_(options), vessel_(vessel), problem_(vessel), way_({}, vessel) {}
 
-  [[nodiscard]] CheckOptions checkOptions(double clearance_m) const {
-    CheckOptions check;
+  [[nodiscard]] feasibility::CheckOptions checkOptions(double clearance_m) const {
+    feasibility::CheckOptions check;
     check.clearance_m = clearance_m > 0.0 ? clearance_m : options_.clearance_m;
     check.check_hull = options_.keep_hull_clear;
     check.thrust_share = options_.thrust_share;
@@ -38,8 +38,8 @@ class GlobalOptimizer::Solver {
   }
 
   Result<Optimized> run(const map::DistanceField& field, const std::vector<Eigen::Vector2d>& way,
-                        const Boundary& start, const Boundary& goal, const Budget& budget,
-                        double clearance_m) {
+                        const trajectory::Boundary& start, const trajectory::Boundary& goal,
+                        const Budget& budget, double clearance_m) {
     if (way.size() < 2) {
       return failure("the way to optimise has " + std::to_string(way.size()) +
                      " points, at least 2 are needed");
@@ -65,12 +65,13 @@ class GlobalOptimizer::Solver {
   }
 
   Result<Optimized> stopAndSpin(const map::DistanceField& field,
-                                const std::vector<Eigen::Vector2d>& way, const Boundary& start,
-                                const Boundary& goal, double clearance_m) const {
-    const CheckOptions check = checkOptions(clearance_m);
+                                const std::vector<Eigen::Vector2d>& way,
+                                const trajectory::Boundary& start, const trajectory::Boundary& goal,
+                                double clearance_m) const {
+    const feasibility::CheckOptions check = checkOptions(clearance_m);
     Optimized plain;
     plain.trajectory = StopAndSpin(vessel_, spinLimits(), check).follow(way, start, goal);
-    plain.verification = verify(plain.trajectory, field, vessel_, start, goal, check);
+    plain.verification = feasibility::verify(plain.trajectory, field, vessel_, start, goal, check);
     plain.last_resort = true;
     if (!plain.verification.ok) {
       return failure("following the way from stop to stop failed: " + plain.verification.reason);
@@ -200,13 +201,14 @@ class GlobalOptimizer::Solver {
       dilate(1.0 + 0.7 * excess + 0.001, spline_);
       result_.trajectory = assemble(chosen_, spline_);
     }
-    result_.verification = verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
+    result_.verification =
+        feasibility::verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
     spline_ = shape;
   }
 
   // What failed is aimed at more strictly, and its weight raised.
   void tighten() {
-    const Verification& v = result_.verification;
+    const feasibility::Verification& v = result_.verification;
     if (v.thrust_share > check_.thrust_share) {
       const double excess = std::min(v.thrust_share - check_.thrust_share, 0.04);
       problem_.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
@@ -223,7 +225,7 @@ class GlobalOptimizer::Solver {
 
   Result<Optimized> lastResort(const std::vector<Eigen::Vector2d>& way) {
     const std::string reason = result_.verification.reason;
-    if (!atRest(*start_)) {
+    if (!trajectory::atRest(*start_)) {
       return failure("optimisation from a moving start failed: " + reason);
     }
     const int iterations = result_.iterations;
@@ -246,10 +248,10 @@ class GlobalOptimizer::Solver {
   EndChooser chooser_{vessel_, check_, end_options_};
   ChosenEnds chosen_;
   Optimized result_;
-  CheckOptions check_;
+  feasibility::CheckOptions check_;
   const map::DistanceField* field_ = nullptr;
-  const Boundary* start_ = nullptr;
-  const Boundary* goal_ = nullptr;
+  const trajectory::Boundary* start_ = nullptr;
+  const trajectory::Boundary* goal_ = nullptr;
   const Budget* budget_ = nullptr;
 };
 
@@ -261,15 +263,17 @@ GlobalOptimizer& GlobalOptimizer::operator=(GlobalOptimizer&&) noexcept = defaul
 
 Result<Optimized> GlobalOptimizer::optimize(const map::DistanceField& field,
                                             const std::vector<Eigen::Vector2d>& way,
-                                            const Boundary& start, const Boundary& goal,
-                                            const Budget& budget, double clearance_m) {
+                                            const trajectory::Boundary& start,
+                                            const trajectory::Boundary& goal, const Budget& budget,
+                                            double clearance_m) {
   return solver_->run(field, way, start, goal, budget, clearance_m);
 }
 
 Result<Optimized> GlobalOptimizer::optimize(const map::DistanceField& field,
                                             const trajectory::Trajectory& initial,
-                                            const Boundary& start, const Boundary& goal,
-                                            const Budget& budget, double clearance_m) {
+                                            const trajectory::Boundary& start,
+                                            const trajectory::Boundary& goal, const Budget& budget,
+                                            double clearance_m) {
   std::vector<Eigen::Vector2d> way;
   for (const trajectory::Piece& piece : initial.pieces()) {
     constexpr int kParts = 6;
@@ -283,12 +287,13 @@ Result<Optimized> GlobalOptimizer::optimize(const map::DistanceField& field,
 
 Result<Optimized> GlobalOptimizer::stopAndSpin(const map::DistanceField& field,
                                                const std::vector<Eigen::Vector2d>& way,
-                                               const Boundary& start, const Boundary& goal,
+                                               const trajectory::Boundary& start,
+                                               const trajectory::Boundary& goal,
                                                double clearance_m) {
   return solver_->stopAndSpin(field, way, start, goal, clearance_m);
 }
 
-CheckOptions GlobalOptimizer::checkOptions(double clearance_m) const {
+feasibility::CheckOptions GlobalOptimizer::checkOptions(double clearance_m) const {
   return solver_->checkOptions(clearance_m);
 }
 

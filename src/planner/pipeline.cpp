@@ -12,8 +12,8 @@ namespace {
 // Beyond the clearance, that the guide line is pushed out to.
 constexpr double kRoomM = 0.7;
 
-EdgeLimits edgeLimits(const Options& options, const vessel::Parameters& vessel) {
-  EdgeLimits limits;
+feasibility::EdgeLimits edgeLimits(const Options& options, const vessel::Parameters& vessel) {
+  feasibility::EdgeLimits limits;
   limits.clearance_m = options.clearance_m;
   limits.speed_max_mps = options.speed_share * vessel.top_speed_mps;
   limits.force_ahead_n = 2.0 * options.force_share * vessel.thrusters.ahead_max_n;
@@ -69,7 +69,7 @@ Plan Planner::Pipeline::plan(const map::DistanceField& field, const Query& query
 // A goal within reach of the hull: straight there, turning on the spot.
 bool Planner::Pipeline::planNearby(Run& run) {
   constexpr double kNearM = 0.3;
-  if (!optimizer::atRest(run.start) ||
+  if (!trajectory::atRest(run.start) ||
       (run.goal.flat.position - run.start.flat.position).norm() > kNearM) {
     return false;
   }
@@ -123,7 +123,7 @@ void Planner::Pipeline::prepareSearch(Run& run) {
   line.corridor_m = options_.corridor_m;
   line.safe_distance_m = run.clearance_m + kRoomM;
   line_.build(guide_.points, run.field, vessel_, line);
-  EdgeLimits limits = limits_;
+  feasibility::EdgeLimits limits = limits_;
   limits.clearance_m = run.clearance_m;
   search_.setLimits(limits);
 }
@@ -142,7 +142,7 @@ void Planner::Pipeline::placeRoots(Run& run, Roots roots) {
   if (roots == Roots::kLaunched) {
     stop_ = stopAt(goal.position, line_.at(line_.length()).direction, vessel_.top_speed_mps);
     goal = stop_->root;
-    if (optimizer::atRest(run.start)) {
+    if (trajectory::atRest(run.start)) {
       launch_ = launchFrom(start.position, line_.at(0.0).direction, vessel_.top_speed_mps);
       start = launch_->root;
     }
@@ -245,8 +245,9 @@ void Planner::Pipeline::tryWarmStart(Run& run) {
     return;
   }
   const double began = run.now();
-  const auto verification = optimizer::verify(*run.query.warm_start, run.field, vessel_, run.start,
-                                              run.goal, optimizer_.checkOptions(run.clearance_m));
+  const auto verification =
+      feasibility::verify(*run.query.warm_start, run.field, vessel_, run.start, run.goal,
+                          optimizer_.checkOptions(run.clearance_m));
   run.plan.figures.verify_ms += 1e3 * (run.now() - began);
   if (verification.ok) {
     accept(run, *run.query.warm_start, false);

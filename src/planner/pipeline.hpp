@@ -28,8 +28,8 @@ class Planner::Pipeline {
     const Query& query;
     const Termination& termination;
     double clearance_m = 0.0;
-    optimizer::Boundary start;
-    optimizer::Boundary goal;
+    trajectory::Boundary start;
+    trajectory::Boundary goal;
     Plan plan;
     int samples_left = 0;
     double rank = 0.0;     // of plan.trajectory, once there is one; less is better
@@ -64,7 +64,7 @@ class Planner::Pipeline {
 
   Options options_;
   vessel::Parameters vessel_;
-  EdgeLimits limits_;
+  feasibility::EdgeLimits limits_;
   topology::GuidePathFinder finder_;
   double finder_clearance_m_;
   topology::GuidePath guide_;

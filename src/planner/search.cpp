@@ -35,7 +35,7 @@ void Search::reset(const map::DistanceField& field, const KinoState& start, cons
   counts_ = SearchCounts{};
 }
 
-void Search::setLimits(const EdgeLimits& limits) {
+void Search::setLimits(const feasibility::EdgeLimits& limits) {
   options_.limits = limits;
   check_.setLimits(limits);
   local_.setClearance(limits.clearance_m);
@@ -157,7 +157,7 @@ int Search::grow(Tree& tree, const KinoState& sample) {
 
 std::optional<Edge> Search::feasibleEdge(const KinoState& from, const KinoState& to,
                                          const Steer& steer) {
-  if (check_.check(quinticPiece(from, to, steer.duration_s)) != EdgeFault::kNone) {
+  if (check_.check(quinticPiece(from, to, steer.duration_s)) != feasibility::EdgeFault::kNone) {
     return std::nullopt;
   }
   return Edge{steer.duration_s, steer.cost, kNone, 0};
@@ -192,11 +192,11 @@ std::optional<Edge> Search::slowerEdge(const KinoState& from, const KinoState& t
   const SteerCost cost(from, to, options_.sigma);
   for (const double stretch : kStretch) {
     const double duration = stretch * steer.duration_s;
-    const EdgeFault fault = check_.check(quinticPiece(from, to, duration));
-    if (fault == EdgeFault::kNone) {
+    const feasibility::EdgeFault fault = check_.check(quinticPiece(from, to, duration));
+    if (fault == feasibility::EdgeFault::kNone) {
       return Edge{duration, cost.at(duration), kNone, 0};
     }
-    if (fault == EdgeFault::kCollision) {
+    if (fault == feasibility::EdgeFault::kCollision) {
       return std::nullopt;
     }
   }

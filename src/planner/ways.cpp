@@ -92,11 +92,11 @@ double course(const Eigen::Vector2d& v) {
 }
 
 trajectory::Trajectory assemble(const std::vector<Piece>& smooth, double slowdown,
-                                const optimizer::Boundary& start, const optimizer::Boundary& goal,
+                                const trajectory::Boundary& start, const trajectory::Boundary& goal,
                                 const vessel::Parameters& vessel) {
   std::vector<Piece> pieces;
   const optimizer::SpinLimits spin;
-  if (optimizer::atRest(start)) {
+  if (trajectory::atRest(start)) {
     const Piece& first = smooth.front();
     const double psi = course(first.flat(first.duration_s).velocity);
     optimizer::appendSpin(start.flat.position, start.psi_rad, wrapAngle(psi - start.psi_rad),
@@ -147,20 +147,20 @@ Launch stopAt(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
 }
 
 Result<trajectory::Trajectory> closeWay(const std::vector<Piece>& way,
-                                        const optimizer::Boundary& start,
-                                        const optimizer::Boundary& goal,
+                                        const trajectory::Boundary& start,
+                                        const trajectory::Boundary& goal,
                                         const map::DistanceField& field,
                                         const vessel::Parameters& vessel,
-                                        const optimizer::CheckOptions& check) {
+                                        const feasibility::CheckOptions& check) {
   constexpr std::array<double, 10> kSlowdown = {1.0, 1.05, 1.1, 1.2, 1.4, 1.7, 2.1, 2.6, 3.2, 4.0};
   const std::vector<Piece> smooth = smoothed(way, start.flat.jerk);
   std::string reason;
   for (const double slowdown : kSlowdown) {
-    if (slowdown > 1.0 && !optimizer::atRest(start)) {
+    if (slowdown > 1.0 && !trajectory::atRest(start)) {
       break;
     }
     trajectory::Trajectory trajectory = assemble(smooth, slowdown, start, goal, vessel);
-    const auto verification = optimizer::verify(trajectory, field, vessel, start, goal, check);
+    const auto verification = feasibility::verify(trajectory, field, vessel, start, goal, check);
     if (verification.ok) {
       return trajectory;
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/planner/obvp.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 
@@ -31,10 +31,10 @@ struct Launch {
 // degree 7 through the same states), and, if it starts at rest, the whole slowed down until
 // verification passes. An error gives verification's reason.
 [[nodiscard]] Result<trajectory::Trajectory> closeWay(const std::vector<trajectory::Piece>& way,
-                                                      const optimizer::Boundary& start,
-                                                      const optimizer::Boundary& goal,
+                                                      const trajectory::Boundary& start,
+                                                      const trajectory::Boundary& goal,
                                                       const map::DistanceField& field,
                                                       const vessel::Parameters& vessel,
-                                                      const optimizer::CheckOptions& check);
+                                                      const feasibility::CheckOptions& check);
 
 }  // namespace otter_nav::planner

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -77,7 +77,7 @@ std::optional<Trajectory> backOff(const vessel::State& state, const map::Distanc
   if (field.clearance(state.head<2>()) >= room) {
     return std::nullopt;
   }
-  optimizer::CheckOptions check;
+  feasibility::CheckOptions check;
   check.clearance_m = 0.0;
   check.check_hull = false;
   check.speed_max_mps = vessel.top_speed_mps;
@@ -86,7 +86,7 @@ std::optional<Trajectory> backOff(const vessel::State& state, const map::Distanc
       Trajectory way = straight(state, side * lengths * vessel.hull.length_m);
       if (field.clearance(way.flat(way.duration()).position) >= room &&
           outlineKeepsClear(way, 0.0, vessel, field, kClearM + drift_mps * way.duration()) &&
-          optimizer::verify(way, field, vessel, check).ok) {
+          feasibility::verify(way, field, vessel, check).ok) {
         return way;
       }
     }

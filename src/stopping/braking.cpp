@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "straight_stop.hpp"
@@ -174,7 +174,7 @@ std::vector<Trajectory> candidates(const Trajectory& sailed, double at_s) {
 
 Braking brakingTrajectory(const Trajectory& sailed, double at_s, const map::DistanceField& field,
                           const vessel::Parameters& vessel, const BrakingOptions& options) {
-  optimizer::CheckOptions check;
+  feasibility::CheckOptions check;
   check.clearance_m = options.clearance_m;
   check.thrust_share = kThrustTolerance;
   check.speed_max_mps = 2.0 * vessel.top_speed_mps;
@@ -186,7 +186,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s, const map::Dist
       continue;
     }
     if (keepsAsternShare(candidate, vessel, options.thrust_share) &&
-        optimizer::verify(candidate, field, vessel, check).ok) {
+        feasibility::verify(candidate, field, vessel, check).ok) {
       return {std::move(candidate), true, options.clearance_m};
     }
     const double clearance = leastClearance(candidate, field);

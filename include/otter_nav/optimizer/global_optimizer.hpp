@@ -20,8 +20,8 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/optimizer/verification.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -78,9 +78,9 @@ struct Budget {
 
 struct Optimized {
   trajectory::Trajectory trajectory;
-  Verification verification;  // ok
-  int iterations = 0;         // closed-form solutions made
-  bool last_resort = false;   // stop-and-spin along the polyline: true, but slow
+  feasibility::Verification verification;  // ok
+  int iterations = 0;                      // closed-form solutions made
+  bool last_resort = false;                // stop-and-spin along the polyline: true, but slow
 };
 
 // Not thread-safe: its workspace is reused from call to call.
@@ -95,23 +95,26 @@ class GlobalOptimizer {
   // from the boundaries. `clearance_m` > 0 replaces the options' for this call.
   [[nodiscard]] Result<Optimized> optimize(const map::DistanceField& field,
                                            const std::vector<Eigen::Vector2d>& way,
-                                           const Boundary& start, const Boundary& goal,
-                                           const Budget& budget, double clearance_m = 0.0);
+                                           const trajectory::Boundary& start,
+                                           const trajectory::Boundary& goal, const Budget& budget,
+                                           double clearance_m = 0.0);
   // From a trajectory: the tree's quintics (any continuity), or one being sailed.
   [[nodiscard]] Result<Optimized> optimize(const map::DistanceField& field,
                                            const trajectory::Trajectory& initial,
-                                           const Boundary& start, const Boundary& goal,
-                                           const Budget& budget, double clearance_m = 0.0);
+                                           const trajectory::Boundary& start,
+                                           const trajectory::Boundary& goal, const Budget& budget,
+                                           double clearance_m = 0.0);
 
   // From rest, straight from point to point of a clear polyline, stopping at each to turn: slow,
   // but sound wherever the hull may turn.
   [[nodiscard]] Result<Optimized> stopAndSpin(const map::DistanceField& field,
                                               const std::vector<Eigen::Vector2d>& way,
-                                              const Boundary& start, const Boundary& goal,
+                                              const trajectory::Boundary& start,
+                                              const trajectory::Boundary& goal,
                                               double clearance_m = 0.0);
 
   // What results are verified against (for a planner that verifies what it got elsewhere).
-  [[nodiscard]] CheckOptions checkOptions(double clearance_m = 0.0) const;
+  [[nodiscard]] feasibility::CheckOptions checkOptions(double clearance_m = 0.0) const;
 
  private:
   class Solver;

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "otter_nav/feasibility/edge_check.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/optimizer/local_optimizer.hpp"
-#include "otter_nav/planner/edge_check.hpp"
 #include "otter_nav/planner/tree.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -21,7 +21,7 @@ struct SearchOptions {
   double edge_max_m = 30.0;    // between two states
   bool repair_edges = true;    // the paper's local optimisation
   int repairs_per_sample = 1;  // and tree
-  EdgeLimits limits;
+  feasibility::EdgeLimits limits;
 };
 constexpr int kMaxNeighbours = 32;
 
@@ -40,7 +40,7 @@ class Search {
   // Begins a query: `field` must outlive it.
   void reset(const map::DistanceField& field, const KinoState& start, const KinoState& goal);
   // Replaces the limits, before reset(): the clearance is each query's own.
-  void setLimits(const EdgeLimits& limits);
+  void setLimits(const feasibility::EdgeLimits& limits);
   // Tries to join the trees by one edge from root to root, without a sample.
   bool joinRoots();
   // Grows both trees towards one sample. True if a way, or a cheaper way, is known thereafter.
@@ -78,7 +78,7 @@ class Search {
   void rewire(Tree& tree, int added);
 
   SearchOptions options_;
-  EdgeCheck check_;
+  feasibility::EdgeCheck check_;
   optimizer::LocalOptimizer local_;
   const map::DistanceField* field_ = nullptr;
   Tree from_start_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimizer/piece_check.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/feasibility/piece_check.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -49,10 +49,10 @@ Eigen::Vector2d directionOf(const vessel::FlatPoint& z, double psi_rad) {
 
 bool EndChooser::clear(const map::DistanceField& field, const Manoeuvre& manoeuvre) const {
   for (const trajectory::Piece& piece : manoeuvre.pieces) {
-    PieceReport report;
+    feasibility::PieceReport report;
     report.yaw_rate_radps = check_.yaw_rate_max_radps;
-    PieceCheck(piece, vessel_, check_).checkClearance(field, report);
-    if (report.fault != Fault::kNone) {
+    feasibility::PieceCheck(piece, vessel_, check_).checkClearance(field, report);
+    if (report.fault != feasibility::Fault::kNone) {
       return false;
     }
   }
@@ -107,10 +107,11 @@ void EndChooser::arriveAlong(const std::vector<Eigen::Vector2d>& way, End& end) 
 }
 
 End EndChooser::chooseStart(const map::DistanceField& field,
-                            const std::vector<Eigen::Vector2d>& way, const Boundary& start) const {
+                            const std::vector<Eigen::Vector2d>& way,
+                            const trajectory::Boundary& start) const {
   End end;
   end.manoeuvre.joint = start.flat;
-  if (!atRest(start)) {
+  if (!trajectory::atRest(start)) {
     return end;
   }
   end.kind = End::Kind::kLaunch;
@@ -127,7 +128,7 @@ End EndChooser::chooseStart(const map::DistanceField& field,
 }
 
 End EndChooser::chooseGoal(const map::DistanceField& field, const std::vector<Eigen::Vector2d>& way,
-                           const Boundary& goal) const {
+                           const trajectory::Boundary& goal) const {
   struct Choice {
     double speed_share, drift_share;
   };
@@ -153,12 +154,13 @@ End EndChooser::chooseGoal(const map::DistanceField& field, const std::vector<Ei
 }
 
 ChosenEnds EndChooser::choose(const map::DistanceField& field,
-                              const std::vector<Eigen::Vector2d>& way, const Boundary& start,
-                              const Boundary& goal) const {
+                              const std::vector<Eigen::Vector2d>& way,
+                              const trajectory::Boundary& start,
+                              const trajectory::Boundary& goal) const {
   return {chooseStart(field, way, start), chooseGoal(field, way, goal)};
 }
 
-WayEnds EndChooser::wayEnds(const ChosenEnds& chosen, const Boundary& start) const {
+WayEnds EndChooser::wayEnds(const ChosenEnds& chosen, const trajectory::Boundary& start) const {
   WayEnds ends;
   ends.start = chosen.start.manoeuvre.joint;
   ends.goal = chosen.goal.manoeuvre.joint;

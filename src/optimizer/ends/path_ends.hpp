@@ -7,8 +7,8 @@
 
 #include "optimizer/ends/end_manoeuvre.hpp"
 #include "optimizer/solve/initial_spline.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/optimizer/verification.hpp"
 
 namespace otter_nav::optimizer {
 
@@ -39,15 +39,17 @@ struct ChosenEnds {
 
 class EndChooser {
  public:
-  EndChooser(const vessel::Parameters& vessel, const CheckOptions& check, const EndOptions& options)
+  EndChooser(const vessel::Parameters& vessel, const feasibility::CheckOptions& check,
+             const EndOptions& options)
       : vessel_(vessel), check_(check), options_(options) {}
 
   // `way` has at least two points.
   [[nodiscard]] ChosenEnds choose(const map::DistanceField& field,
-                                  const std::vector<Eigen::Vector2d>& way, const Boundary& start,
-                                  const Boundary& goal) const;
+                                  const std::vector<Eigen::Vector2d>& way,
+                                  const trajectory::Boundary& start,
+                                  const trajectory::Boundary& goal) const;
   // The ends' states for the way between.
-  [[nodiscard]] WayEnds wayEnds(const ChosenEnds& chosen, const Boundary& start) const;
+  [[nodiscard]] WayEnds wayEnds(const ChosenEnds& chosen, const trajectory::Boundary& start) const;
   // Lets the spline's ends move with their manoeuvres.
   void guide(const ChosenEnds& chosen, Spline& spline) const;
   // Makes the manoeuvres that the spline's ends have moved to, and puts the ends exactly there.
@@ -56,9 +58,10 @@ class EndChooser {
  private:
   [[nodiscard]] End chooseStart(const map::DistanceField& field,
                                 const std::vector<Eigen::Vector2d>& way,
-                                const Boundary& start) const;
+                                const trajectory::Boundary& start) const;
   [[nodiscard]] End chooseGoal(const map::DistanceField& field,
-                               const std::vector<Eigen::Vector2d>& way, const Boundary& goal) const;
+                               const std::vector<Eigen::Vector2d>& way,
+                               const trajectory::Boundary& goal) const;
   void leaveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const;
   void arriveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const;
   void make(End& end) const;
@@ -67,7 +70,7 @@ class EndChooser {
   [[nodiscard]] bool clear(const map::DistanceField& field, const Manoeuvre& manoeuvre) const;
 
   const vessel::Parameters& vessel_;
-  const CheckOptions& check_;
+  const feasibility::CheckOptions& check_;
   const EndOptions& options_;
 };
 

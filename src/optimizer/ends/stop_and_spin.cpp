@@ -45,7 +45,8 @@ void StopAndSpin::appendStraight(const Eigen::Vector2d& from, const Eigen::Vecto
 }
 
 trajectory::Trajectory StopAndSpin::follow(const std::vector<Eigen::Vector2d>& way,
-                                           const Boundary& start, const Boundary& goal) const {
+                                           const trajectory::Boundary& start,
+                                           const trajectory::Boundary& goal) const {
   std::vector<trajectory::Piece> pieces;
   double psi = start.psi_rad;
   Eigen::Vector2d at = start.flat.position;

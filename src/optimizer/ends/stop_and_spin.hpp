@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/optimizer/spin.hpp"
-#include "otter_nav/optimizer/verification.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -14,13 +14,15 @@ namespace otter_nav::optimizer {
 
 class StopAndSpin {
  public:
-  StopAndSpin(const vessel::Parameters& vessel, const SpinLimits& spin, const CheckOptions& check)
+  StopAndSpin(const vessel::Parameters& vessel, const SpinLimits& spin,
+              const feasibility::CheckOptions& check)
       : vessel_(vessel), spin_(spin), check_(check) {}
 
   // From rest at `start` to rest at `goal`, headings included; the way's ends are replaced by
   // theirs.
   [[nodiscard]] trajectory::Trajectory follow(const std::vector<Eigen::Vector2d>& way,
-                                              const Boundary& start, const Boundary& goal) const;
+                                              const trajectory::Boundary& start,
+                                              const trajectory::Boundary& goal) const;
 
  private:
   void appendStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
@@ -28,7 +30,7 @@ class StopAndSpin {
 
   vessel::Parameters vessel_;
   SpinLimits spin_;
-  CheckOptions check_;
+  feasibility::CheckOptions check_;
 };
 
 }  // namespace otter_nav::optimizer

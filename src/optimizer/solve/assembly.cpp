@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "optimizer/piece_check.hpp"
+#include "otter_nav/feasibility/piece_check.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -35,16 +35,16 @@ trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline) {
 }
 
 double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Parameters& vessel,
-                   const CheckOptions& check) {
-  CheckOptions open = check;
+                   const feasibility::CheckOptions& check) {
+  feasibility::CheckOptions open = check;
   open.thrust_share = 1e3;
   open.speed_max_mps = 1e3;
   open.yaw_rate_max_radps = 1e3;
   open.heading_force_min_n = 0.0;
-  PieceReport worst;
+  feasibility::PieceReport worst;
   for (const trajectory::Piece& piece : trajectory.pieces()) {
-    PieceReport report;
-    PieceCheck(piece, vessel, open).checkDynamics(report);
+    feasibility::PieceReport report;
+    feasibility::PieceCheck(piece, vessel, open).checkDynamics(report);
     worst.thrust_share = std::max(worst.thrust_share, report.thrust_share);
     worst.speed_mps = std::max(worst.speed_mps, report.speed_mps);
   }

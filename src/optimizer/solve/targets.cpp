@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "optimizer/piece_check.hpp"
+#include "otter_nav/feasibility/piece_check.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -28,10 +28,11 @@ constexpr std::array<Manner, kAttempts> kManners = {{{false, 1.0, 1.0, 1.0, 1.0}
                                                      {true, 0.8, 10.0, 0.7, 0.3}}};
 
 SplineLimits limitsOf(const Manner& manner, const GlobalOptions& options,
-                      const vessel::Parameters& vessel, const CheckOptions& check, double cell_m) {
+                      const vessel::Parameters& vessel, const feasibility::CheckOptions& check,
+                      double cell_m) {
   SplineLimits limits;
   limits.clearance_m = check.clearance_m + options.clearance_margin_m + kSquareCells * cell_m;
-  const HullCircles hull = hullCircles(vessel.hull);
+  const feasibility::HullCircles hull = feasibility::hullCircles(vessel.hull);
   limits.hull_offset_m = check.check_hull ? hull.offset_m : 0.0;
   limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
   const double share = (options.thrust_share - options.thrust_margin) * manner.thrust_factor;
@@ -65,7 +66,7 @@ EndOptions endsOf(const Manner& manner, const GlobalOptions& options,
 }  // namespace
 
 Aims aimsOf(int attempt, const GlobalOptions& options, const vessel::Parameters& vessel,
-            const CheckOptions& check, double cell_m) {
+            const feasibility::CheckOptions& check, double cell_m) {
   const Manner& manner = kManners[static_cast<std::size_t>(attempt)];
   const double share = (options.thrust_share - options.thrust_margin) * manner.thrust_factor;
   Aims aims;

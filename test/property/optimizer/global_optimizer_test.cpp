@@ -29,8 +29,8 @@ map::DistanceField islands(Random& random, int count) {
   return map::DistanceField(grid, {});
 }
 
-Boundary berth(double x, double y, double psi_rad) {
-  Boundary b;
+trajectory::Boundary berth(double x, double y, double psi_rad) {
+  trajectory::Boundary b;
   b.flat.position = {x, y};
   b.psi_rad = psi_rad;
   return b;
@@ -88,15 +88,17 @@ TEST(GlobalOptimizer, ReturnsVerifiedTrajectoriesAmongIslands) {
   int sailed = 0;
   for (int trial = 0; trial < 12; ++trial) {
     const map::DistanceField field = islands(random, 6);
-    const Boundary start = berth(-55.0, random.uniform(-10.0, 10.0), random.uniform(-3.1, 3.1));
-    const Boundary goal = berth(55.0, random.uniform(-10.0, 10.0), random.uniform(-3.1, 3.1));
+    const trajectory::Boundary start =
+        berth(-55.0, random.uniform(-10.0, 10.0), random.uniform(-3.1, 3.1));
+    const trajectory::Boundary goal =
+        berth(55.0, random.uniform(-10.0, 10.0), random.uniform(-3.1, 3.1));
     // Around the islands, to the north or the south.
     const double side = trial % 2 == 0 ? 20.0 : -20.0;
     const std::vector<Eigen::Vector2d> way = {
         start.flat.position, {-45.0, side}, {45.0, side}, goal.flat.position};
     const auto result = optimizer.optimize(field, way, start, goal, Budget());
     ASSERT_TRUE(result.has_value()) << trial << ": " << result.error().message;
-    const Verification again =
+    const feasibility::Verification again =
         verify(result->trajectory, field, vessel, start, goal, optimizer.checkOptions());
     EXPECT_TRUE(again.ok) << again.reason;
     EXPECT_LT(trajectory::length(result->trajectory), 1.05 * lengthOf(way));
@@ -110,7 +112,7 @@ TEST(GlobalOptimizer, FromAMovingStartTakesOverItsMotion) {
   Random random(3);
   const map::DistanceField field = islands(random, 0);
   GlobalOptimizer optimizer(GlobalOptions(), vessel);
-  Boundary start = berth(-40.0, 0.0, 0.0);
+  trajectory::Boundary start = berth(-40.0, 0.0, 0.0);
   start.flat.velocity = {3.5, 0.5};
   start.flat.acceleration = {0.1, 0.1};
   start.flat.jerk = {0.0, 0.02};

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "../../unit/planner/planner_ground.hpp"
-#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 
 namespace otter_nav::planner {
 namespace {
@@ -34,14 +34,14 @@ map::DistanceField islands() {
   return map::DistanceField(grid, map::DistanceFieldOptions{});
 }
 
-optimizer::Verification verifyPlan(const Plan& plan, const map::DistanceField& field,
-                                   const Query& query) {
-  optimizer::Boundary start{query.start, query.start_psi_rad};
-  optimizer::Boundary goal;
+feasibility::Verification verifyPlan(const Plan& plan, const map::DistanceField& field,
+                                     const Query& query) {
+  trajectory::Boundary start{query.start, query.start_psi_rad};
+  trajectory::Boundary goal;
   goal.flat.position = query.goal;
   goal.psi_rad = query.goal_psi_rad;
-  return optimizer::verify(plan.trajectory, field, vessel::Parameters{}, start, goal,
-                           optimizer::CheckOptions{});
+  return feasibility::verify(plan.trajectory, field, vessel::Parameters{}, start, goal,
+                             feasibility::CheckOptions{});
 }
 
 class EveryMethod : public ::testing::TestWithParam<std::pair<bool, bool>> {};

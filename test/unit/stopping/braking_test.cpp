@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../mission/waters.hpp"
-#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/splice.hpp"
 
 namespace otter_nav::stopping {
@@ -19,8 +19,8 @@ using trajectory::Trajectory;
 
 constexpr double kSpeed = 4.3;
 
-optimizer::CheckOptions limits() {
-  optimizer::CheckOptions check;
+feasibility::CheckOptions limits() {
+  feasibility::CheckOptions check;
   check.clearance_m = BrakingOptions{}.clearance_m;
   check.thrust_share = 1.1;
   check.speed_max_mps = 10.0;
@@ -62,7 +62,7 @@ TEST(Braking, IsHardInFrontOfAWall) {
   EXPECT_LT(stop.trajectory.duration(), 4.0);
   EXPECT_LT(stop.trajectory.flat(100.0).position.x(), here.x() + 10.0 - 0.8);
   expectRest(stop.trajectory);
-  EXPECT_TRUE(optimizer::verify(stop.trajectory, field, vessel::Parameters{}, limits()).ok);
+  EXPECT_TRUE(feasibility::verify(stop.trajectory, field, vessel::Parameters{}, limits()).ok);
 }
 
 TEST(Braking, StraightensOutOfACurve) {
@@ -75,7 +75,7 @@ TEST(Braking, StraightensOutOfACurve) {
   ASSERT_TRUE(stop.clear);
   expectRest(stop.trajectory);
   expectContinues(sailed, 5.0, stop.trajectory);
-  const auto verified = optimizer::verify(stop.trajectory, field, vessel::Parameters{}, limits());
+  const auto verified = feasibility::verify(stop.trajectory, field, vessel::Parameters{}, limits());
   EXPECT_TRUE(verified.ok) << verified.reason;
 }
 

@@ -1,12 +1,16 @@
-#include "otter_nav/planner/edge_check.hpp"
+#include "otter_nav/feasibility/edge_check.hpp"
 
 #include <gtest/gtest.h>
 
+#include "../planner/planner_ground.hpp"
 #include "otter_nav/planner/obvp.hpp"
-#include "planner_ground.hpp"
 
-namespace otter_nav::planner {
+namespace otter_nav::feasibility {
 namespace {
+
+using planner::KinoState;
+using planner::quinticPiece;
+namespace test = planner::test;
 
 KinoState moving(double x, double y, double speed) {
   KinoState state;
@@ -48,4 +52,4 @@ TEST(EdgeCheck, SeesAnObstacleThinnerThanItsSteps) {
 }
 
 }  // namespace
-}  // namespace otter_nav::planner
+}  // namespace otter_nav::feasibility

@@ -11,18 +11,11 @@
 #include <string>
 
 #include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/trajectory/boundary.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
-namespace otter_nav::optimizer {
-
-// A state a trajectory begins or ends in. At rest (`flat`'s derivatives zero) acceleration and
-// jerk are the optimiser's to choose along the heading; moving, the heading follows from `flat`.
-struct Boundary {
-  vessel::FlatPoint flat;
-  double psi_rad = 0.0;
-};
-[[nodiscard]] bool atRest(const Boundary& boundary);
+namespace otter_nav::feasibility {
 
 struct CheckOptions {
   double clearance_m = 0.8;  // of the hull's centre from every occupied cell's square
@@ -53,11 +46,11 @@ struct Verification {
 // for the reason only.
 [[nodiscard]] Verification verify(const trajectory::Trajectory& trajectory,
                                   const map::DistanceField& field, const vessel::Parameters& vessel,
-                                  const Boundary& start, const Boundary& goal,
-                                  const CheckOptions& options);
+                                  const trajectory::Boundary& start,
+                                  const trajectory::Boundary& goal, const CheckOptions& options);
 // Without ends to meet: a part of a trajectory, or one sailed already.
 [[nodiscard]] Verification verify(const trajectory::Trajectory& trajectory,
                                   const map::DistanceField& field, const vessel::Parameters& vessel,
                                   const CheckOptions& options);
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::feasibility

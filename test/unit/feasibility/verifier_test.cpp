@@ -1,12 +1,12 @@
 // Verification passes a sound trajectory and names each kind of fault put into it.
-#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 
 #include <gtest/gtest.h>
 
 #include "optimizer/ends/end_manoeuvre.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
 
-namespace otter_nav::optimizer {
+namespace otter_nav::feasibility {
 namespace {
 
 using trajectory::Piece;
@@ -23,8 +23,8 @@ map::DistanceField rockField(bool with_rock = true) {
   return map::DistanceField(grid, {});
 }
 
-Boundary berth(double x, double y, double psi_rad) {
-  Boundary b;
+trajectory::Boundary berth(double x, double y, double psi_rad) {
+  trajectory::Boundary b;
   b.flat.position = {x, y};
   b.psi_rad = psi_rad;
   return b;
@@ -33,10 +33,10 @@ Boundary berth(double x, double y, double psi_rad) {
 class VerificationTest : public ::testing::Test {
  protected:
   VerificationTest() {
-    GlobalOptimizer optimizer(GlobalOptions(), vessel);
+    optimizer::GlobalOptimizer optimizer(optimizer::GlobalOptions(), vessel);
     const auto result = optimizer.optimize(
         field, std::vector<Eigen::Vector2d>{{10.0, 30.0}, {30.0, 31.5}, {50.0, 30.0}}, start, goal,
-        Budget());
+        optimizer::Budget());
     EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message);
     pieces = result ? result->trajectory.pieces() : std::vector<Piece>();
     options = optimizer.checkOptions();
@@ -56,8 +56,8 @@ class VerificationTest : public ::testing::Test {
 
   vessel::Parameters vessel;
   map::DistanceField field = rockField();
-  Boundary start = berth(10.0, 30.0, 0.4);
-  Boundary goal = berth(50.0, 30.0, -2.0);
+  trajectory::Boundary start = berth(10.0, 30.0, 0.4);
+  trajectory::Boundary goal = berth(50.0, 30.0, -2.0);
   std::vector<Piece> pieces;
   CheckOptions options;
 };
@@ -118,7 +118,7 @@ TEST_F(VerificationTest, LimitsOfThrustSpeedAndTurning) {
 }
 
 TEST_F(VerificationTest, EndsNotMet) {
-  const Boundary right = start;
+  const trajectory::Boundary right = start;
   start.psi_rad += 0.1;
   expectFault("start heading");
   start = right;
@@ -181,8 +181,8 @@ TEST_F(VerificationTest, ASpinMustMeetTheYawRateBefore) {
 }
 
 TEST_F(VerificationTest, ASpinSlidesOnlyAsTheModelLetsIt) {
-  const Manoeuvre stop =
-      arrival(goal.flat.position, goal.psi_rad, 1.0, 2.0, vessel, ManoeuvreLimits());
+  const optimizer::Manoeuvre stop = optimizer::arrival(goal.flat.position, goal.psi_rad, 1.0, 2.0,
+                                                       vessel, optimizer::ManoeuvreLimits());
   EXPECT_TRUE(verify(Trajectory(stop.pieces), field, vessel, options).ok);
   // The same way with another heading would need a force from the side.
   std::vector<Piece> turned = stop.pieces;
@@ -195,4 +195,4 @@ TEST_F(VerificationTest, ASpinSlidesOnlyAsTheModelLetsIt) {
 }
 
 }  // namespace
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::feasibility

@@ -1,14 +1,14 @@
-#include "otter_nav/optimizer/verification.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "optimizer/piece_check.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/feasibility/piece_check.hpp"
 
-namespace otter_nav::optimizer {
+namespace otter_nav::feasibility {
 namespace {
 
 // Largest jumps at a joint: what rounding leaves.
@@ -36,7 +36,7 @@ class Verifier {
     result_.heading_force_n = std::numeric_limits<double>::infinity();
   }
 
-  Verification run(const Boundary* start, const Boundary* goal) {
+  Verification run(const trajectory::Boundary* start, const trajectory::Boundary* goal) {
     result_.ok = !trajectory_.empty() || fail(0.0, "the trajectory is empty");
     if (result_.ok) {
       checkFinite();
@@ -74,7 +74,8 @@ class Verifier {
     }
   }
 
-  void checkEnd(const Boundary& boundary, std::size_t piece, double t_in_piece, const char* name) {
+  void checkEnd(const trajectory::Boundary& boundary, std::size_t piece, double t_in_piece,
+                const char* name) {
     const double t = trajectory_.startOf(piece) + t_in_piece;
     const std::string label(name);
     const vessel::FlatPoint z = trajectory_.pieces()[piece].flat(t_in_piece);
@@ -85,7 +86,7 @@ class Verifier {
       return;
     }
     double motion = (z.velocity - boundary.flat.velocity).norm();
-    if (!atRest(boundary)) {
+    if (!trajectory::atRest(boundary)) {
       motion = std::max({motion, (z.acceleration - boundary.flat.acceleration).norm(),
                          (z.jerk - boundary.flat.jerk).norm()});
     }
@@ -93,7 +94,7 @@ class Verifier {
       fail(t, sentence((label + " motion missed").c_str(), t, motion, kEndMps));
       return;
     }
-    if (atRest(boundary)) {
+    if (trajectory::atRest(boundary)) {
       const PieceCheck check(trajectory_.pieces()[piece], vessel_, options_);
       const double turn = std::abs(wrapAngle(check.heading(t_in_piece) - boundary.psi_rad));
       if (!(turn <= options_.heading_tolerance_rad)) {
@@ -209,14 +210,9 @@ class Verifier {
 
 }  // namespace
 
-bool atRest(const Boundary& boundary) {
-  return boundary.flat.velocity.norm() < 1e-3 && boundary.flat.acceleration.norm() < 1e-3 &&
-         boundary.flat.jerk.norm() < 1e-3;
-}
-
 Verification verify(const trajectory::Trajectory& trajectory, const map::DistanceField& field,
-                    const vessel::Parameters& vessel, const Boundary& start, const Boundary& goal,
-                    const CheckOptions& options) {
+                    const vessel::Parameters& vessel, const trajectory::Boundary& start,
+                    const trajectory::Boundary& goal, const CheckOptions& options) {
   return Verifier(trajectory, field, vessel, options).run(&start, &goal);
 }
 
@@ -225,4 +221,4 @@ Verification verify(const trajectory::Trajectory& trajectory, const map::Distanc
   return Verifier(trajectory, field, vessel, options).run(nullptr, nullptr);
 }
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::feasibility

@@ -4,12 +4,12 @@
 
 #include <Eigen/Core>
 
+#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/optimizer/verification.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
-namespace otter_nav::optimizer {
+namespace otter_nav::feasibility {
 
 // The hull's rectangle is covered by three circles of `radius_m`: at the centre and `offset_m`
 // ahead and astern of it.
@@ -75,4 +75,4 @@ class PieceCheck {
   Eigen::Matrix<double, 2, 4> snap_;
 };
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::feasibility

@@ -1,4 +1,4 @@
-#include "optimizer/piece_check.hpp"
+#include "otter_nav/feasibility/piece_check.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,13 @@
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 
-namespace otter_nav::optimizer {
+namespace otter_nav::feasibility {
 namespace {
+
+using trajectory::differentiate;
+using trajectory::evaluate;
+using trajectory::lineOf;
+using trajectory::speedBound;
 
 constexpr double kSlowMps = 1e-3;       // below it a course says nothing of the heading
 constexpr double kLeastSlackM = 1e-3;   // nearer to the limit than this counts as a fault
@@ -251,4 +256,4 @@ void PieceCheck::checkClearance(const map::DistanceField& field, PieceReport& re
   }
 }
 
-}  // namespace otter_nav::optimizer
+}  // namespace otter_nav::feasibility

@@ -7,7 +7,7 @@
 #include "otter_nav/trajectory/piece.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
-namespace otter_nav::planner {
+namespace otter_nav::feasibility {
 
 enum class EdgeFault { kNone, kSpeed, kThrust, kCollision };
 
@@ -51,4 +51,4 @@ class EdgeCheck {
   const map::DistanceField* field_ = nullptr;
 };
 
-}  // namespace otter_nav::planner
+}  // namespace otter_nav::feasibility

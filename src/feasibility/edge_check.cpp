@@ -1,4 +1,4 @@
-#include "otter_nav/planner/edge_check.hpp"
+#include "otter_nav/feasibility/edge_check.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "otter_nav/vessel/hull.hpp"
 
-namespace otter_nav::planner {
+namespace otter_nav::feasibility {
 namespace {
 
 constexpr double kInstantsPerSecond = 5.0;
@@ -106,4 +106,4 @@ bool EdgeCheck::isFree(const Eigen::Vector2d& position) const {
   return field_->clearance(position) >= limits_.clearance_m;
 }
 
-}  // namespace otter_nav::planner
+}  // namespace otter_nav::feasibility

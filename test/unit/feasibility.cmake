@@ -1,0 +1,4 @@
+otter_nav_test(unit_feasibility_edge_check
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/feasibility/edge_check_test.cpp ROOMS planner)
+otter_nav_test(unit_feasibility_verifier
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/feasibility/verifier_test.cpp ROOMS optimizer)
