@@ -11,12 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "otter_nav/mission/closed_loop.hpp"
+#include "otter_nav/simulation/closed_loop.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-namespace mission = otter_nav::mission;
+namespace scenario = otter_nav::scenario;
+namespace simulation = otter_nav::simulation;
 using otter_nav::failure;
 using otter_nav::Result;
 using otter_nav::Status;
@@ -73,33 +74,34 @@ std::vector<std::string> scenarioFiles(const std::string& path) {
   return files;
 }
 
-Result<mission::MissionResult> sail(const Arguments& arguments, const mission::LoopOptions& options,
-                                    const mission::Scenario& scenario,
-                                    const mission::Waters& waters, int index) {
-  const Result<mission::Mission> task = mission::missionOf(scenario, index);
+Result<scenario::MissionResult> sail(const Arguments& arguments,
+                                     const simulation::LoopOptions& options,
+                                     const scenario::Scenario& scenario,
+                                     const simulation::Waters& waters, int index) {
+  const Result<scenario::Mission> task = scenario::missionOf(scenario, index);
   if (!task) {
     return failure(task.error().message);
   }
-  auto loop = mission::ClosedLoop::create(options, waters, *task, arguments.seed);
+  auto loop = simulation::ClosedLoop::create(options, waters, *task, arguments.seed);
   if (!loop) {
     return failure(loop.error().message);
   }
-  const mission::MissionLabel label{scenario.name, index, arguments.vessel, arguments.disturbance,
-                                    arguments.seed};
-  std::optional<mission::TrackWriter> track;
+  const scenario::MissionLabel label{scenario.name, index, arguments.vessel, arguments.disturbance,
+                                     arguments.seed};
+  std::optional<scenario::TrackWriter> track;
   std::string track_path;
   if (!arguments.tracks.empty()) {
     track_path = arguments.tracks + "/" + scenario.name + "_" + std::to_string(index) + ".csv";
-    auto opened = mission::TrackWriter::open(track_path);
+    auto opened = scenario::TrackWriter::open(track_path);
     if (!opened) {
       return failure(opened.error().message);
     }
     track = std::move(*opened);
   }
-  mission::ProgressLine line(std::cerr, isatty(STDERR_FILENO) != 0);
-  mission::MissionResult result =
-      mission::run(*loop, label, options.record_period_s, track ? &*track : nullptr,
-                   [&](const mission::Progress& progress) { line.show(progress); });
+  scenario::ProgressLine line(std::cerr, isatty(STDERR_FILENO) != 0);
+  scenario::MissionResult result =
+      simulation::run(*loop, label, options.record_period_s, track ? &*track : nullptr,
+                      [&](const scenario::Progress& progress) { line.show(progress); });
   line.finish();
   result.track = track_path;
   if (track) {
@@ -116,32 +118,32 @@ void printHead() {
               "track ms");
 }
 
-void printRow(const mission::MissionResult& r) {
+void printRow(const scenario::MissionResult& r) {
   std::printf("%-18s %3d %-9s %7.1f %7.1f %7.2f %7.3f %7.3f %7d %8.1f %8.1f %8.3f  %s\n",
-              r.label.scenario.c_str(), r.label.mission, mission::name(r.outcome), r.duration_s,
+              r.label.scenario.c_str(), r.label.mission, scenario::name(r.outcome), r.duration_s,
               r.distance_m, r.min_clearance_m, r.tracking_error_mean_m, r.tracking_error_max_m,
               r.replans, r.planning_ms_median, r.planning_ms_max, r.tracker_ms_p99,
               r.reason.c_str());
   std::fflush(stdout);
 }
 
-Result<std::vector<mission::MissionResult>> sailAll(const Arguments& arguments) {
+Result<std::vector<scenario::MissionResult>> sailAll(const Arguments& arguments) {
   const auto missions = parseMissions(arguments.missions);
   if (!missions) {
     return failure(missions.error().message);
   }
-  const auto options = mission::loadLoopOptions(arguments.vessel, arguments.disturbance);
+  const auto options = simulation::loadLoopOptions(arguments.vessel, arguments.disturbance);
   if (!options) {
     return failure(options.error().message);
   }
-  std::vector<mission::MissionResult> results;
+  std::vector<scenario::MissionResult> results;
   printHead();
   for (const std::string& file : scenarioFiles(arguments.scenarios)) {
-    const auto scenario = mission::loadScenario(file);
+    const auto scenario = scenario::loadScenario(file);
     if (!scenario) {
       return failure(scenario.error().message);
     }
-    const auto waters = mission::loadWaters(*scenario);
+    const auto waters = simulation::loadWaters(*scenario);
     if (!waters) {
       return failure(waters.error().message);
     }
@@ -182,10 +184,10 @@ int main(int argc, char** argv) {
   }
   const auto arrived = std::count_if(
       results->begin(), results->end(),
-      [](const mission::MissionResult& r) { return r.outcome == mission::Outcome::kArrived; });
+      [](const scenario::MissionResult& r) { return r.outcome == scenario::Outcome::kArrived; });
   std::printf("%ld of %zu arrived\n", static_cast<long>(arrived), results->size());
   if (!arguments.out.empty()) {
-    if (const Status status = mission::saveJson(arguments.out, *results); !status) {
+    if (const Status status = scenario::saveJson(arguments.out, *results); !status) {
       std::cerr << "mission_benchmark: " << status.error().message << '\n';
       return 2;
     }

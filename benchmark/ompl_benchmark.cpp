@@ -8,7 +8,7 @@
 #include "ompl_problem.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
-#include "otter_nav/mission/scenario.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 
 namespace {
 
@@ -59,11 +59,11 @@ int main(int argc, char** argv) {
   CLI::App app("Runs this planner beside OMPL's on one mission.");
   addOptions(app, request);
   CLI11_PARSE(app, argc, argv);
-  const auto scenario = mission::loadScenario(request.scenario);
+  const auto scenario = scenario::loadScenario(request.scenario);
   if (!scenario) {
     return fail(scenario.error().message);
   }
-  const auto mission = mission::missionOf(*scenario, request.mission);
+  const auto mission = scenario::missionOf(*scenario, request.mission);
   const auto share = config::shareDirectory();
   const auto vessel_file = config::vesselFile(request.vessel);
   if (!mission || !share || !vessel_file) {

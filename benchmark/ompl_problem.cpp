@@ -49,7 +49,7 @@ ob::StateSpacePtr poseSpace(const map::DistanceField& field) {
   return space;
 }
 
-void setPose(ob::SE2StateSpace::StateType& state, const mission::Berth& berth) {
+void setPose(ob::SE2StateSpace::StateType& state, const scenario::Berth& berth) {
   state.setXY(berth.position.x(), berth.position.y());
   state.setYaw(berth.psi_rad);
 }

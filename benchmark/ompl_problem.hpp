@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/mission/scenario.hpp"
 #include "otter_nav/planner/options.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "shortest_way.hpp"
 
@@ -16,7 +16,7 @@ struct OmplProblem {
   const map::DistanceField& field;
   const vessel::Parameters& vessel;
   const planner::Options& options;
-  const mission::Mission& mission;
+  const scenario::Mission& mission;
 };
 
 struct OmplBudget {

@@ -12,8 +12,8 @@
 
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
-#include "otter_nav/mission/scenario.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/topology/guide_path.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 
@@ -52,7 +52,7 @@ struct Bench {
   std::map<std::string, Tally> tallies;
 
   void sail(const std::string& label, const map::DistanceField& field,
-            const mission::Mission& mission) {
+            const scenario::Mission& mission) {
     Tally& tally = tallies[mission.kind];
     ++tally.missions;
     const auto guide = finder.find(field, {mission.start.position, mission.start.psi_rad},
@@ -108,7 +108,7 @@ Status run(Bench& bench, const std::string& folder, bool world) {
   }
   std::sort(files.begin(), files.end());
   for (const auto& file : files) {
-    const auto scenario = mission::loadScenario(file.string());
+    const auto scenario = scenario::loadScenario(file.string());
     if (!scenario) {
       return failure(scenario.error().message);
     }

@@ -6,12 +6,12 @@ otter_nav_program(planner_benchmark
           ${CMAKE_CURRENT_LIST_DIR}/planner_dump.cpp
           ${CMAKE_CURRENT_LIST_DIR}/planner_report.cpp
           ${CMAKE_CURRENT_LIST_DIR}/shortest_way.cpp
-  ROOMS planner mission
+  ROOMS planner scenario
   LIBRARIES CLI11::CLI11 nlohmann_json::nlohmann_json)
 otter_nav_program(ompl_benchmark
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/ompl_benchmark.cpp
           ${CMAKE_CURRENT_LIST_DIR}/ompl_problem.cpp
           ${CMAKE_CURRENT_LIST_DIR}/ompl_recorder.cpp
           ${CMAKE_CURRENT_LIST_DIR}/shortest_way.cpp
-  ROOMS planner planner_ompl mission
+  ROOMS planner planner_ompl scenario
   LIBRARIES CLI11::CLI11)

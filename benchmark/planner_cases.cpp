@@ -26,13 +26,13 @@ struct Method {
 
 // One scenario with its field: what all its missions share.
 struct Ground {
-  mission::Scenario scenario;
+  scenario::Scenario scenario;
   map::DistanceField field;
   double field_ms = 0.0;
 };
 
 Result<Ground> loadGround(const std::string& file, const std::string& which) {
-  auto scenario = mission::loadScenario(file);
+  auto scenario = scenario::loadScenario(file);
   if (!scenario) {
     return failure(scenario.error().message);
   }
@@ -61,7 +61,7 @@ planner::Termination cpuClock(double budget_s) {
   return termination;
 }
 
-planner::Query queryOf(const mission::Mission& mission, std::uint64_t seed) {
+planner::Query queryOf(const scenario::Mission& mission, std::uint64_t seed) {
   planner::Query query;
   query.start.position = mission.start.position;
   query.start_psi_rad = mission.start.psi_rad;
@@ -100,7 +100,7 @@ class Runner {
   }
 
  private:
-  Status runCase(const Ground& ground, const mission::Mission& mission, Method& method,
+  Status runCase(const Ground& ground, const scenario::Mission& mission, Method& method,
                  Case& result) {
     const planner::Query query = queryOf(mission, result.seed);
     const double budget_s = 1e-3 * request_.budget_ms;
@@ -142,7 +142,7 @@ Result<std::vector<Method>> makeMethods(const Request& request, const vessel::Pa
   return methods;
 }
 
-bool wanted(const Request& request, const mission::Mission& mission) {
+bool wanted(const Request& request, const scenario::Mission& mission) {
   return request.kind == "all" || request.kind == mission.kind;
 }
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <iostream>
 
-#include "otter_nav/mission/archipelago.hpp"
+#include "otter_nav/scenario/archipelago.hpp"
 
 int main(int argc, char** argv) {
-  using otter_nav::mission::ArchipelagoOptions;
+  using otter_nav::scenario::ArchipelagoOptions;
   ArchipelagoOptions options;
   std::uint64_t seed = 1;
   std::string folder = ".";
@@ -32,13 +32,13 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
-  const auto archipelago = otter_nav::mission::generateArchipelago(options, seed);
+  const auto archipelago = otter_nav::scenario::generateArchipelago(options, seed);
   if (!archipelago) {
     std::cerr << "scenario_generator: " << archipelago.error().message << '\n';
     return 1;
   }
-  const auto saved = otter_nav::mission::saveScenario(folder, name, archipelago->chart,
-                                                      archipelago->world, archipelago->missions);
+  const auto saved = otter_nav::scenario::saveScenario(folder, name, archipelago->chart,
+                                                       archipelago->world, archipelago->missions);
   if (!saved) {
     std::cerr << "scenario_generator: " << saved.error().message << '\n';
     return 1;

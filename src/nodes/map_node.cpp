@@ -1,10 +1,10 @@
 #include "map_node.hpp"
 
 #include "otter_nav/map/chart.hpp"
-#include "otter_nav/mission/scenario.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/grids.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 
 namespace otter_nav::nodes {
 namespace {
@@ -29,7 +29,7 @@ Result<std::string> chartPath(const std::string& chart, const std::string& scena
   if (scenario_path.empty()) {
     return chart;
   }
-  return mission::loadScenario(scenario_path).map([](const mission::Scenario& scenario) {
+  return scenario::loadScenario(scenario_path).map([](const scenario::Scenario& scenario) {
     return scenario.chart_path;
   });
 }

@@ -14,7 +14,7 @@
 namespace otter_nav::nodes {
 namespace {
 
-using mission::Outcome;
+using scenario::Outcome;
 
 constexpr int kQueue = 1000;
 constexpr double kTimerPeriodS = 0.1;
@@ -31,9 +31,9 @@ vessel::State stateOf(const PlantState& message) {
 
 }  // namespace
 
-MissionNode::MissionNode(MissionNodeOptions options, const mission::Scenario& scenario,
-                         const mission::Mission& mission, const vessel::Parameters& vessel,
-                         std::optional<mission::TrackWriter> track)
+MissionNode::MissionNode(MissionNodeOptions options, const scenario::Scenario& scenario,
+                         const scenario::Mission& mission, const vessel::Parameters& vessel,
+                         std::optional<scenario::TrackWriter> track)
     : options_(std::move(options)),
       mission_(mission),
       references_(vessel),
@@ -166,7 +166,7 @@ void MissionNode::record(const PlantState& state) {
   if (first_time_s_ < 0.0) {
     first_time_s_ = time_s;
   }
-  mission::MotionSample sample;
+  scenario::MotionSample sample;
   sample.t_s = time_s - first_time_s_;
   sample.state = stateOf(state);
   sample.roll_rad = state.roll;
@@ -216,7 +216,7 @@ void MissionNode::show(const PlantState& state) {
   const double time_s = state.header.stamp.toSec();
   const Eigen::Vector2d position(state.x, state.y);
   const auto reference = references_.pose(time_s);
-  mission::Progress progress;
+  scenario::Progress progress;
   progress.t_s = time_s - first_time_s_;
   progress.distance_left_m =
       references_.distanceLeft(time_s).value_or((mission_.goal.position - position).norm());
@@ -234,7 +234,7 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
   }
   finished_ = true;
   progress_.finish();
-  mission::MissionResult result =
+  scenario::MissionResult result =
       recorder_.result(options_.label, outcome, reason, static_cast<int>(planner_.replans));
   result.planning_ms_median = planner_.planning_ms_median;
   result.planning_ms_max = planner_.planning_ms_max;
@@ -246,11 +246,11 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
     }
   }
   if (!options_.result.empty()) {
-    if (const Status status = mission::saveJson(options_.result, {result}); !status) {
+    if (const Status status = scenario::saveJson(options_.result, {result}); !status) {
       std::cerr << status.error().message << '\n';
     }
   }
-  std::cout << mission::summaryText(result) << std::flush;
+  std::cout << scenario::summaryText(result) << std::flush;
   exit_code_ = outcome == Outcome::kArrived ? 0 : 1;
   ros::requestShutdown();
 }

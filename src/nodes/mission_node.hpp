@@ -17,19 +17,19 @@
 #include <string>
 
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/mission/recorder.hpp"
-#include "otter_nav/mission/report.hpp"
-#include "otter_nav/mission/scenario.hpp"
+#include "otter_nav/scenario/recorder.hpp"
+#include "otter_nav/scenario/report.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 #include "reference_log.hpp"
 
 namespace otter_nav::nodes {
 
 struct MissionNodeOptions {
-  mission::MissionLabel label;  // its scenario is the file here
-  std::string result;           // JSON file; empty: none is written
-  std::string track;            // the track's CSV, beside it
-  double timeout_s = 900.0;     // of simulated time
-  double silence_s = 60.0;      // of wall time without a sign of life, then it is an error
+  scenario::MissionLabel label;  // its scenario is the file here
+  std::string result;            // JSON file; empty: none is written
+  std::string track;             // the track's CSV, beside it
+  double timeout_s = 900.0;      // of simulated time
+  double silence_s = 60.0;       // of wall time without a sign of life, then it is an error
   double track_rate_hz = 20.0;
 };
 
@@ -43,9 +43,9 @@ class MissionNode {
   [[nodiscard]] int exitCode() const { return exit_code_; }
 
  private:
-  MissionNode(MissionNodeOptions options, const mission::Scenario& scenario,
-              const mission::Mission& mission, const vessel::Parameters& vessel,
-              std::optional<mission::TrackWriter> track);
+  MissionNode(MissionNodeOptions options, const scenario::Scenario& scenario,
+              const scenario::Mission& mission, const vessel::Parameters& vessel,
+              std::optional<scenario::TrackWriter> track);
 
   void onState(const PlantState& message);
   void onTrajectory(const Trajectory& message);
@@ -63,15 +63,15 @@ class MissionNode {
   void judge();
   void show(const PlantState& state);
   [[nodiscard]] std::string missWhenArrived() const;
-  void finish(mission::Outcome outcome, const std::string& reason);
+  void finish(scenario::Outcome outcome, const std::string& reason);
 
   MissionNodeOptions options_;
-  mission::Mission mission_;
+  scenario::Mission mission_;
   ros::NodeHandle node_;
   ReferenceLog references_;
-  mission::Recorder recorder_;
-  mission::ProgressLine progress_;
-  std::optional<mission::TrackWriter> track_;
+  scenario::Recorder recorder_;
+  scenario::ProgressLine progress_;
+  std::optional<scenario::TrackWriter> track_;
   std::deque<PlantState> states_;  // not recorded yet
   std::optional<PlantState> last_state_;
   double first_time_s_ = -1.0;

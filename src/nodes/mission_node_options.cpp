@@ -38,11 +38,11 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);
   }
-  const Result<mission::Scenario> scenario = mission::loadScenario(options.label.scenario);
+  const Result<scenario::Scenario> scenario = scenario::loadScenario(options.label.scenario);
   if (!scenario) {
     return failure(scenario.error().message);
   }
-  const Result<mission::Mission> mission = mission::missionOf(*scenario, options.label.mission);
+  const Result<scenario::Mission> mission = scenario::missionOf(*scenario, options.label.mission);
   if (!mission) {
     return failure(mission.error().message);
   }
@@ -53,9 +53,9 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   if (!vessel) {
     return failure(vessel.error().message);
   }
-  std::optional<mission::TrackWriter> track;
+  std::optional<scenario::TrackWriter> track;
   if (!options.result.empty()) {
-    Result<mission::TrackWriter> opened = mission::TrackWriter::open(options.track);
+    Result<scenario::TrackWriter> opened = scenario::TrackWriter::open(options.track);
     if (!opened) {
       return failure(opened.error().message);
     }

@@ -1,7 +1,7 @@
 #include "plant_node_options.hpp"
 
 #include "otter_nav/config/share.hpp"
-#include "otter_nav/mission/scenario.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 
 namespace otter_nav::nodes {
 namespace {
@@ -34,11 +34,11 @@ Result<PlantNodeOptions> readNodeOptions(config::Section& section) {
 }
 
 Status takeScenario(PlantNodeOptions& options) {
-  const Result<mission::Scenario> scenario = mission::loadScenario(options.scenario);
+  const Result<scenario::Scenario> scenario = scenario::loadScenario(options.scenario);
   if (!scenario) {
     return failure(scenario.error().message);
   }
-  const Result<mission::Mission> mission = mission::missionOf(*scenario, options.mission);
+  const Result<scenario::Mission> mission = scenario::missionOf(*scenario, options.mission);
   if (!mission) {
     return failure(mission.error().message);
   }

@@ -1,9 +1,6 @@
 set(mission_tests ${CMAKE_CURRENT_LIST_DIR}/mission)
-otter_nav_test(unit_mission_scenario SOURCES ${mission_tests}/scenario_test.cpp ROOMS mission)
-otter_nav_test(unit_mission_archipelago SOURCES ${mission_tests}/archipelago_test.cpp ROOMS mission)
 otter_nav_test(unit_mission_margins SOURCES ${mission_tests}/margins_test.cpp ROOMS mission)
 otter_nav_test(unit_mission_supervisor
   SOURCES ${mission_tests}/supervisor_test.cpp ${mission_tests}/supervisor_goal_test.cpp
           ${mission_tests}/supervisor_wind_test.cpp ${mission_tests}/supervisor_back_off_test.cpp
   ROOMS mission)
-otter_nav_test(unit_mission_report SOURCES ${mission_tests}/report_test.cpp ROOMS mission)

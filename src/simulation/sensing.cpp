@@ -1,9 +1,9 @@
-#include "otter_nav/mission/sensing.hpp"
+#include "simulation/sensing.hpp"
 
 #include <Eigen/Geometry>
 #include <utility>
 
-namespace otter_nav::mission {
+namespace otter_nav::simulation {
 namespace {
 
 map::SensorPose sensorPose(const plant::Odometry& odometry, const Eigen::Vector3d& lidar_in_base) {
@@ -45,4 +45,4 @@ Status Sensing::insert(const plant::Scan& scan, const plant::Odometry& odometry)
   return {};
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::simulation

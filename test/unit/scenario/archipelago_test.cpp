@@ -1,4 +1,4 @@
-#include "otter_nav/mission/archipelago.hpp"
+#include "otter_nav/scenario/archipelago.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "otter_nav/map/distance_field.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 namespace {
 
 ArchipelagoOptions small() {
@@ -113,4 +113,4 @@ TEST(Archipelago, RefusesWhatCantBeDrawn) {
 }
 
 }  // namespace
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

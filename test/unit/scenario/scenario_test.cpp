@@ -1,13 +1,13 @@
-#include "otter_nav/mission/scenario.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "waters.hpp"
+#include "../mission/waters.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,8 +76,8 @@ TEST_F(ScenarioFile, NamesWhatIsWrong) {
 }
 
 TEST_F(ScenarioFile, IsReadBackAsSaved) {
-  map::OccupancyGrid chart = test::openWater(20.0);
-  test::block(chart, {2.0, 3.0}, {4.0, 5.0});
+  map::OccupancyGrid chart = mission::test::openWater(20.0);
+  mission::test::block(chart, {2.0, 3.0}, {4.0, 5.0});
   const std::vector<Mission> missions = {{"cross", {{1.25, -2.5}, 0.125}, {{-3.0, 4.0}, -1.5}}};
   ASSERT_TRUE(saveScenario(folder_.string(), "saved", chart, chart, missions).has_value());
   const auto scenario = loadScenario((folder_ / "saved.yaml").string());
@@ -91,4 +91,4 @@ TEST_F(ScenarioFile, IsReadBackAsSaved) {
 }
 
 }  // namespace
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

@@ -11,16 +11,16 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
-#include "otter_nav/mission/recorder.hpp"
-#include "otter_nav/mission/report.hpp"
-#include "otter_nav/mission/scenario.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/planner/options.hpp"
 #include "otter_nav/plant/options.hpp"
+#include "otter_nav/scenario/recorder.hpp"
+#include "otter_nav/scenario/report.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::simulation {
 
 // Everything the parts are built from.
 struct LoopOptions {
@@ -29,7 +29,7 @@ struct LoopOptions {
   map::OccupancyMapOptions map;
   planner::Options planner;
   tracker::Options tracker;
-  SupervisorOptions supervisor;
+  mission::SupervisorOptions supervisor;
   int planning_iterations = 4000;  // bound of one planning request
   double control_period_s = 0.01;  // of the tracker and the plant
   double record_period_s = 0.05;   // of the track
@@ -46,13 +46,14 @@ struct Waters {
   map::OccupancyGrid chart;
   map::OccupancyGrid world;
 };
-[[nodiscard]] Result<Waters> loadWaters(const Scenario& scenario);
+[[nodiscard]] Result<Waters> loadWaters(const scenario::Scenario& scenario);
 
 class ClosedLoop {
  public:
   // The vessel lies at rest at the mission's start.
   [[nodiscard]] static Result<ClosedLoop> create(const LoopOptions& options, Waters waters,
-                                                 const Mission& mission, std::uint64_t seed);
+                                                 const scenario::Mission& mission,
+                                                 std::uint64_t seed);
   ~ClosedLoop();
   ClosedLoop(ClosedLoop&&) noexcept;
   ClosedLoop& operator=(ClosedLoop&&) noexcept;
@@ -61,11 +62,11 @@ class ClosedLoop {
   bool step();
 
   [[nodiscard]] double time() const;
-  [[nodiscard]] const Supervisor& supervisor() const;
+  [[nodiscard]] const mission::Supervisor& supervisor() const;
   // The true motion and the reference now.
-  [[nodiscard]] MotionSample motion() const;
-  [[nodiscard]] Progress progress() const;
-  [[nodiscard]] MissionResult result(const MissionLabel& label) const;
+  [[nodiscard]] scenario::MotionSample motion() const;
+  [[nodiscard]] scenario::Progress progress() const;
+  [[nodiscard]] scenario::MissionResult result(const scenario::MissionLabel& label) const;
 
  private:
   class Impl;
@@ -74,8 +75,8 @@ class ClosedLoop {
 };
 
 // step() to the end; the track goes to `track` and the progress to `progress` if they are given.
-[[nodiscard]] MissionResult run(ClosedLoop& loop, const MissionLabel& label, double record_period_s,
-                                TrackWriter* track,
-                                const std::function<void(const Progress&)>& progress);
+[[nodiscard]] scenario::MissionResult run(
+    ClosedLoop& loop, const scenario::MissionLabel& label, double record_period_s,
+    scenario::TrackWriter* track, const std::function<void(const scenario::Progress&)>& progress);
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::simulation

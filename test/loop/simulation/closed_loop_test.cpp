@@ -1,14 +1,16 @@
 // Whole missions on a small water: plant, lidar, map, planner, tracker and supervisor.
-#include "otter_nav/mission/closed_loop.hpp"
+#include "otter_nav/simulation/closed_loop.hpp"
 
 #include <gtest/gtest.h>
 
 #include "../../unit/mission/waters.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::simulation {
 namespace {
 
-const Mission kAcross = {"local", {{-20.0, 0.0}, 0.0}, {{20.0, 0.0}, 0.0}};
+namespace test = mission::test;
+
+const scenario::Mission kAcross = {"local", {{-20.0, 0.0}, 0.0}, {{20.0, 0.0}, 0.0}};
 
 LoopOptions options() {
   auto loaded = loadLoopOptions("otter_gazebo", "paper");
@@ -17,7 +19,7 @@ LoopOptions options() {
   return *loaded;
 }
 
-MissionResult sail(const Waters& waters, std::uint64_t seed = 1) {
+scenario::MissionResult sail(const Waters& waters, std::uint64_t seed = 1) {
   auto loop = ClosedLoop::create(options(), waters, kAcross, seed);
   EXPECT_TRUE(loop.has_value());
   return run(*loop, {"test", 0, "otter_gazebo", "paper", seed}, 0.1, nullptr, {});
@@ -27,8 +29,8 @@ TEST(ClosedLoop, ArrivesBehindAChartedIsland) {
   Waters waters{test::openWater(60.0), {}};
   test::block(waters.chart, {-4.0, -5.0}, {4.0, 5.0});
   waters.world = waters.chart;
-  const MissionResult result = sail(waters);
-  EXPECT_EQ(result.outcome, Outcome::kArrived) << result.reason;
+  const scenario::MissionResult result = sail(waters);
+  EXPECT_EQ(result.outcome, scenario::Outcome::kArrived) << result.reason;
   EXPECT_GT(result.min_clearance_m, 0.2);
   EXPECT_GT(result.distance_m, 41.0);
   EXPECT_LT(result.tracking_error_max_m, 1.0);
@@ -38,8 +40,8 @@ TEST(ClosedLoop, ReplansAroundWhatIsNotCharted) {
   Waters waters{test::openWater(60.0), {}};
   waters.world = waters.chart;
   test::block(waters.world, {8.0, -7.0}, {9.0, 7.0});  // beyond the lidar's reach at first
-  const MissionResult result = sail(waters);
-  EXPECT_EQ(result.outcome, Outcome::kArrived) << result.reason;
+  const scenario::MissionResult result = sail(waters);
+  EXPECT_EQ(result.outcome, scenario::Outcome::kArrived) << result.reason;
   EXPECT_GE(result.replans, 1);
   EXPECT_GT(result.min_clearance_m, 0.1);
 }
@@ -50,8 +52,8 @@ TEST(ClosedLoop, StopsSafelyAndSaysWhyWhenTheGoalIsWalledOff) {
   test::block(waters.world, {8.0, -29.9}, {9.0, 29.9});
   auto loop = ClosedLoop::create(options(), waters, kAcross, 1);
   ASSERT_TRUE(loop.has_value());
-  const MissionResult result = run(*loop, {}, 0.1, nullptr, {});
-  EXPECT_EQ(result.outcome, Outcome::kStopped);
+  const scenario::MissionResult result = run(*loop, {}, 0.1, nullptr, {});
+  EXPECT_EQ(result.outcome, scenario::Outcome::kStopped);
   EXPECT_NE(result.reason.find("no plan"), std::string::npos) << result.reason;
   EXPECT_GT(result.min_clearance_m, 0.0);
   EXPECT_LT(loop->motion().state.segment<2>(vessel::kSurge).norm(), 0.5);
@@ -61,12 +63,12 @@ TEST(ClosedLoop, IsTheSameEveryTime) {
   Waters waters{test::openWater(60.0), {}};
   test::block(waters.chart, {-4.0, -5.0}, {4.0, 5.0});
   waters.world = waters.chart;
-  const MissionResult a = sail(waters, 3);
-  const MissionResult b = sail(waters, 3);
+  const scenario::MissionResult a = sail(waters, 3);
+  const scenario::MissionResult b = sail(waters, 3);
   EXPECT_EQ(a.duration_s, b.duration_s);
   EXPECT_EQ(a.distance_m, b.distance_m);
   EXPECT_EQ(a.tracking_error_max_m, b.tracking_error_max_m);
 }
 
 }  // namespace
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::simulation

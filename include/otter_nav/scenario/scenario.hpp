@@ -13,7 +13,7 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 
 // A place to lie: map frame, ENU, m and rad.
 struct Berth {
@@ -46,4 +46,4 @@ struct Scenario {
                                   const map::OccupancyGrid& chart, const map::OccupancyGrid& world,
                                   const std::vector<Mission>& missions);
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

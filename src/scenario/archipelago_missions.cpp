@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/mission/archipelago.hpp"
+#include "otter_nav/scenario/archipelago.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 namespace {
 
 constexpr int kDrawsPerMission = 20000;
@@ -135,4 +135,4 @@ Result<std::vector<Mission>> chooseMissions(const map::OccupancyGrid& world,
   return missions;
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

@@ -5,9 +5,9 @@
 
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
-#include "otter_nav/mission/closed_loop.hpp"
+#include "otter_nav/simulation/closed_loop.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::simulation {
 namespace {
 
 // A shipped file, read by `reader`.
@@ -86,8 +86,8 @@ Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string
         return readShipped<map::OccupancyMapOptions>("config/map.yaml", loadMapOptions, o.map);
       },
       [&] {
-        return readShipped<SupervisorOptions>("config/mission.yaml", loadSupervisorOptions,
-                                              o.supervisor);
+        return readShipped<mission::SupervisorOptions>(
+            "config/mission.yaml", mission::loadSupervisorOptions, o.supervisor);
       }};
   for (const auto& step : steps) {
     if (const Status status = step(); !status) {
@@ -97,7 +97,7 @@ Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string
   return o;
 }
 
-Result<Waters> loadWaters(const Scenario& scenario) {
+Result<Waters> loadWaters(const scenario::Scenario& scenario) {
   Result<map::OccupancyGrid> chart = map::loadChart(scenario.chart_path);
   if (!chart) {
     return failure(chart.error().message);
@@ -109,8 +109,9 @@ Result<Waters> loadWaters(const Scenario& scenario) {
   return Waters{std::move(*chart), std::move(*world)};
 }
 
-MissionResult run(ClosedLoop& loop, const MissionLabel& label, double record_period_s,
-                  TrackWriter* track, const std::function<void(const Progress&)>& progress) {
+scenario::MissionResult run(ClosedLoop& loop, const scenario::MissionLabel& label,
+                            double record_period_s, scenario::TrackWriter* track,
+                            const std::function<void(const scenario::Progress&)>& progress) {
   constexpr double kProgressS = 0.5;
   double next_record_s = loop.time();
   double next_progress_s = loop.time();
@@ -129,4 +130,4 @@ MissionResult run(ClosedLoop& loop, const MissionLabel& label, double record_per
   return loop.result(label);
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::simulation

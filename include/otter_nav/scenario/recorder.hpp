@@ -9,7 +9,7 @@
 
 #include "otter_nav/vessel/types.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 
 enum class Outcome { kArrived, kStopped, kCollided, kTimeout, kError };
 [[nodiscard]] const char* name(Outcome outcome);
@@ -76,4 +76,4 @@ class Recorder {
 // The value below which `share` (0 to 1) of the values lie (nearest rank); 0 of none.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

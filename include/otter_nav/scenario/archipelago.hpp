@@ -8,9 +8,9 @@
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
-#include "otter_nav/mission/scenario.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 
 struct ArchipelagoOptions {
   double size_m = 300.0;       // of the square
@@ -50,4 +50,4 @@ void drawUncharted(const ArchipelagoOptions& options, Random& random, map::Occup
                                                           const ArchipelagoOptions& options,
                                                           Random& random);
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

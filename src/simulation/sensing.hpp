@@ -5,11 +5,11 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
-#include "otter_nav/mission/closed_loop.hpp"
 #include "otter_nav/plant/scan.hpp"
 #include "otter_nav/plant/truth.hpp"
+#include "otter_nav/simulation/closed_loop.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::simulation {
 
 class Sensing {
  public:
@@ -27,4 +27,4 @@ class Sensing {
   map::Scan scan_;
 };
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::simulation

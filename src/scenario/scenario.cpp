@@ -1,4 +1,4 @@
-#include "otter_nav/mission/scenario.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 #include "otter_nav/config/section.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ Result<Mission> missionOf(const Scenario& scenario, int index) {
   return scenario.missions[static_cast<std::size_t>(index)];
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

@@ -1,10 +1,10 @@
-#include "otter_nav/mission/recorder.hpp"
+#include "otter_nav/scenario/recorder.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 
 const char* name(Outcome outcome) {
   switch (outcome) {
@@ -68,4 +68,4 @@ double quantile(std::vector<double> values, double share) {
   return *nth;
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

@@ -1,16 +1,16 @@
-#include "otter_nav/mission/closed_loop.hpp"
+#include "otter_nav/simulation/closed_loop.hpp"
 
 #include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "otter_nav/mission/plan_desk.hpp"
-#include "otter_nav/mission/sensing.hpp"
 #include "otter_nav/plant/simulator.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/tracker/tracker.hpp"
+#include "simulation/sensing.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::simulation {
 namespace {
 
 class Stopwatch {
@@ -29,7 +29,7 @@ class Stopwatch {
 class ClosedLoop::Impl {
  public:
   Impl(const LoopOptions& options, plant::Simulator plant, map::OccupancyGrid chart,
-       const Mission& mission, std::uint64_t seed)
+       const scenario::Mission& mission, std::uint64_t seed)
       : options_(options),
         plant_(std::move(plant)),
         sensing_(std::move(chart), options),
@@ -43,11 +43,11 @@ class ClosedLoop::Impl {
   bool step();
   [[nodiscard]] bool over() const { return outcome_.has_value(); }
   [[nodiscard]] double time() const { return plant_.time(); }
-  [[nodiscard]] const Supervisor& supervisor() const { return supervisor_; }
-  [[nodiscard]] MotionSample motion() const;
-  [[nodiscard]] Progress progress() const;
-  [[nodiscard]] MissionResult result(const MissionLabel& label) const {
-    return recorder_.result(label, outcome_.value_or(Outcome::kTimeout), reason_,
+  [[nodiscard]] const mission::Supervisor& supervisor() const { return supervisor_; }
+  [[nodiscard]] scenario::MotionSample motion() const;
+  [[nodiscard]] scenario::Progress progress() const;
+  [[nodiscard]] scenario::MissionResult result(const scenario::MissionLabel& label) const {
+    return recorder_.result(label, outcome_.value_or(scenario::Outcome::kTimeout), reason_,
                             supervisor_.replans());
   }
 
@@ -56,9 +56,9 @@ class ClosedLoop::Impl {
   void start();
   void control();
   void judge();
-  void obey(const Orders& orders);
-  [[nodiscard]] Situation situation() const;
-  void finish(Outcome outcome, std::string reason) {
+  void obey(const mission::Orders& orders);
+  [[nodiscard]] mission::Situation situation() const;
+  void finish(scenario::Outcome outcome, std::string reason) {
     outcome_ = outcome;
     reason_ = std::move(reason);
   }
@@ -66,19 +66,19 @@ class ClosedLoop::Impl {
   LoopOptions options_;
   plant::Simulator plant_;
   Sensing sensing_;
-  PlanDesk desk_;
+  mission::PlanDesk desk_;
   tracker::Tracker tracker_;
-  Supervisor supervisor_;
-  Goal goal_;
-  Recorder recorder_;
+  mission::Supervisor supervisor_;
+  mission::Goal goal_;
+  scenario::Recorder recorder_;
   tracker::Command command_;
   bool started_ = false;
   bool stop_ordered_ = false;
   // The answer to the last request, and when the vessel gets it.
-  std::optional<PlanReply> reply_;
+  std::optional<mission::PlanReply> reply_;
   double reply_time_s_ = 0.0;
   double last_record_s_ = -1e9;
-  std::optional<Outcome> outcome_;
+  std::optional<scenario::Outcome> outcome_;
   std::string reason_;
 };
 
@@ -88,7 +88,7 @@ bool ClosedLoop::Impl::step() {
   }
   sense();
   if (reply_ && time() >= reply_time_s_) {
-    const PlanReply reply = std::move(*reply_);
+    const mission::PlanReply reply = std::move(*reply_);
     reply_.reset();
     obey(supervisor_.planFinished(time(), reply, situation(), sensing_.field()));
   }
@@ -104,7 +104,7 @@ void ClosedLoop::Impl::sense() {
     return;
   }
   if (const Status status = sensing_.insert(plant_.scan(), odometry); !status) {
-    finish(Outcome::kError, status.error().message);
+    finish(scenario::Outcome::kError, status.error().message);
     return;
   }
   if (!started_) {
@@ -116,11 +116,12 @@ void ClosedLoop::Impl::sense() {
 
 void ClosedLoop::Impl::start() {
   started_ = true;
-  const Result<Orders> orders = supervisor_.setGoal(time(), goal_, situation(), sensing_.field());
+  const Result<mission::Orders> orders =
+      supervisor_.setGoal(time(), goal_, situation(), sensing_.field());
   if (orders) {
     obey(*orders);
   } else {
-    finish(Outcome::kError, orders.error().message);
+    finish(scenario::Outcome::kError, orders.error().message);
   }
 }
 
@@ -137,18 +138,19 @@ void ClosedLoop::Impl::control() {
 
 void ClosedLoop::Impl::judge() {
   if (plant_.hadContact()) {
-    finish(Outcome::kCollided,
-           "the hull touched something while " + std::string(name(supervisor_.phase())));
-  } else if (supervisor_.phase() == Phase::kArrived) {
-    finish(Outcome::kArrived, {});
-  } else if (supervisor_.phase() == Phase::kFailed) {
-    finish(Outcome::kStopped, supervisor_.reason());
+    finish(scenario::Outcome::kCollided,
+           "the hull touched something while " + std::string(mission::name(supervisor_.phase())));
+  } else if (supervisor_.phase() == mission::Phase::kArrived) {
+    finish(scenario::Outcome::kArrived, {});
+  } else if (supervisor_.phase() == mission::Phase::kFailed) {
+    finish(scenario::Outcome::kStopped, supervisor_.reason());
   } else if (!over() && time() >= options_.timeout_s) {
-    finish(Outcome::kTimeout, std::string(name(supervisor_.phase())) + ": " + supervisor_.reason());
+    finish(scenario::Outcome::kTimeout,
+           std::string(mission::name(supervisor_.phase())) + ": " + supervisor_.reason());
   }
 }
 
-void ClosedLoop::Impl::obey(const Orders& orders) {
+void ClosedLoop::Impl::obey(const mission::Orders& orders) {
   if (orders.stop) {
     stop_ordered_ = true;
     tracker_.requestStop("stop ordered");
@@ -158,7 +160,8 @@ void ClosedLoop::Impl::obey(const Orders& orders) {
     const Status status =
         tracker_.setTrajectory(orders.sail->trajectory, orders.sail->start_time_s);
     if (!status) {
-      finish(Outcome::kError, "the tracker refused a trajectory: " + status.error().message);
+      finish(scenario::Outcome::kError,
+             "the tracker refused a trajectory: " + status.error().message);
     }
   }
   if (orders.plan) {
@@ -167,15 +170,15 @@ void ClosedLoop::Impl::obey(const Orders& orders) {
     termination.max_iterations = options_.planning_iterations;
     const planner::Plan plan = desk_.plan(*orders.plan, sensing_.field(), {}, termination);
     recorder_.addPlanning(watch.milliseconds());
-    reply_ = replyTo(*orders.plan, plan);
+    reply_ = mission::replyTo(*orders.plan, plan);
     // A little before the new trajectory begins, as in life.
     constexpr double kEarlyS = 0.05;
     reply_time_s_ = time() + options_.supervisor.planning_latency_s - kEarlyS;
   }
 }
 
-Situation ClosedLoop::Impl::situation() const {
-  Situation situation;
+mission::Situation ClosedLoop::Impl::situation() const {
+  mission::Situation situation;
   situation.state = plant_.odometry().state;
   situation.odometry_stamp_s = plant_.odometry().stamp_s;
   situation.tracking_error_m = command_.tracking_error_m;
@@ -187,16 +190,16 @@ Situation ClosedLoop::Impl::situation() const {
   return situation;
 }
 
-MotionSample ClosedLoop::Impl::motion() const {
+scenario::MotionSample ClosedLoop::Impl::motion() const {
   const plant::Truth& truth = plant_.truth();
-  MotionSample sample;
+  scenario::MotionSample sample;
   sample.t_s = truth.stamp_s;
   sample.state = truth.planar;
   sample.roll_rad = truth.roll_rad;
   sample.pitch_rad = truth.pitch_rad;
   sample.thrusts_n = truth.thrusts_n;
   sample.clearance_m = plant_.clearance();
-  const SailOrder& sailed = supervisor_.sailed();
+  const mission::SailOrder& sailed = supervisor_.sailed();
   if (!sailed.trajectory.empty()) {
     sample.reference =
         sailed.trajectory.sample(time() - sailed.start_time_s, options_.vessel).state.head<3>();
@@ -204,16 +207,16 @@ MotionSample ClosedLoop::Impl::motion() const {
   return sample;
 }
 
-Progress ClosedLoop::Impl::progress() const {
-  const MotionSample now = motion();
-  Progress progress;
+scenario::Progress ClosedLoop::Impl::progress() const {
+  const scenario::MotionSample now = motion();
+  scenario::Progress progress;
   progress.t_s = now.t_s;
   progress.speed_mps = now.state.segment<2>(vessel::kSurge).norm();
   progress.clearance_m = now.clearance_m;
   progress.tracking_error_m = command_.tracking_error_m;
-  progress.state = name(supervisor_.phase());
+  progress.state = mission::name(supervisor_.phase());
   progress.detail = supervisor_.reason();
-  const SailOrder& sailed = supervisor_.sailed();
+  const mission::SailOrder& sailed = supervisor_.sailed();
   progress.distance_left_m = sailed.trajectory.empty()
                                  ? (now.state.head<2>() - goal_.position).norm()
                                  : trajectory::length(stopping::remainder(
@@ -227,7 +230,7 @@ ClosedLoop::ClosedLoop(ClosedLoop&&) noexcept = default;
 ClosedLoop& ClosedLoop::operator=(ClosedLoop&&) noexcept = default;
 
 Result<ClosedLoop> ClosedLoop::create(const LoopOptions& options, Waters waters,
-                                      const Mission& mission, std::uint64_t seed) {
+                                      const scenario::Mission& mission, std::uint64_t seed) {
   Result<plant::Simulator> plant = plant::Simulator::create(options.plant, waters.world, seed);
   if (!plant) {
     return failure(plant.error().message);
@@ -242,17 +245,17 @@ bool ClosedLoop::step() {
 double ClosedLoop::time() const {
   return impl_->time();
 }
-const Supervisor& ClosedLoop::supervisor() const {
+const mission::Supervisor& ClosedLoop::supervisor() const {
   return impl_->supervisor();
 }
-MotionSample ClosedLoop::motion() const {
+scenario::MotionSample ClosedLoop::motion() const {
   return impl_->motion();
 }
-Progress ClosedLoop::progress() const {
+scenario::Progress ClosedLoop::progress() const {
   return impl_->progress();
 }
-MissionResult ClosedLoop::result(const MissionLabel& label) const {
+scenario::MissionResult ClosedLoop::result(const scenario::MissionLabel& label) const {
   return impl_->result(label);
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::simulation

@@ -1,11 +1,11 @@
-#include "otter_nav/mission/report.hpp"
+#include "otter_nav/scenario/report.hpp"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 
 std::string toJson(const std::vector<MissionResult>& results) {
   nlohmann::ordered_json missions = nlohmann::ordered_json::array();
@@ -130,4 +130,4 @@ std::string summaryText(const MissionResult& result) {
   return head + text;
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

@@ -1,4 +1,4 @@
-#include "otter_nav/mission/archipelago.hpp"
+#include "otter_nav/scenario/archipelago.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 namespace {
 
 using map::Cell;
@@ -178,4 +178,4 @@ Result<Archipelago> generateArchipelago(const ArchipelagoOptions& options, std::
   return archipelago;
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

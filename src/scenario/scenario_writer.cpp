@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "otter_nav/map/chart.hpp"
-#include "otter_nav/mission/scenario.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,4 +54,4 @@ Status saveScenario(const std::string& folder, const std::string& name,
   return written(file, path);
 }
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

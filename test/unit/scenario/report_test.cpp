@@ -1,4 +1,4 @@
-#include "otter_nav/mission/report.hpp"
+#include "otter_nav/scenario/report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 namespace {
 
 // A meter a second east for ten seconds, the reference `error_m` to port, the coast 3 m off at t=5.
@@ -134,4 +134,4 @@ TEST(Summary, SaysWhatHappened) {
 }
 
 }  // namespace
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario

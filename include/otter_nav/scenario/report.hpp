@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/mission/recorder.hpp"
+#include "otter_nav/scenario/recorder.hpp"
 
-namespace otter_nav::mission {
+namespace otter_nav::scenario {
 
 // {"missions": [{"scenario", "mission", "vessel", "disturbance", "seed", "outcome", "duration_s",
 // "distance_m", "min_clearance_m", "tracking_error_mean_m", "tracking_error_max_m", "replans",
@@ -65,4 +65,4 @@ class ProgressLine {
 // A few lines for the end of a mission.
 [[nodiscard]] std::string summaryText(const MissionResult& result);
 
-}  // namespace otter_nav::mission
+}  // namespace otter_nav::scenario
