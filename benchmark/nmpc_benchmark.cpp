@@ -9,8 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "otter_nav/config/share.hpp"
-#include "tracker/oracle/ipopt_solver.hpp"
 #include "progress_bar.hpp"
+#include "tracker/ocp/rti_solver.hpp"
+#include "tracker/oracle/ipopt_solver.hpp"
 #include "tracking/nmpc_cases.hpp"
 #include "tracking/percentiles.hpp"
 
@@ -42,8 +43,8 @@ double now() {
 }
 
 Times timeRti(NmpcCycles& cycles, int count, const vessel::Parameters& vessel) {
-  auto solver =
-      std::make_unique<tracker::RtiSolver>(cycles.ocp(), vessel.manoeuvring, vessel.thrusters);
+  auto solver = std::make_unique<tracker::RtiSolver>(cycles.ocp(), tracker::RtiOptions{},
+                                                     vessel.manoeuvring, vessel.thrusters);
   auto reference = std::make_unique<tracker::OcpReference>();
   solver->setDisturbance(cycles.disturbance());
   cycles.fill(*reference);

@@ -2,8 +2,8 @@
 // its own plant at 100 Hz.
 #pragma once
 
-#include "otter_nav/vessel/parameters.hpp"
-#include "tracker/ocp/rti_solver.hpp"
+#include "otter_nav/vessel/model.hpp"
+#include "tracker/ocp/problem.hpp"
 
 namespace otter_nav::benchmark {
 

@@ -34,7 +34,8 @@ Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
       navigator_(options, vessel),
       reference_source_(options, vessel),
       keeper_(options.holding, vessel),
-      solver_(ocpOptions(options, vessel), vessel.manoeuvring, vessel.thrusters) {
+      solver_(ocpOptions(options, vessel), rtiOptions(options), vessel.manoeuvring,
+              vessel.thrusters) {
   prediction_.step_s = options.horizon_s / options.stages;
 }
 

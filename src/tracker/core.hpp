@@ -51,6 +51,7 @@ class Tracker::Core {
 
   [[nodiscard]] static OcpOptions ocpOptions(const Options& options,
                                              const vessel::Parameters& vessel);
+  [[nodiscard]] static RtiOptions rtiOptions(const Options& options);
   void prepareSolver(double ahead_s, double psi_rad);
   void keepPlan(double start_s);
   void finish(double now_s, const vessel::State& state, Command& command);

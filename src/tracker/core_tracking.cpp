@@ -21,9 +21,14 @@ OcpOptions Tracker::Core::ocpOptions(const Options& o, const vessel::Parameters&
   ocp.lower_n.setConstant(-o.thrust_share * vessel.thrusters.astern_max_n);
   ocp.upper_n.setConstant(o.thrust_share * vessel.thrusters.ahead_max_n);
   ocp.far_m = o.far_m;
-  ocp.heading_step_rad = o.heading_step_rad;
-  ocp.step_share = o.step_share;
   return ocp;
+}
+
+RtiOptions Tracker::Core::rtiOptions(const Options& o) {
+  RtiOptions rti;
+  rti.heading_step_rad = o.heading_step_rad;
+  rti.step_share = o.step_share;
+  return rti;
 }
 
 void Tracker::Core::prepareSolver(double start_s, double psi_rad) {

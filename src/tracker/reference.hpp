@@ -14,7 +14,7 @@
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/model.hpp"
-#include "tracker/ocp/rti_solver.hpp"
+#include "tracker/ocp/problem.hpp"
 
 namespace otter_nav::tracker {
 

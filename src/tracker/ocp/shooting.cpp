@@ -87,7 +87,7 @@ Pack gather(const vessel::State* states, const int (&index)[kLanes], int row) {
 }
 
 // Four lanes of a row of A and of [B c] go to the four stages.
-void scatter(Pack (&a)[4], Pack (&bc)[4], int row, Stage* stages) {
+void scatter(Pack (&a)[4], Pack (&bc)[4], int row, qp::Stage* stages) {
   transpose(a[0], a[1], a[2], a[3]);
   transpose(bc[0], bc[1], bc[2], bc[3]);
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -99,7 +99,7 @@ void scatter(Pack (&a)[4], Pack (&bc)[4], int row, Stage* stages) {
 }  // namespace
 
 void StageModel::linearize(const vessel::State* states, const vessel::Thrusts* thrusts, int count,
-                           double step_s, Stage* stages) const {
+                           double step_s, qp::Stage* stages) const {
   for (int first = 0; first < count; first += kLanes) {
     // Lanes past the end repeat the last stage.
     int index[kLanes];

@@ -5,16 +5,9 @@
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/types.hpp"
-#include "tracker/qp/pack.hpp"
+#include "tracker/qp/riccati.hpp"
 
 namespace otter_nav::tracker {
-
-// x+ = A dx + B du + c about a stage's state and thrusts. The columns of A for x and y are the
-// identity's, so only those for psi, u, v, r are kept, row by row.
-struct alignas(32) Stage {
-  Pack a[6];   // columns psi, u, v, r
-  Pack bc[6];  // columns F_left, F_right, gap to the next stage's state, 0
-};
 
 // The manoeuvring model with thrust levers and disturbance.
 class StageModel {
@@ -26,7 +19,7 @@ class StageModel {
   // Stages 0 to `count` - 1 from `states` (count + 1) and `thrusts` (count); step in s. `stages`
   // has room for `count` rounded up to a multiple of kLanes.
   void linearize(const vessel::State* states, const vessel::Thrusts* thrusts, int count,
-                 double step_s, Stage* stages) const;
+                 double step_s, qp::Stage* stages) const;
 
  private:
   struct Derivative;

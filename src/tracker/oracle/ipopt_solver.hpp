@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "tracker/ocp/rti_solver.hpp"
+#include "otter_nav/vessel/model.hpp"
+#include "tracker/ocp/problem.hpp"
 
 namespace otter_nav::tracker {
 

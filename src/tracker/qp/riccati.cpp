@@ -1,6 +1,6 @@
 #include "tracker/qp/riccati.hpp"
 
-namespace otter_nav::tracker {
+namespace otter_nav::tracker::qp {
 namespace {
 
 // P [A_q B c] + [0 0 p], row by row of (x, y, psi, u, v, r).
@@ -197,4 +197,4 @@ void advance(const Stage& stage, const double (&dx)[6], const double (&du)[2],
   }
 }
 
-}  // namespace otter_nav::tracker
+}  // namespace otter_nav::tracker::qp

@@ -3,14 +3,20 @@
 //
 //   min  sum 1/2 dx'Q dx + q'dx + 1/2 du'R du + r'du   s.t.  dx+ = A dx + B du + c
 //
-// A thruster of a stage is free or held at a value; held ones leave the minimisation, which makes
-// the same recursion serve the active-set iterations.
+// A thruster of a stage is free or held at a value; held ones leave the minimisation, so that one
+// recursion serves every strategy for the bounds.
 #pragma once
 
-#include "tracker/ocp/shooting.hpp"
 #include "tracker/qp/pack.hpp"
 
-namespace otter_nav::tracker {
+namespace otter_nav::tracker::qp {
+
+// dx+ = A dx + B du + c. The columns of A for x and y are the identity's, so only those for psi, u,
+// v, r are kept, row by row.
+struct alignas(32) Stage {
+  Pack a[6];   // columns psi, u, v, r
+  Pack bc[6];  // columns F_left, F_right, c, 0
+};
 
 // 1/2 dx'P dx + p'dx, split into (x, y) and q = (psi, u, v, r).
 struct alignas(32) Value {
@@ -70,4 +76,4 @@ void applyFeedback(const Feedback& feedback, const double (&dx)[6], double (&du)
 void advance(const Stage& stage, const double (&dx)[6], const double (&du)[2],
              double (&dx_next)[6]);
 
-}  // namespace otter_nav::tracker
+}  // namespace otter_nav::tracker::qp

@@ -12,6 +12,7 @@ namespace otter_nav::tracker::test {
 struct Problem {
   vessel::Parameters vessel;
   OcpOptions options;
+  RtiOptions rti;
   vessel::Disturbance disturbance;
   vessel::State measured;
   std::unique_ptr<OcpReference> reference = std::make_unique<OcpReference>();

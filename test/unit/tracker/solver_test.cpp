@@ -14,7 +14,8 @@ using test::Problem;
 
 // Iterates the real-time scheme on one problem until the plan rests.
 std::unique_ptr<RtiSolver> converge(const Problem& p, int& bounds_met) {
-  auto solver = std::make_unique<RtiSolver>(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  auto solver =
+      std::make_unique<RtiSolver>(p.options, p.rti, p.vessel.manoeuvring, p.vessel.thrusters);
   solver->setDisturbance(p.disturbance);
   solver->initialize(*p.reference);
   for (int i = 0; i < 200; ++i) {
@@ -58,8 +59,8 @@ TEST_P(AgainstIpopt, ConvergedPlansAgree) {
 TEST(RtiSolver, AgreesWithIpoptFarFromTheReference) {
   Problem p = circle(20, 2.0);
   p.options.far_m = 0.5;
-  p.options.heading_step_rad = 0.5;
-  p.options.step_share = 0.5;
+  p.rti.heading_step_rad = 0.5;
+  p.rti.step_share = 0.5;
   int bounds_met = 0;
   const auto ours = converge(p, bounds_met);
   IpoptSolver oracle(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
@@ -78,7 +79,7 @@ TEST(RtiSolver, HalfStepsSettleWhereWholeOnesSwing) {
   Problem p = circle(40, 2.0);
   p.options.step_s = 0.15;
   p.options.far_m = 0.5;
-  p.options.heading_step_rad = 0.5;
+  p.rti.heading_step_rad = 0.5;
   p.vessel.manoeuvring.wind_yaw_kg = -0.66;
   p.disturbance.wind_mps = {8.5, -8.5};
   for (int k = 0; k <= p.options.stages; ++k) {
@@ -87,7 +88,7 @@ TEST(RtiSolver, HalfStepsSettleWhereWholeOnesSwing) {
         3.0, 0.0, 0.15;
   }
   const auto lastStep = [&](double share) {
-    p.options.step_share = share;
+    p.rti.step_share = share;
     int bounds_met = 0;
     return converge(p, bounds_met)->lastStep();
   };
@@ -100,7 +101,7 @@ TEST(RtiSolver, KeepsWhatTheThrustRateCanReach) {
   const Problem p = circle(20, 2.0);
   constexpr double kRate = 40.0;
   const vessel::Thrusts acting(10.0, -5.0);
-  RtiSolver solver(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  RtiSolver solver(p.options, p.rti, p.vessel.manoeuvring, p.vessel.thrusters);
   solver.setDisturbance(p.disturbance);
   solver.limitRates(acting, kRate);
   solver.initialize(*p.reference);
@@ -147,9 +148,9 @@ TEST(RtiSolver, SolvesAfterActiveSetsGaveUp) {
   int bounds_met = 0;
   const auto active = converge(p, bounds_met);
   EXPECT_GT(bounds_met, 0);
-  p.options.active_set_iterations = 0;
+  p.rti.active_set_iterations = 0;
   const auto projected = converge(p, bounds_met);
-  p.options.projected_newton_iterations = 0;
+  p.rti.projected_newton_iterations = 0;
   const auto interior = converge(p, bounds_met);
   for (int k = 0; k < p.options.stages; ++k) {
     EXPECT_LT((projected->thrusts()[k] - active->thrusts()[k]).norm(), 1e-5);
@@ -159,10 +160,10 @@ TEST(RtiSolver, SolvesAfterActiveSetsGaveUp) {
 
 TEST(RtiSolver, SaysWhenIterationsRunOutAndKeepsWithinTheBounds) {
   Problem p = circle(20, 3.0);
-  p.options.active_set_iterations = 0;
-  p.options.projected_newton_iterations = 0;
-  p.options.interior_point_iterations = 1;
-  RtiSolver solver(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  p.rti.active_set_iterations = 0;
+  p.rti.projected_newton_iterations = 0;
+  p.rti.interior_point_iterations = 1;
+  RtiSolver solver(p.options, p.rti, p.vessel.manoeuvring, p.vessel.thrusters);
   solver.initialize(*p.reference);
   ASSERT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
   EXPECT_EQ(solver.feedback(p.measured), SolverStatus::kIterationsExhausted);
@@ -174,7 +175,7 @@ TEST(RtiSolver, SaysWhenIterationsRunOutAndKeepsWithinTheBounds) {
 
 TEST(RtiSolver, RefusesWhatIsNotFinite) {
   Problem p = circle(20, 0.0);
-  RtiSolver solver(p.options, p.vessel.manoeuvring, p.vessel.thrusters);
+  RtiSolver solver(p.options, p.rti, p.vessel.manoeuvring, p.vessel.thrusters);
   EXPECT_EQ(solver.feedback(p.measured), SolverStatus::kNotFinite);  // not prepared
   solver.initialize(*p.reference);
   ASSERT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);

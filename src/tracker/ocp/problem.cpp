@@ -1,0 +1,59 @@
+#include "tracker/ocp/problem.hpp"
+
+#include <cmath>
+
+namespace otter_nav::tracker {
+namespace {
+
+constexpr double kRegularization = 1e-9;  // added to the thrusts' Hessian
+
+}  // namespace
+
+double nearness(const vessel::State& x, const vessel::State& reference, double far_m) {
+  return 1.0 / std::sqrt(1.0 + (x - reference).head<2>().squaredNorm() / (far_m * far_m));
+}
+
+ControlProblem::ControlProblem(const OcpOptions& options) : options_(options) {
+  lower_.fill(options.lower_n);
+  upper_.fill(options.upper_n);
+}
+
+void ControlProblem::limitRates(const vessel::Thrusts& acting, double rate_nps) {
+  for (int k = 0; k < options_.stages; ++k) {
+    const double reach = (k + 0.5) * options_.step_s * rate_nps;
+    lower_[k] = options_.lower_n.cwiseMax((acting.array() - reach).matrix());
+    upper_[k] = options_.upper_n.cwiseMin((acting.array() + reach).matrix());
+  }
+}
+
+vessel::Thrusts ControlProblem::clampToBounds(int stage, const vessel::Thrusts& thrusts) const {
+  return thrusts.cwiseMax(lower_[stage]).cwiseMin(upper_[stage]);
+}
+
+void ControlProblem::expand(const Plan& plan, const OcpReference& reference, qp::BoxQp& qp) const {
+  const int n = options_.stages;
+  for (int k = 0; k <= n; ++k) {
+    vessel::State w = k == n ? options_.weights.terminal : options_.weights.state;
+    w.segment<3>(vessel::kPsi) *= reference.attitude[k];
+    w.head<2>() *= nearness(plan.states[k], reference.states[k], options_.far_m);
+    const vessel::State g = w.cwiseProduct(plan.states[k] - reference.states[k]);
+    qp::StateCost& cost = qp.state_costs[k];
+    cost.weight_q = Pack{w[2], w[3], w[4], w[5]};
+    cost.gradient_q = Pack{g[2], g[3], g[4], g[5]};
+    for (int i = 0; i < 2; ++i) {
+      cost.weight_p[i] = w[i];
+      cost.gradient_p[i] = g[i];
+    }
+  }
+  const vessel::Thrusts& w = options_.weights.thrusts;
+  for (int k = 0; k < n; ++k) {
+    for (int i = 0; i < 2; ++i) {
+      qp.input_costs[k].weight[i] = w[i] + kRegularization;
+      qp.input_costs[k].gradient[i] = w[i] * (plan.thrusts[k][i] - reference.thrusts[k][i]);
+      qp.lower[k][i] = lower_[k][i] - plan.thrusts[k][i];
+      qp.upper[k][i] = upper_[k][i] - plan.thrusts[k][i];
+    }
+  }
+}
+
+}  // namespace otter_nav::tracker

@@ -1,0 +1,74 @@
+// The tracker's optimal control problem (paper, section V-B):
+//
+//   min  sum_{k<N} 1/2 |x_k - xr_k|_Q^2 + 1/2 |F_k - Fr_k|_R^2  +  1/2 |x_N - xr_N|_QN^2
+//   s.t. x_0 measured, x_{k+1} = RK4(x_k, F_k), lower <= F_k <= upper
+//
+// Position errors e cost far_m^2 (sqrt(1 + (e / far_m)^2) - 1) times their weight instead
+// (Charbonnier's loss): as e^2 / 2 when near, in proportion when far, so that a vessel blown off
+// its path does not make the problem ever stiffer. x and y weigh alike.
+#pragma once
+
+#include <array>
+
+#include "otter_nav/tracker/limits.hpp"
+#include "otter_nav/vessel/types.hpp"
+#include "tracker/qp/box_qp.hpp"
+
+namespace otter_nav::tracker {
+
+// Q, R and QN as they stand in the sum above.
+struct OcpWeights {
+  vessel::State state = vessel::State::Ones();
+  vessel::State terminal = vessel::State::Ones();
+  vessel::Thrusts thrusts = vessel::Thrusts::Ones();
+};
+
+struct OcpOptions {
+  int stages = 20;
+  double step_s = 0.1;
+  OcpWeights weights;
+  vessel::Thrusts lower_n = vessel::Thrusts::Constant(-50.0);
+  vessel::Thrusts upper_n = vessel::Thrusts::Constant(50.0);
+  double far_m = 1e3;
+};
+
+// psi of all states is continuous along the horizon and near the measured one. `attitude` in [0, 1]
+// scales the weights of a stage's heading, surge and sway: how far the reference means them.
+struct OcpReference {
+  OcpReference() { attitude.fill(1.0); }
+
+  std::array<vessel::State, kMaxStages + 1> states;
+  std::array<double, kMaxStages + 1> attitude;
+  std::array<vessel::Thrusts, kMaxStages> thrusts;
+};
+
+// States and thrusts over the horizon.
+struct Plan {
+  std::array<vessel::State, kMaxStages + 1> states;
+  std::array<vessel::Thrusts, kMaxStages> thrusts;
+};
+
+// What the loss above leaves of the position's weight at an error, 0 to 1.
+[[nodiscard]] double nearness(const vessel::State& x, const vessel::State& reference, double far_m);
+
+class ControlProblem {
+ public:
+  explicit ControlProblem(const OcpOptions& options);
+
+  [[nodiscard]] const OcpOptions& options() const { return options_; }
+  // Narrows each stage's bounds to what the thrusts can reach by its middle from `acting` at
+  // `rate_nps`. The differences between later stages stay free: the tube holds all plans that keep
+  // the rate, and the first stage, the one that is commanded, keeps it. A box, so the problem keeps
+  // its shape.
+  void limitRates(const vessel::Thrusts& acting, double rate_nps);
+  [[nodiscard]] vessel::Thrusts clampToBounds(int stage, const vessel::Thrusts& thrusts) const;
+  // Gauss and Newton's quadratic costs about `plan`, and the bounds seen from it.
+  void expand(const Plan& plan, const OcpReference& reference, qp::BoxQp& qp) const;
+
+ private:
+  OcpOptions options_;
+  std::array<vessel::Thrusts, kMaxStages> lower_;
+  std::array<vessel::Thrusts, kMaxStages> upper_;
+};
+
+}  // namespace otter_nav::tracker
