@@ -11,6 +11,7 @@
 #include "optimizer/solve/initial_spline.hpp"
 #include "optimizer/solve/spline_solver.hpp"
 #include "optimizer/solve/targets.hpp"
+#include "otter_nav/trajectory/polynomial/quadrature.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -24,7 +25,7 @@ constexpr double kHopeless = 0.5;
 class GlobalOptimizer::Solver {
  public:
   Solver(const GlobalOptions& options, const vessel::Parameters& vessel)
-      : options_(options), vessel_(vessel), problem_(vessel), way_({}, vessel) {}
+      : options_(options), vessel_(vessel), problem_(vessel), initial_(vessel) {}
 
   [[nodiscard]] feasibility::CheckOptions checkOptions(double clearance_m) const {
     feasibility::CheckOptions check;
@@ -37,14 +38,15 @@ class GlobalOptimizer::Solver {
     return check;
   }
 
-  Result<Optimized> run(const map::DistanceField& field, const std::vector<Eigen::Vector2d>& way,
-                        const trajectory::Boundary& start, const trajectory::Boundary& goal,
-                        const Budget& budget, double clearance_m) {
+  Result<Optimized> run(const feasibility::Obstacles& obstacles,
+                        const std::vector<Eigen::Vector2d>& way, const trajectory::Boundary& start,
+                        const trajectory::Boundary& goal, const Budget& budget,
+                        double clearance_m) {
     if (way.size() < 2) {
       return failure("the way to optimise has " + std::to_string(way.size()) +
                      " points, at least 2 are needed");
     }
-    field_ = &field;
+    obstacles_ = &obstacles;
     start_ = &start;
     goal_ = &goal;
     budget_ = &budget;
@@ -64,14 +66,15 @@ class GlobalOptimizer::Solver {
     return lastResort(way);
   }
 
-  Result<Optimized> stopAndSpin(const map::DistanceField& field,
+  Result<Optimized> stopAndSpin(const feasibility::Obstacles& obstacles,
                                 const std::vector<Eigen::Vector2d>& way,
                                 const trajectory::Boundary& start, const trajectory::Boundary& goal,
                                 double clearance_m) const {
     const feasibility::CheckOptions check = checkOptions(clearance_m);
     Optimized plain;
     plain.trajectory = StopAndSpin(vessel_, spinLimits(), check).follow(way, start, goal);
-    plain.verification = feasibility::verify(plain.trajectory, field, vessel_, start, goal, check);
+    plain.verification =
+        feasibility::verify(plain.trajectory, obstacles.field(), vessel_, start, goal, check);
     plain.last_resort = true;
     if (!plain.verification.ok) {
       return failure("following the way from stop to stop failed: " + plain.verification.reason);
@@ -94,19 +97,21 @@ class GlobalOptimizer::Solver {
   }
 
   void aim(int attempt) {
-    const Aims aims = aimsOf(attempt, options_, vessel_, check_, field_->geometry().resolution_m);
-    problem_.limits = aims.limits;
-    problem_.weights = aims.weights;
-    problem_.field = field_;
-    way_.options() = aims.way;
+    const Aims aims =
+        aimsOf(attempt, options_, vessel_, check_, obstacles_->field().geometry().resolution_m);
+    problem_.targets.limits = aims.limits;
+    problem_.targets.weights = aims.weights;
+    problem_.targets.obstacles = obstacles_;
+    initial_.options = aims.initial;
     end_options_ = aims.ends;
   }
 
   bool attempt(const std::vector<Eigen::Vector2d>& way, int number) {
     aim(number);
-    chosen_ = chooser_.choose(*field_, way, *start_, *goal_);
+    chosen_ = chooser_.choose(obstacles_->field(), way, *start_, *goal_);
     solver_.restart();
-    way_.build(*field_, way, chooser_.wayEnds(chosen_, *start_), spline_);
+    problem_.targets.start_s = chosen_.start.manoeuvre.duration_s;
+    initial_.build(*obstacles_, way, chooser_.splineEnds(chosen_, *start_), spline_);
     SplineSolver::Stop stop;
     stop.max_iterations = options_.iterations_per_round;
     stop.out_of_time = [this] { return outOfTime(); };
@@ -139,7 +144,7 @@ class GlobalOptimizer::Solver {
       if (outOfTime()) {
         break;
       }
-      problem_.weights.time *= options_.quicken_growth;
+      problem_.targets.weights.time *= options_.quicken_growth;
       best.iterations += solver_.improve(problem_, stop, spline_);
       chooser_.follow(spline_, chosen_);
       verifyDilated(options_.dilation_max);
@@ -163,25 +168,25 @@ class GlobalOptimizer::Solver {
     originals_.resize(spline_.spans.size());
     for (std::size_t i = 0; i < spline_.spans.size(); ++i) {
       spline_.spans[i].duration_free = false;
-      for (std::size_t k = 0; k < kQuadraturePoints; ++k) {
-        const BasisMatrix basis =
-            trajectory::scaleBasis(trajectory::hermiteBasis(trajectory::quadraturePoints()[k]),
+      for (std::size_t k = 0; k < trajectory::kLobattoPoints; ++k) {
+        const trajectory::SepticBasis basis =
+            trajectory::scaleBasis(trajectory::septicBasis(trajectory::kLobatto.at[k]),
                                    spline_.spans[i].duration_s)
                 .value;
         originals_[i][k] = spline_.knots[i].state * basis.row(0).head<4>().transpose() +
                            spline_.knots[i + 1].state * basis.row(0).tail<4>().transpose();
       }
     }
-    const SplineWeights aimed = problem_.weights;
-    problem_.weights.dynamics = options_.weight_dynamics * 1e-3;
-    problem_.weights.original = options_.weight_original;
-    problem_.weights.smooth = options_.weight_smooth_first;
-    problem_.originals = &originals_;
+    const SplineWeights aimed = problem_.targets.weights;
+    problem_.targets.weights.dynamics = options_.weight_dynamics * 1e-3;
+    problem_.targets.weights.original = options_.weight_original;
+    problem_.targets.weights.smooth = options_.weight_smooth_first;
+    problem_.targets.originals = &originals_;
     stop.max_iterations = 4;
     stop.relative_decrease = 0.05;
     result_.iterations += solver_.improve(problem_, stop, spline_);
-    problem_.weights = aimed;
-    problem_.originals = nullptr;
+    problem_.targets.weights = aimed;
+    problem_.targets.originals = nullptr;
     for (Span& span : spline_.spans) {
       span.duration_free = true;
     }
@@ -201,8 +206,8 @@ class GlobalOptimizer::Solver {
       dilate(1.0 + 0.7 * excess + 0.001, spline_);
       result_.trajectory = assemble(chosen_, spline_);
     }
-    result_.verification =
-        feasibility::verify(result_.trajectory, *field_, vessel_, *start_, *goal_, check_);
+    result_.verification = feasibility::verify(result_.trajectory, obstacles_->field(), vessel_,
+                                               *start_, *goal_, check_);
     spline_ = shape;
   }
 
@@ -211,15 +216,15 @@ class GlobalOptimizer::Solver {
     const feasibility::Verification& v = result_.verification;
     if (v.thrust_share > check_.thrust_share) {
       const double excess = std::min(v.thrust_share - check_.thrust_share, 0.04);
-      problem_.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
-      problem_.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
-      problem_.weights.dynamics *= options_.weight_growth;
+      problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
+      problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
+      problem_.targets.weights.dynamics *= options_.weight_growth;
     } else {
       const double missing = check_.clearance_m - v.clearance_m;
-      problem_.limits.clearance_m += std::clamp(missing + 0.02, 0.02, 0.2);
-      problem_.limits.hull_clearance_m += 0.03;
-      problem_.weights.clearance *= options_.weight_growth;
-      problem_.weights.dynamics *= options_.weight_growth;
+      problem_.targets.limits.clearance_m += std::clamp(missing + 0.02, 0.02, 0.2);
+      problem_.targets.limits.hull_clearance_m += 0.03;
+      problem_.targets.weights.clearance *= options_.weight_growth;
+      problem_.targets.weights.dynamics *= options_.weight_growth;
     }
   }
 
@@ -229,7 +234,7 @@ class GlobalOptimizer::Solver {
       return failure("optimisation from a moving start failed: " + reason);
     }
     const int iterations = result_.iterations;
-    auto plain = stopAndSpin(*field_, way, *start_, *goal_, check_.clearance_m);
+    auto plain = stopAndSpin(*obstacles_, way, *start_, *goal_, check_.clearance_m);
     if (!plain) {
       return failure("optimisation failed: " + reason + "; " + plain.error().message);
     }
@@ -240,7 +245,7 @@ class GlobalOptimizer::Solver {
   GlobalOptions options_;
   vessel::Parameters vessel_;
   SplineProblem problem_;
-  InitialWay way_;
+  InitialSpline initial_;
   SplineSolver solver_;
   Spline spline_;
   Originals originals_;
@@ -249,7 +254,7 @@ class GlobalOptimizer::Solver {
   ChosenEnds chosen_;
   Optimized result_;
   feasibility::CheckOptions check_;
-  const map::DistanceField* field_ = nullptr;
+  const feasibility::Obstacles* obstacles_ = nullptr;
   const trajectory::Boundary* start_ = nullptr;
   const trajectory::Boundary* goal_ = nullptr;
   const Budget* budget_ = nullptr;
@@ -261,15 +266,15 @@ GlobalOptimizer::~GlobalOptimizer() = default;
 GlobalOptimizer::GlobalOptimizer(GlobalOptimizer&&) noexcept = default;
 GlobalOptimizer& GlobalOptimizer::operator=(GlobalOptimizer&&) noexcept = default;
 
-Result<Optimized> GlobalOptimizer::optimize(const map::DistanceField& field,
+Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstacles,
                                             const std::vector<Eigen::Vector2d>& way,
                                             const trajectory::Boundary& start,
                                             const trajectory::Boundary& goal, const Budget& budget,
                                             double clearance_m) {
-  return solver_->run(field, way, start, goal, budget, clearance_m);
+  return solver_->run(obstacles, way, start, goal, budget, clearance_m);
 }
 
-Result<Optimized> GlobalOptimizer::optimize(const map::DistanceField& field,
+Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstacles,
                                             const trajectory::Trajectory& initial,
                                             const trajectory::Boundary& start,
                                             const trajectory::Boundary& goal, const Budget& budget,
@@ -282,15 +287,15 @@ Result<Optimized> GlobalOptimizer::optimize(const map::DistanceField& field,
     }
   }
   way.push_back(goal.flat.position);
-  return solver_->run(field, way, start, goal, budget, clearance_m);
+  return solver_->run(obstacles, way, start, goal, budget, clearance_m);
 }
 
-Result<Optimized> GlobalOptimizer::stopAndSpin(const map::DistanceField& field,
+Result<Optimized> GlobalOptimizer::stopAndSpin(const feasibility::Obstacles& obstacles,
                                                const std::vector<Eigen::Vector2d>& way,
                                                const trajectory::Boundary& start,
                                                const trajectory::Boundary& goal,
                                                double clearance_m) {
-  return solver_->stopAndSpin(field, way, start, goal, clearance_m);
+  return solver_->stopAndSpin(obstacles, way, start, goal, clearance_m);
 }
 
 feasibility::CheckOptions GlobalOptimizer::checkOptions(double clearance_m) const {

@@ -1,9 +1,10 @@
 #include "otter_nav/optimizer/local_optimizer.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "otter_nav/trajectory/polynomial/block_tridiagonal.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -12,18 +13,6 @@ constexpr double kStretch = 1.15;  // of the edge's time when its dynamics fail
 constexpr double kLeastPushM = 0.1;
 constexpr double kSquareCells = 0.7;  // from a cell's centre to what its square reaches
 
-// Coefficients of s^0..s^5 (rows) of the quintic Hermite basis (columns).
-Eigen::Matrix<double, 6, 6> quinticCoefficients() {
-  Eigen::Matrix<double, 6, 6> c;
-  c << 1, 0, 0, 0, 0, 0,           //
-      0, 1, 0, 0, 0, 0,            //
-      0, 0, 0.5, 0, 0, 0,          //
-      -10, -6, -1.5, 10, -4, 0.5,  //
-      15, 8, 1.5, -15, 7, -1,      //
-      -6, -3, -0.5, 6, -3, 0.5;
-  return c;
-}
-
 // T^k of the end values [p v a p v a].
 Eigen::Matrix<double, 6, 1> powers(double T) {
   Eigen::Matrix<double, 6, 1> s;
@@ -31,62 +20,13 @@ Eigen::Matrix<double, 6, 1> powers(double T) {
   return s;
 }
 
-trajectory::Piece quintic(const Eigen::Matrix<double, 2, 3>& from,
-                          const Eigen::Matrix<double, 2, 3>& to, double T) {
-  Eigen::Matrix<double, 2, 6> ends;
-  ends << from, to;
-  const Eigen::Matrix<double, 2, 6> unit =
-      ends * powers(T).asDiagonal() * quinticCoefficients().transpose();
-  trajectory::Piece piece;
-  piece.duration_s = T;
-  double scale = 1.0;
-  for (int k = 0; k < 6; ++k) {
-    piece.position.col(k) = scale * unit.col(k);
-    scale /= T;
-  }
-  return piece;
-}
-
 }  // namespace
 
-double squaredJerk(const trajectory::Piece& piece) {
-  // z''' = sum of j_k t^k, j_k = (k + 3)(k + 2)(k + 1) c_{k + 3}
-  double sum = 0.0;
-  constexpr int kTerms = trajectory::kCoefficients - 3;
-  for (int i = 0; i < kTerms; ++i) {
-    for (int k = 0; k < kTerms; ++k) {
-      const double factor = (i + 3.0) * (i + 2.0) * (i + 1.0) * (k + 3.0) * (k + 2.0) * (k + 1.0);
-      sum += factor * piece.position.col(i + 3).dot(piece.position.col(k + 3)) *
-             std::pow(piece.duration_s, i + k + 1) / (i + k + 1);
-    }
-  }
-  return sum;
-}
-
 LocalOptimizer::LocalOptimizer(const LocalOptions& options, const vessel::Parameters& vessel)
-    : options_(options), vessel_(vessel) {
+    : options_(options), vessel_(vessel), jerk_(trajectory::quinticJerk()) {
   options_.segments = std::clamp(options_.segments, 2, kMaxSegments);
-  const Eigen::Matrix<double, 6, 6> c = quinticCoefficients();
   for (int i = 0; i < kPoints; ++i) {
-    const double s = (i + 0.5) / kPoints;
-    for (int d = 0; d < 3; ++d) {
-      Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
-      for (int k = d; k < 6; ++k) {
-        double factor = std::pow(s, k - d);
-        for (int j = 0; j < d; ++j) {
-          factor *= k - j;
-        }
-        row += factor * c.row(k);
-      }
-      basis_[static_cast<std::size_t>(i)].row(d) = row;
-    }
-  }
-  jerk_.setZero();
-  for (int i = 3; i < 6; ++i) {
-    for (int k = 3; k < 6; ++k) {
-      const double factor = i * (i - 1.0) * (i - 2.0) * k * (k - 1.0) * (k - 2.0) / (i + k - 5.0);
-      jerk_ += factor * c.row(i).transpose() * c.row(k);
-    }
+    basis_[static_cast<std::size_t>(i)] = trajectory::quinticBasis((i + 0.5) / kPoints);
   }
 }
 
@@ -177,17 +117,9 @@ void LocalOptimizer::pullTowards(const map::DistanceField& field, const Knots& k
 
 // The minimum of F in the inner knots: x and y share the matrix, 3 by 3 blocks on three diagonals.
 void LocalOptimizer::solve(const Pulls& pulls, double step_s, Knots& knots) const {
-  using Block = Eigen::Matrix3d;
-  using Right = Eigen::Matrix<double, 3, 2>;
   const auto n = static_cast<std::size_t>(options_.segments);
-  std::array<Block, kKnots> diagonal;
-  std::array<Block, kKnots> below;  // row k + 1, column k
-  std::array<Right, kKnots> right;
-  for (std::size_t k = 0; k <= n; ++k) {
-    diagonal[k].setZero();
-    below[k].setZero();
-    right[k].setZero();
-  }
+  trajectory::BlockTridiagonal<3, 2, kKnots> system;  // block k is of knot k + 1
+  system.reset(n - 1);
   const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
   const Eigen::Vector3d rate(1.0, 1.0 / step_s, 1.0 / (step_s * step_s));
   const Eigen::Matrix<double, 6, 6> smooth = options_.weight_smooth / std::pow(step_s, 5) *
@@ -201,29 +133,31 @@ void LocalOptimizer::solve(const Pulls& pulls, double step_s, Knots& knots) cons
       hessian += rows.transpose() * weight.asDiagonal() * rows;
       linear += rows.transpose() * weight.asDiagonal() * pulls[i][k].target.transpose();
     }
-    diagonal[i] += hessian.topLeftCorner<3, 3>();
-    diagonal[i + 1] += hessian.bottomRightCorner<3, 3>();
-    below[i] += hessian.bottomLeftCorner<3, 3>();
-    right[i] += linear.topRows<3>();
-    right[i + 1] += linear.bottomRows<3>();
+    const Eigen::Matrix3d below = hessian.bottomLeftCorner<3, 3>();
+    const bool first = i == 0;
+    const bool last = i + 1 == n;
+    if (!first) {
+      system.diagonal[i - 1] += hessian.topLeftCorner<3, 3>();
+      system.right[i - 1] += linear.topRows<3>();
+    }
+    if (!last) {
+      system.diagonal[i] += hessian.bottomRightCorner<3, 3>();
+      system.right[i] += linear.bottomRows<3>();
+    }
+    // The ends are given.
+    if (first) {
+      system.right[0] -= below * knots[0].transpose();
+    } else if (last) {
+      system.right[n - 2] -= below.transpose() * knots[n].transpose();
+    } else {
+      system.below[i - 1] = below;
+    }
   }
-  // The ends are given.
-  right[1] -= below[0] * knots[0].transpose();
-  right[n - 1] -= below[n - 1].transpose() * knots[n].transpose();
-  std::array<Eigen::LLT<Block>, kKnots> factor;
+  if (!system.solve(0.0, 0.0)) {
+    return;
+  }
   for (std::size_t k = 1; k < n; ++k) {
-    if (k > 1) {
-      const Block gain = factor[k - 1].solve(below[k - 1].transpose()).transpose();
-      diagonal[k] -= gain * below[k - 1].transpose();
-      right[k] -= gain * right[k - 1];
-    }
-    factor[k].compute(diagonal[k]);
-  }
-  for (std::size_t k = n - 1; k >= 1; --k) {
-    if (k + 1 < n) {
-      right[k] -= below[k].transpose() * knots[k + 1].transpose();
-    }
-    knots[k] = factor[k].solve(right[k]).transpose();
+    knots[k] = system.solution()[k - 1].transpose();
   }
 }
 
@@ -231,14 +165,12 @@ bool LocalOptimizer::accept(const map::DistanceField& field, const Knots& knots,
                             RepairedEdge& repaired, EdgeFault& fault) const {
   repaired.count = options_.segments;
   repaired.duration_s = step_s * options_.segments;
-  repaired.cost = options_.sigma * repaired.duration_s;
   for (std::size_t i = 0; i < static_cast<std::size_t>(options_.segments); ++i) {
-    repaired.pieces[i] = quintic(knots[i], knots[i + 1], step_s);
+    repaired.pieces[i] = trajectory::quinticPiece(knots[i], knots[i + 1], step_s);
     fault = check(field, repaired.pieces[i]).fault;
     if (fault != EdgeFault::kNone) {
       return false;
     }
-    repaired.cost += squaredJerk(repaired.pieces[i]);
   }
   return true;
 }

@@ -61,7 +61,6 @@ Result<LocalOptions> readLocalOptions(config::Section section) {
   section.read("force_share", o.force_share, kShare);
   section.read("heading_force_min_n", o.heading_force_min_n, kForce);
   section.read("yaw_rate_max_radps", o.yaw_rate_max_radps, kYawRate);
-  section.read("sigma", o.sigma, kPositiveWeight);
   section.read("weight_smooth", o.weight_smooth, kPositiveWeight);
   section.read("weight_clearance", o.weight_clearance, kPositiveWeight);
   section.read("weight_dynamics", o.weight_dynamics, kWeight);

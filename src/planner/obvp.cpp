@@ -56,40 +56,16 @@ std::optional<Steer> steer(const KinoState& from, const KinoState& to, double si
 }
 
 trajectory::Piece quinticPiece(const KinoState& from, const KinoState& to, double duration_s) {
-  const double T = duration_s;
-  const double T2 = T * T;
-  const double T5 = T2 * T2 * T;
-  const Eigen::Vector2d dp =
-      to.position - from.position - from.velocity * T - from.acceleration * (T2 / 2.0);
-  const Eigen::Vector2d dv = to.velocity - from.velocity - from.acceleration * T;
-  const Eigen::Vector2d da = to.acceleration - from.acceleration;
-  const Eigen::Vector2d alpha = (720.0 * dp - 360.0 * T * dv + 60.0 * T2 * da) / T5;
-  const Eigen::Vector2d beta = (-360.0 * T * dp + 168.0 * T2 * dv - 24.0 * T2 * T * da) / T5;
-  const Eigen::Vector2d gamma = (60.0 * T2 * dp - 24.0 * T2 * T * dv + 3.0 * T2 * T2 * da) / T5;
-  trajectory::Piece piece;
-  piece.duration_s = T;
-  piece.position.col(0) = from.position;
-  piece.position.col(1) = from.velocity;
-  piece.position.col(2) = from.acceleration / 2.0;
-  piece.position.col(3) = gamma / 6.0;
-  piece.position.col(4) = beta / 24.0;
-  piece.position.col(5) = alpha / 120.0;
-  return piece;
+  const auto end = [](const KinoState& state) {
+    trajectory::QuinticEnd values;
+    values << state.position, state.velocity, state.acceleration;
+    return values;
+  };
+  return trajectory::quinticPiece(end(from), end(to), duration_s);
 }
 
 double pieceCost(const trajectory::Piece& piece, double sigma) {
-  // The jerk has degree 4: five Gauss-Legendre nodes integrate its square exactly.
-  constexpr std::array<double, 5> kNodes = {-0.9061798459386640, -0.5384693101056831, 0.0,
-                                            0.5384693101056831, 0.9061798459386640};
-  constexpr std::array<double, 5> kWeights = {0.2369268850561891, 0.4786286704993665,
-                                              0.5688888888888889, 0.4786286704993665,
-                                              0.2369268850561891};
-  const double half = 0.5 * piece.duration_s;
-  double cost = sigma * piece.duration_s;
-  for (std::size_t k = 0; k < kNodes.size(); ++k) {
-    cost += kWeights[k] * half * piece.flat(half * (1.0 + kNodes[k])).jerk.squaredNorm();
-  }
-  return cost;
+  return sigma * piece.duration_s + trajectory::squaredJerk(piece);
 }
 
 }  // namespace otter_nav::planner

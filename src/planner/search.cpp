@@ -179,8 +179,11 @@ std::optional<Edge> Search::repairedEdge(const KinoState& from, const KinoState&
   if (pieces_.size() + count > pieces_.capacity()) {
     return std::nullopt;
   }
-  const Edge edge{repaired_.duration_s, repaired_.cost, static_cast<int>(pieces_.size()),
-                  repaired_.count};
+  double cost = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    cost += pieceCost(repaired_.pieces[i], options_.sigma);
+  }
+  const Edge edge{repaired_.duration_s, cost, static_cast<int>(pieces_.size()), repaired_.count};
   pieces_.insert(pieces_.end(), repaired_.pieces.begin(),
                  repaired_.pieces.begin() + static_cast<std::ptrdiff_t>(count));
   return edge;

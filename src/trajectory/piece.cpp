@@ -42,32 +42,6 @@ Eigen::Vector3d Piece::spinHeading(double t_s) const {
   return {taylor.value[0][0], taylor.value[1][0], 2.0 * taylor.value[2][0]};
 }
 
-Piece hermitePiece(const vessel::FlatPoint& start, const vessel::FlatPoint& end,
-                   double duration_s) {
-  const double T = duration_s;
-  const double T2 = T * T;
-  const double T3 = T2 * T;
-  Piece piece;
-  piece.duration_s = T;
-  piece.position.col(0) = start.position;
-  piece.position.col(1) = start.velocity;
-  piece.position.col(2) = start.acceleration / 2.0;
-  piece.position.col(3) = start.jerk / 6.0;
-  // What the cubic start leaves open at the end, scaled to unit time.
-  const Eigen::Vector2d dp = end.position - (start.position + start.velocity * T +
-                                             start.acceleration * (T2 / 2) + start.jerk * (T3 / 6));
-  const Eigen::Vector2d dv =
-      (end.velocity - (start.velocity + start.acceleration * T + start.jerk * (T2 / 2))) * T;
-  const Eigen::Vector2d da = (end.acceleration - (start.acceleration + start.jerk * T)) * T2;
-  const Eigen::Vector2d dj = (end.jerk - start.jerk) * T3;
-  const double T4 = T2 * T2;
-  piece.position.col(4) = (35.0 * dp - 15.0 * dv + 2.5 * da - dj / 6.0) / T4;
-  piece.position.col(5) = (-84.0 * dp + 39.0 * dv - 7.0 * da + 0.5 * dj) / (T4 * T);
-  piece.position.col(6) = (70.0 * dp - 34.0 * dv + 6.5 * da - 0.5 * dj) / (T4 * T2);
-  piece.position.col(7) = (-20.0 * dp + 10.0 * dv - 2.0 * da + dj / 6.0) / (T4 * T3);
-  return piece;
-}
-
 Piece spinPiece(const Eigen::Vector2d& position, double psi_start_rad, double psi_end_rad,
                 double duration_s) {
   Piece piece;

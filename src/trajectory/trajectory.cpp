@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/trajectory/polynomial/quadrature.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::trajectory {
@@ -97,19 +98,15 @@ Sample Trajectory::sampleIn(std::size_t piece, double t_in_piece_s,
 }
 
 double length(const Trajectory& trajectory) {
-  // Five-point Gauss-Legendre on four parts of each piece.
-  constexpr std::array<double, 5> kNodes = {-0.9061798459386640, -0.5384693101056831, 0.0,
-                                            0.5384693101056831, 0.9061798459386640};
-  constexpr std::array<double, 5> kWeights = {0.2369268850561891, 0.4786286704993665,
-                                              0.5688888888888889, 0.4786286704993665,
-                                              0.2369268850561891};
+  // Four parts of each piece.
   constexpr int kParts = 4;
   double total = 0.0;
   for (const Piece& piece : trajectory.pieces()) {
     const double half = piece.duration_s / (2.0 * kParts);
     for (int part = 0; part < kParts; ++part) {
-      for (std::size_t k = 0; k < kNodes.size(); ++k) {
-        total += kWeights[k] * half * piece.flat(half * (2 * part + 1 + kNodes[k])).velocity.norm();
+      for (std::size_t k = 0; k < kGauss.at.size(); ++k) {
+        total += kGauss.weight[k] * half *
+                 piece.flat(half * (2 * part + 1 + kGauss.at[k])).velocity.norm();
       }
     }
   }

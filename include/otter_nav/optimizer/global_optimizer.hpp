@@ -20,8 +20,8 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
+#include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
-#include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -93,13 +93,13 @@ class GlobalOptimizer {
 
   // Along a polyline from start to goal (a guide path): at least two points; its ends are taken
   // from the boundaries. `clearance_m` > 0 replaces the options' for this call.
-  [[nodiscard]] Result<Optimized> optimize(const map::DistanceField& field,
+  [[nodiscard]] Result<Optimized> optimize(const feasibility::Obstacles& obstacles,
                                            const std::vector<Eigen::Vector2d>& way,
                                            const trajectory::Boundary& start,
                                            const trajectory::Boundary& goal, const Budget& budget,
                                            double clearance_m = 0.0);
   // From a trajectory: the tree's quintics (any continuity), or one being sailed.
-  [[nodiscard]] Result<Optimized> optimize(const map::DistanceField& field,
+  [[nodiscard]] Result<Optimized> optimize(const feasibility::Obstacles& obstacles,
                                            const trajectory::Trajectory& initial,
                                            const trajectory::Boundary& start,
                                            const trajectory::Boundary& goal, const Budget& budget,
@@ -107,7 +107,7 @@ class GlobalOptimizer {
 
   // From rest, straight from point to point of a clear polyline, stopping at each to turn: slow,
   // but sound wherever the hull may turn.
-  [[nodiscard]] Result<Optimized> stopAndSpin(const map::DistanceField& field,
+  [[nodiscard]] Result<Optimized> stopAndSpin(const feasibility::Obstacles& obstacles,
                                               const std::vector<Eigen::Vector2d>& way,
                                               const trajectory::Boundary& start,
                                               const trajectory::Boundary& goal,

@@ -14,6 +14,7 @@
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/trajectory/piece.hpp"
+#include "otter_nav/trajectory/polynomial/hermite.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::optimizer {
@@ -26,7 +27,6 @@ struct LocalOptions {
   double force_share = 0.97;         // |w| over the thrusters' joint force
   double heading_force_min_n = 2.0;  // |w|
   double yaw_rate_max_radps = 1.5;
-  double sigma = 1.0;  // of the cost, per second
   // The paper's weights.
   double weight_smooth = 0.02;
   double weight_clearance = 10.0;
@@ -54,7 +54,6 @@ struct EdgeCheck {
 struct RepairedEdge {
   std::array<trajectory::Piece, kMaxSegments> pieces;
   int count = 0;
-  double cost = 0.0;  // sigma T + integral of |jerk|^2
   double duration_s = 0.0;
 };
 
@@ -102,11 +101,8 @@ class LocalOptimizer {
   LocalOptions options_;
   vessel::Parameters vessel_;
   // Quintic Hermite basis at each point: rows are derivatives, columns p, v, a at both ends.
-  std::array<Eigen::Matrix<double, 3, 6>, kPoints> basis_;
+  std::array<trajectory::QuinticBasis, kPoints> basis_;
   Eigen::Matrix<double, 6, 6> jerk_;  // integral of the squared third derivative, unit time
 };
-
-// The integral of |z'''|^2 over a piece, exact.
-[[nodiscard]] double squaredJerk(const trajectory::Piece& piece);
 
 }  // namespace otter_nav::optimizer

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/trajectory/polynomial/path_line.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::planner {
@@ -25,11 +26,7 @@ struct GuideLineOptions {
 
 class GuideLine {
  public:
-  struct Point {
-    Eigen::Vector2d position = Eigen::Vector2d::Zero();
-    Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
-    double curvature_per_m = 0.0;  // positive to port
-    double speed_mps = 0.0;
+  struct Point : trajectory::PathLine::Point {
     double half_width_m = 0.0;
   };
 
@@ -38,20 +35,13 @@ class GuideLine {
              const vessel::Parameters& vessel, const GuideLineOptions& options);
 
   // After rounding; the given points' length differs a little.
-  [[nodiscard]] double length() const { return length_m_; }
+  [[nodiscard]] double length() const { return line_.length(); }
   // Linear between the held points; `s_m` is clamped to the line.
   [[nodiscard]] Point at(double s_m) const;
 
  private:
-  void resample(const std::vector<Eigen::Vector2d>& points, double spacing_m);
-  void relax(const map::DistanceField& field, const GuideLineOptions& options);
-  void setDirections();
-  void setSpeeds(const vessel::Parameters& vessel, const GuideLineOptions& options);
-
-  double length_m_ = 0.0;
-  double spacing_m_ = 1.0;
-  std::vector<Point> held_;
-  std::vector<Eigen::Vector2d> moved_;
+  trajectory::PathLine line_;
+  std::vector<double> half_width_m_;
 };
 
 }  // namespace otter_nav::planner

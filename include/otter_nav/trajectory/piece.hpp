@@ -32,6 +32,13 @@ struct Piece {
 // The degree-7 piece through two points with their velocities, accelerations and jerks.
 [[nodiscard]] Piece hermitePiece(const vessel::FlatPoint& start, const vessel::FlatPoint& end,
                                  double duration_s);
+// Position, velocity and acceleration (columns) of an end of a quintic.
+using QuinticEnd = Eigen::Matrix<double, 2, 3>;
+// The quintic of least integral of |jerk|^2 between two ends (alpha, beta, gamma of Mueller et al.
+// 2015 as polynomial coefficients).
+[[nodiscard]] Piece quinticPiece(const QuinticEnd& start, const QuinticEnd& end, double duration_s);
+// The integral of |jerk|^2 over a piece: exact up to degree 7.
+[[nodiscard]] double squaredJerk(const Piece& piece);
 // A rest-to-rest spin in place; yaw rate and yaw acceleration are zero at both ends.
 [[nodiscard]] Piece spinPiece(const Eigen::Vector2d& position, double psi_start_rad,
                               double psi_end_rad, double duration_s);

@@ -23,14 +23,6 @@ double angleOf(const Eigen::Vector2d& v) {
   return std::atan2(v.y(), v.x());
 }
 
-double lengthOf(const std::vector<Eigen::Vector2d>& way) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    length += (way[i] - way[i - 1]).norm();
-  }
-  return length;
-}
-
 using StateVector = Eigen::Matrix<double, 8, 1>;
 
 StateVector stateOf(const vessel::FlatPoint& z) {
@@ -68,7 +60,7 @@ void EndChooser::make(End& end) const {
 
 // The course is led from where the manoeuvre ends to a point of the way ahead.
 void EndChooser::leaveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const {
-  const Eigen::Vector2d ahead = pointAlong(way, kLookAheadM);
+  const Eigen::Vector2d ahead = trajectory::pointAlong(way, kLookAheadM);
   const double drifts_s = vessel_.paper.m1_kg / vessel_.paper.d2_kgps;
   double leave = angleOf(ahead - end.position);
   for (int round = 0; round < kAimRounds; ++round) {
@@ -89,7 +81,7 @@ void EndChooser::leaveAlong(const std::vector<Eigen::Vector2d>& way, End& end) c
 // The course is led from a point of the way to where the manoeuvre begins.
 void EndChooser::arriveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const {
   const Eigen::Vector2d behind =
-      pointAlong(way, -kLookAheadM - arrivalLength(end.speed_mps, vessel_, end.limits));
+      trajectory::pointAlong(way, -kLookAheadM - arrivalLength(end.speed_mps, vessel_, end.limits));
   end.turn_rad = wrapAngle(end.psi_rad - angleOf(end.position - behind));
   if (std::abs(end.turn_rad) < options_.turn_least_rad && !options_.careful) {
     end.turn_rad = 0.0;
@@ -132,7 +124,7 @@ End EndChooser::chooseGoal(const map::DistanceField& field, const std::vector<Ei
   struct Choice {
     double speed_share, drift_share;
   };
-  const double longest = kLongestShare * lengthOf(way);
+  const double longest = kLongestShare * trajectory::lengthOf(way);
   End end;
   end.kind = End::Kind::kArrival;
   end.position = goal.flat.position;
@@ -160,8 +152,9 @@ ChosenEnds EndChooser::choose(const map::DistanceField& field,
   return {chooseStart(field, way, start), chooseGoal(field, way, goal)};
 }
 
-WayEnds EndChooser::wayEnds(const ChosenEnds& chosen, const trajectory::Boundary& start) const {
-  WayEnds ends;
+SplineEnds EndChooser::splineEnds(const ChosenEnds& chosen,
+                                  const trajectory::Boundary& start) const {
+  SplineEnds ends;
   ends.start = chosen.start.manoeuvre.joint;
   ends.goal = chosen.goal.manoeuvre.joint;
   ends.leave = directionOf(ends.start, start.psi_rad);

@@ -49,7 +49,8 @@ class EndChooser {
                                   const trajectory::Boundary& start,
                                   const trajectory::Boundary& goal) const;
   // The ends' states for the way between.
-  [[nodiscard]] WayEnds wayEnds(const ChosenEnds& chosen, const trajectory::Boundary& start) const;
+  [[nodiscard]] SplineEnds splineEnds(const ChosenEnds& chosen,
+                                      const trajectory::Boundary& start) const;
   // Lets the spline's ends move with their manoeuvres.
   void guide(const ChosenEnds& chosen, Spline& spline) const;
   // Makes the manoeuvres that the spline's ends have moved to, and puts the ends exactly there.

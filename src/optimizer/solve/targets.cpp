@@ -77,10 +77,10 @@ Aims aimsOf(int attempt, const GlobalOptions& options, const vessel::Parameters&
   aims.weights.clearance = options.weight_clearance * manner.weight_factor;
   aims.weights.dynamics = options.weight_dynamics * manner.weight_factor;
   aims.weights.original = 0.0;
-  aims.way.piece_length_m = options.piece_length_m * manner.length_factor;
-  aims.way.force_share = 0.9 * share;
-  aims.way.speed_max_mps = 0.97 * aims.limits.speed_mps;
-  aims.way.clearance_m = aims.limits.clearance_m;
+  aims.initial.piece_length_m = options.piece_length_m * manner.length_factor;
+  aims.initial.force_share = 0.9 * share;
+  aims.initial.speed_max_mps = 0.97 * aims.limits.speed_mps;
+  aims.initial.clearance_m = aims.limits.clearance_m;
   aims.ends = endsOf(manner, options, vessel, share);
   return aims;
 }

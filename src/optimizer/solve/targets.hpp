@@ -13,7 +13,7 @@ constexpr int kAttempts = 4;
 struct Aims {
   SplineLimits limits;
   SplineWeights weights;
-  WayOptions way;
+  InitialOptions initial;
   EndOptions ends;
 };
 

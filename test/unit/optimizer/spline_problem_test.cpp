@@ -45,17 +45,17 @@ Spline bentSpline(Random& random) {
 class SplineProblemTest : public ::testing::Test {
  protected:
   SplineProblemTest() : problem(vessel::Parameters()) {
-    problem.field = &field;
-    problem.originals = &originals;
-    problem.weights.original = 0.3;
-    problem.limits.thrust_ahead_n = 20.0;
-    problem.limits.thrust_astern_n = 10.0;
-    problem.limits.speed_mps = 2.0;
-    problem.limits.yaw_rate_radps = 0.05;
-    problem.limits.heading_force_n = 60.0;
-    problem.limits.clearance_m = 2.0;
-    problem.limits.hull_offset_m = 0.667;
-    problem.limits.hull_clearance_m = 1.8;
+    problem.targets.obstacles = &obstacles;
+    problem.targets.originals = &originals;
+    problem.targets.weights.original = 0.3;
+    problem.targets.limits.thrust_ahead_n = 20.0;
+    problem.targets.limits.thrust_astern_n = 10.0;
+    problem.targets.limits.speed_mps = 2.0;
+    problem.targets.limits.yaw_rate_radps = 0.05;
+    problem.targets.limits.heading_force_n = 60.0;
+    problem.targets.limits.clearance_m = 2.0;
+    problem.targets.limits.hull_offset_m = 0.667;
+    problem.targets.limits.hull_clearance_m = 1.8;
   }
 
   // By central differences, over a parameter of a knot.
@@ -71,8 +71,9 @@ class SplineProblemTest : public ::testing::Test {
   }
 
   map::DistanceField field = islandField();
+  feasibility::Obstacles obstacles{field};
   Originals originals = Originals(4, [] {
-    std::array<Eigen::Vector2d, kQuadraturePoints> points;
+    std::array<Eigen::Vector2d, trajectory::kLobattoPoints> points;
     points.fill(Eigen::Vector2d(0.5, 1.0));
     return points;
   }());

@@ -1,34 +1,47 @@
 // A symmetric positive definite block-tridiagonal system, solved by Cholesky's method in time
-// linear in the number of blocks. Its storage grows once and is reused.
+// linear in the number of blocks. Its storage grows once and is reused, or is given by `Capacity`
+// and never allocates. Right-hand sides have `Columns`.
 #pragma once
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace otter_nav::trajectory {
 
-template <int Size>
+template <int Size, int Columns = 1, std::size_t Capacity = 0>
 class BlockTridiagonal {
  public:
   using Block = Eigen::Matrix<double, Size, Size>;
-  using Vector = Eigen::Matrix<double, Size, 1>;
+  using Vector = Eigen::Matrix<double, Size, Columns>;
+  template <typename Item>
+  using Storage = std::conditional_t<Capacity == 0, std::vector<Item>, std::array<Item, Capacity>>;
 
   // `blocks` zero blocks on the diagonal, one less below it, and as many right-hand sides.
   void reset(std::size_t blocks) {
-    diagonal.assign(blocks, Block::Zero());
-    below.assign(blocks, Block::Zero());
-    right.assign(blocks, Vector::Zero());
-    factor_.resize(blocks);
-    coupling_.resize(blocks);
-    solution_.resize(blocks);
+    blocks_ = blocks;
+    if constexpr (Capacity == 0) {
+      diagonal.resize(blocks);
+      below.resize(blocks);
+      right.resize(blocks);
+      factor_.resize(blocks);
+      coupling_.resize(blocks);
+      solution_.resize(blocks);
+    }
+    for (std::size_t k = 0; k < blocks; ++k) {
+      diagonal[k].setZero();
+      below[k].setZero();
+      right[k].setZero();
+    }
   }
 
   // Solves with `damping` times the diagonal (and `floor`) added to it; false if the matrix is not
   // positive definite. solution() then holds the result.
   [[nodiscard]] bool solve(double damping, double floor) {
-    const std::size_t n = diagonal.size();
+    const std::size_t n = blocks_;
     for (std::size_t k = 0; k < n; ++k) {
       Block pivot = diagonal[k];
       pivot.diagonal() += (damping * diagonal[k].diagonal()).array().max(floor).matrix();
@@ -55,16 +68,17 @@ class BlockTridiagonal {
     return true;
   }
 
-  [[nodiscard]] const std::vector<Vector>& solution() const { return solution_; }
+  [[nodiscard]] const Storage<Vector>& solution() const { return solution_; }
 
-  std::vector<Block> diagonal;
-  std::vector<Block> below;  // below[k] is the block of row k + 1 and column k; the last is unused
-  std::vector<Vector> right;
+  Storage<Block> diagonal;
+  Storage<Block> below;  // below[k] is the block of row k + 1 and column k; the last is unused
+  Storage<Vector> right;
 
  private:
-  std::vector<Eigen::LLT<Block>> factor_;
-  std::vector<Block> coupling_;  // below[k] times the inverse transpose of the factor
-  std::vector<Vector> solution_;
+  std::size_t blocks_ = 0;
+  Storage<Eigen::LLT<Block>> factor_;
+  Storage<Block> coupling_;  // below[k] times the inverse transpose of the factor
+  Storage<Vector> solution_;
 };
 
 }  // namespace otter_nav::trajectory

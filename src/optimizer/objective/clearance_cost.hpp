@@ -1,0 +1,55 @@
+// lc max(0, clearance wanted - distance)^2 (the paper's f_c), of the hull's centre and of two
+// circles ahead and astern of it, at the time the spline is there.
+#pragma once
+
+#include <algorithm>
+
+#include "optimizer/objective/cost.hpp"
+
+namespace otter_nav::optimizer {
+
+class ClearanceCost : public Cost {
+ public:
+  void add(const Targets& targets, Point& point) const override {
+    if (targets.obstacles == nullptr) {
+      return;
+    }
+    const SplineLimits& limits = targets.limits;
+    const bool hull = limits.hull_offset_m > 0.0;
+    // Position first, the rest only near obstacles.
+    const Eigen::Vector2d p = point.position();
+    const map::DistanceField::Smooth centre = targets.obstacles->smooth(p, point.time_s);
+    if (centre.distance_m >
+        std::max(limits.clearance_m, hull ? limits.hull_offset_m + limits.hull_clearance_m : 0.0)) {
+      return;
+    }
+    const Rows& z = point.path();
+    point.addHinge(targets.weights.clearance, limits.clearance_m - centre.distance_m, kKneeM, [&] {
+      Rows rows = Rows::Zero();
+      rows.col(0) = -centre.gradient;
+      return rows;
+    });
+    if (!hull) {
+      return;
+    }
+    const Eigen::Vector2d w = point.dynamics.headingForce(z.col(1), z.col(2));
+    const Dynamics::Bow bow = point.dynamics.bow(w, w, point.force_floor_n);
+    for (const double offset : {-limits.hull_offset_m, limits.hull_offset_m}) {
+      const map::DistanceField::Smooth end =
+          targets.obstacles->smooth(p + offset * bow.ahead, point.time_s);
+      point.addHinge(
+          targets.weights.clearance, limits.hull_clearance_m - end.distance_m, kKneeM, [&] {
+            Rows rows;
+            rows.col(0) = -end.gradient;
+            rows.rightCols<4>() =
+                -offset * point.dynamics.byPath(point.dynamics.bowGradient(bow, end.gradient));
+            return rows;
+          });
+    }
+  }
+
+ private:
+  static constexpr double kKneeM = 1.0;
+};
+
+}  // namespace otter_nav::optimizer

@@ -1,0 +1,175 @@
+// What every cost and constraint of the objective is: a class that adds its value at a point of the
+// spline, and its gradient where that is wanted. SplineProblem's constructor lists them.
+//
+// Every term is a square (Gauss-Newton) or convex in what it adds, so that the model stays convex.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+#include "optimizer/objective/flat_gradient.hpp"
+#include "optimizer/objective/spline.hpp"
+#include "otter_nav/feasibility/obstacles.hpp"
+#include "otter_nav/trajectory/polynomial/hermite.hpp"
+
+namespace otter_nav::optimizer {
+
+struct SplineWeights {
+  double time = 1.0;
+  double length = 0.1;
+  double smooth = 0.01;
+  double clearance = 20.0;
+  double dynamics = 20.0;
+  double original = 0.0;
+};
+
+// What the penalties leave unpunished.
+struct SplineLimits {
+  double clearance_m = 1.0;       // by Obstacles::smooth, of the hull's centre
+  double hull_offset_m = 0.0;     // of two circles ahead and astern of it; 0: not watched
+  double hull_clearance_m = 0.0;  // of those circles' centres
+  double thrust_ahead_n = 50.0;   // per side
+  double thrust_astern_n = 50.0;
+  double speed_mps = 4.8;
+  double yaw_rate_radps = 1.2;
+  double heading_force_n = 8.0;  // least |w|
+};
+
+// What the terms are to reach, and among what.
+struct Targets {
+  SplineWeights weights;
+  SplineLimits limits;
+  double start_s = 0.0;  // the spline's start, on the obstacles' clock
+  // Not owned; null: no such term.
+  const feasibility::Obstacles* obstacles = nullptr;
+  const Originals* originals = nullptr;
+};
+
+// Derivatives of a scalar by position, velocity, acceleration, jerk and snap (columns).
+using Rows = Eigen::Matrix<double, 2, trajectory::kSepticOrders>;
+
+// One piece's share of the model: unknowns are 8 of its first knot, its duration, 8 of the second.
+struct PieceModel {
+  static constexpr int kUnknowns = 17;
+  static constexpr int kDuration = 8;
+  using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+
+  std::size_t index = 0;
+  Eigen::Matrix<double, 2, trajectory::kSepticEnds> ends;
+  double start_s = 0.0;
+  double duration_s = 1.0;
+  bool wanted = false;  // gradient and Hessian
+  double cost = 0.0;
+  Vector gradient;
+  Eigen::Matrix<double, kUnknowns, kUnknowns> hessian;  // lower triangle
+
+  void addCurvature(double curvature, const Vector& j) {
+    for (int c = 0; c < kUnknowns; ++c) {
+      hessian.col(c).noalias() += (curvature * j[c]) * j;
+    }
+  }
+  void addSquare(double weight, double residual, const Vector& j) {
+    gradient += 2.0 * weight * residual * j;
+    addCurvature(2.0 * weight, j);
+  }
+};
+
+// A point of a piece: what a term may ask of it, and where it adds what it costs. Computed as far
+// as it is asked for.
+class Point {
+ public:
+  // `unit` is the basis at `at` of the unit interval; `part` the point's part of the duration.
+  Point(const trajectory::SepticBasis& unit, std::size_t index, double at, double part,
+        const Dynamics& motion, double floor_n, PieceModel& model)
+      : number(index),
+        share(part),
+        time_s(model.start_s + at * model.duration_s),
+        dynamics(motion),
+        force_floor_n(floor_n),
+        piece(model),
+        unit_(unit) {}
+
+  const std::size_t number;  // of the piece's quadrature points
+  const double share;
+  const double time_s;  // on the obstacles' clock
+  const Dynamics& dynamics;
+  const double force_floor_n;  // |w| below this is treated as this
+  PieceModel& piece;
+
+  [[nodiscard]] double dt() const { return piece.duration_s * share; }
+  // Without the derivatives.
+  [[nodiscard]] Eigen::Vector2d position() const {
+    Eigen::Vector2d p = Eigen::Vector2d::Zero();
+    double power = 1.0;
+    for (int m = 0; m < 4; ++m) {
+      p += power * (unit_(0, m) * piece.ends.col(m) + unit_(0, m + 4) * piece.ends.col(m + 4));
+      power *= piece.duration_s;
+    }
+    return p;
+  }
+  // Position to snap.
+  [[nodiscard]] const Rows& path() {
+    if (!has_path_) {
+      basis_ = trajectory::scaleBasis(unit_, piece.duration_s);
+      slope_.noalias() = piece.ends * basis_.slope.transpose();
+      path_ = piece.ends * basis_.value.transpose();
+      has_path_ = true;
+    }
+    return path_;
+  }
+  // Thrusts and yaw rate, with gradients.
+  [[nodiscard]] const FlatGradient& demand() {
+    if (!has_demand_) {
+      vessel::FlatPoint flat;
+      flat.velocity = path().col(1);
+      flat.acceleration = path_.col(2);
+      flat.jerk = path_.col(3);
+      flat.snap = path_.col(4);
+      demand_ = dynamics.gradient(flat, force_floor_n);
+      has_demand_ = true;
+    }
+    return demand_;
+  }
+
+  // d scalar / d unknowns from d scalar / d derivatives; path() has been asked for.
+  [[nodiscard]] PieceModel::Vector chain(const Rows& rows) const {
+    const Eigen::Matrix<double, 2, trajectory::kSepticEnds> by_ends = rows * basis_.value;
+    PieceModel::Vector j;
+    for (int m = 0; m < 4; ++m) {
+      j.segment<2>(2 * m) = by_ends.col(m);
+      j.segment<2>(9 + 2 * m) = by_ends.col(m + 4);
+    }
+    j[PieceModel::kDuration] = rows.cwiseProduct(slope_).sum();
+    return j;
+  }
+  // weight * max(0, excess)^2, growing linearly from `knee` on (Huber), so that a bad first guess
+  // does not drown all else; `rows` makes the derivative of excess.
+  template <typename MakeRows>
+  void addHinge(double weight, double excess, double knee, const MakeRows& rows) {
+    if (excess <= 0.0) {
+      return;
+    }
+    const double held = std::min(excess, knee);
+    piece.cost += weight * held * (2.0 * excess - held);
+    if (piece.wanted) {
+      piece.addSquare(weight * held / excess, excess, chain(rows()));
+    }
+  }
+
+ private:
+  const trajectory::SepticBasis& unit_;
+  bool has_path_ = false;
+  bool has_demand_ = false;
+  trajectory::ScaledBasis basis_;
+  Rows slope_;  // of the path with respect to the duration
+  Rows path_;
+  FlatGradient demand_;
+};
+
+class Cost {
+ public:
+  virtual ~Cost() = default;
+  virtual void add(const Targets& targets, Point& point) const = 0;
+};
+
+}  // namespace otter_nav::optimizer

@@ -1,0 +1,98 @@
+// The vessel's limits (the paper's f_d) as penalties ld max(0, excess)^2, forces in shares of one
+// thruster's.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimizer/objective/cost.hpp"
+#include "otter_nav/base/planar.hpp"
+
+namespace otter_nav::optimizer {
+
+constexpr double kForceKnee = 0.3;   // exceeded by more than this share, it counts linearly
+constexpr double kMotionKnee = 1.0;  // of speed, m/s, and yaw rate, rad/s
+
+[[nodiscard]] inline Rows byDerivatives(const FlatRow& row, double scale) {
+  Rows rows;
+  rows.col(0).setZero();
+  rows.rightCols<4>() = scale * row;
+  return rows;
+}
+
+// Both thrusters, ahead and astern.
+class ThrustLimit : public Cost {
+ public:
+  explicit ThrustLimit(double force_scale_n) : inverse_(1.0 / force_scale_n) {}
+
+  void add(const Targets& targets, Point& point) const override {
+    const FlatGradient& g = point.demand();
+    const double weight = targets.weights.dynamics;
+    for (const double side : {-1.0, 1.0}) {
+      const double thrust = 0.5 * (g.surge_n + side * g.difference_n);
+      for (const double sign : {1.0, -1.0}) {
+        const double most =
+            sign > 0.0 ? targets.limits.thrust_ahead_n : targets.limits.thrust_astern_n;
+        point.addHinge(weight, (sign * thrust - most) * inverse_, kForceKnee, [&] {
+          return byDerivatives(0.5 * (g.surge + side * g.difference), sign * inverse_);
+        });
+      }
+    }
+  }
+
+ private:
+  double inverse_;
+};
+
+class YawRateLimit : public Cost {
+ public:
+  void add(const Targets& targets, Point& point) const override {
+    const FlatGradient& g = point.demand();
+    point.addHinge(targets.weights.dynamics,
+                   std::abs(g.yaw_rate_radps) - targets.limits.yaw_rate_radps, kMotionKnee,
+                   [&] { return byDerivatives(g.yaw_rate, g.yaw_rate_radps < 0.0 ? -1.0 : 1.0); });
+  }
+};
+
+// Over ground.
+class SpeedLimit : public Cost {
+ public:
+  void add(const Targets& targets, Point& point) const override {
+    const Eigen::Vector2d velocity = point.path().col(1);
+    const double speed = velocity.norm();
+    point.addHinge(targets.weights.dynamics, speed - targets.limits.speed_mps, kMotionKnee, [&] {
+      Rows rows = Rows::Zero();
+      rows.col(1) = velocity / speed;
+      return rows;
+    });
+  }
+};
+
+// |w| by its component along the course: a heading against the course counts as missing it all.
+class HeadingForceLimit : public Cost {
+ public:
+  explicit HeadingForceLimit(double force_scale_n) : scale_n_(force_scale_n) {}
+
+  void add(const Targets& targets, Point& point) const override {
+    constexpr double kSlowMps = 0.5;
+    const Eigen::Vector2d velocity = point.path().col(1);
+    const double speed = velocity.norm();
+    if (speed <= 1e-3) {
+      return;
+    }
+    const Eigen::Vector2d course = velocity / speed;
+    const Eigen::Vector2d w = point.dynamics.headingForce(velocity, point.path().col(2));
+    const double missing = (targets.limits.heading_force_n - course.dot(w)) / scale_n_;
+    point.addHinge(targets.weights.dynamics, missing, kForceKnee, [&] {
+      Rows rows = byDerivatives(point.dynamics.byPath(course), -1.0 / scale_n_);
+      const Eigen::Vector2d turn = across(course);
+      rows.col(1) -= turn.dot(w) / (std::max(speed, kSlowMps) * scale_n_) * turn;
+      return rows;
+    });
+  }
+
+ private:
+  double scale_n_;
+};
+
+}  // namespace otter_nav::optimizer
