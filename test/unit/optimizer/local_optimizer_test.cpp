@@ -73,7 +73,8 @@ TEST(SquaredJerk, IsTheIntegral) {
   for (int i = 0; i < kSteps; ++i) {
     sum += piece.flat(piece.duration_s * (i + 0.5) / kSteps).jerk.squaredNorm();
   }
-  EXPECT_NEAR(trajectory::squaredJerk(piece), sum * piece.duration_s / kSteps, 1e-5 * trajectory::squaredJerk(piece));
+  EXPECT_NEAR(trajectory::squaredJerk(piece), sum * piece.duration_s / kSteps,
+              1e-5 * trajectory::squaredJerk(piece));
 }
 
 TEST(OptimizerOptions, ShippedFileIsRead) {

@@ -121,6 +121,28 @@ TEST_F(SplineProblemTest, GradientOfAnEndThatMovesWithItsManoeuvreIsThatOfTheCos
   }
 }
 
+// A wall to starboard of the spline that comes nearer with time.
+struct ComingWall : feasibility::ObstacleLayer {
+  [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const override {
+    return position.y() - 0.2 * time_s + 1.0;
+  }
+  [[nodiscard]] double rateBound() const override { return 0.2; }
+  [[nodiscard]] map::DistanceField::Smooth smooth(const Eigen::Vector2d& position,
+                                                  double time_s) const override {
+    return {clearance(position, time_s), Eigen::Vector2d::UnitY()};
+  }
+};
+
+TEST_F(SplineProblemTest, ObstaclesCountWhereTheyAreWhenTheSplineIsThere) {
+  Random random(7);
+  const Spline spline = bentSpline(random);
+  const ComingWall wall;
+  obstacles.add(wall);
+  const double at_first = problem.evaluate(spline, nullptr);
+  problem.targets.start_s = 5.0;
+  EXPECT_GT(problem.evaluate(spline, nullptr), at_first + 1.0);
+}
+
 TEST_F(SplineProblemTest, ClosedFormStepIsTheDenseSolution) {
   Random random(11);
   const Spline spline = bentSpline(random);
