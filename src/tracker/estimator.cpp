@@ -9,38 +9,71 @@
 
 namespace otter_nav::tracker {
 
+namespace {
+
+// What the model leaves open, and how it wanders: standard deviations per square root of a second.
+constexpr double kVelocityWalkMps = 0.02;
+constexpr double kYawRateWalkRadps = 0.02;
+// A force fixed in the earth frame and a moment about the yaw axis. Wind and waves push a hull by
+// its area, so walks and what is not known at the start go with length times beam, the moment's
+// with the length again. The walk of the force is slow on purpose: waves taken for a force would be
+// thrown at the propellers.
+constexpr double kForceWalkNpm2 = 0.5 / 2.16;
+constexpr double kForceSigmaNpm2 = 10.0 / 2.16;
+constexpr double kMomentWalkNpm2 = 10.0 / 4.32;
+constexpr double kMomentWalkInWindNpm2 = 2.0 / 4.32;  // what the wind's own moment leaves
+constexpr double kMomentSigmaNpm2 = 5.0 / 4.32;
+constexpr double kForceMostNpm2 = 80.0 / 2.16;  // more is not believed
+constexpr double kMomentMostNpm2 = 60.0 / 4.32;
+constexpr double kCurrentMostMps = 1.5;
+// Of q = |w| w, for vessels whose model knows wind loads.
+constexpr double kWindWalkM2ps2 = 10.0;
+constexpr double kWindSigmaM2ps2 = 30.0;
+constexpr double kWindMostMps = 20.0;
+// The middle of the waves' band and their relative damping.
+constexpr double kWaveRadps = 2.0;
+constexpr double kWaveDamping = 0.2;
+
+}  // namespace
+
 using vessel::kPsi;
 using vessel::kSurge;
 using vessel::kSway;
 using vessel::kYawRate;
 
-Estimator::Estimator(const EstimatorOptions& options, const vessel::ManoeuvringModel& model,
-                     const vessel::Thrusters& thrusters)
-    : options_(options), model_(model), thrusters_(thrusters) {
+Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel)
+    : options_(options), model_(vessel.manoeuvring), thrusters_(vessel.thrusters) {
   const auto& o = options_;
   measurement_variance_ << o.position_sigma_m, o.position_sigma_m, o.heading_sigma_rad,
       o.velocity_sigma_mps, o.velocity_sigma_mps, o.yaw_rate_sigma_radps;
   measurement_variance_ = measurement_variance_.cwiseAbs2();
-  walk_variance_ << 0.0, 0.0, 0.0, o.velocity_walk_mps, o.velocity_walk_mps, o.yaw_rate_walk_radps,
-      o.force_walk_n, o.force_walk_n,
-      model.feelsWind() ? o.moment_walk_in_wind_nm : o.moment_walk_nm, o.current_walk_mps,
-      o.current_walk_mps, o.wind_walk_m2ps2, o.wind_walk_m2ps2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const vessel::Hull& hull = vessel.hull;
+  const double area_m2 = hull.length_m * hull.beam_m;
+  const double area_moment_m3 = area_m2 * hull.length_m;
+  force_most_n_ = kForceMostNpm2 * area_m2;
+  moment_most_nm_ = kMomentMostNpm2 * area_moment_m3;
+  const double force_walk = kForceWalkNpm2 * area_m2;
+  const double moment_walk =
+      (model_.feelsWind() ? kMomentWalkInWindNpm2 : kMomentWalkNpm2) * area_moment_m3;
+  walk_variance_ << 0.0, 0.0, 0.0, kVelocityWalkMps, kVelocityWalkMps, kYawRateWalkRadps,
+      force_walk, force_walk, moment_walk, o.current_walk_mps, o.current_walk_mps, kWindWalkM2ps2,
+      kWindWalkM2ps2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
   walk_variance_ = walk_variance_.cwiseAbs2().eval();
   // A driven oscillator's velocity has the variance intensity / (4 damping frequency).
-  const double drive = std::sqrt(4.0 * o.wave_damping * o.wave_frequency_radps);
+  const double drive = std::sqrt(4.0 * kWaveDamping * kWaveRadps);
   walk_variance_.segment<3>(kWaveRate) << o.wave_velocity_mps, o.wave_velocity_mps,
       o.wave_yaw_rate_radps;
   walk_variance_.segment<3>(kWaveRate) *= drive;
   walk_variance_.segment<3>(kWaveRate) = walk_variance_.segment<3>(kWaveRate).cwiseAbs2().eval();
   if (o.enabled) {
-    covariance_.diagonal().segment<7>(kForce) << o.force_sigma_n, o.force_sigma_n,
-        o.moment_sigma_nm, o.current_sigma_mps, o.current_sigma_mps, o.wind_sigma_m2ps2,
-        o.wind_sigma_m2ps2;
+    covariance_.diagonal().segment<7>(kForce) << kForceSigmaNpm2 * area_m2,
+        kForceSigmaNpm2 * area_m2, kMomentSigmaNpm2 * area_moment_m3, 0.0, 0.0, kWindSigmaM2ps2,
+        kWindSigmaM2ps2;
     covariance_ = covariance_.cwiseAbs2().eval();
   } else {
     walk_variance_.segment<7>(kForce).setZero();
   }
-  if (!model.feelsWind()) {
+  if (!model_.feelsWind()) {
     walk_variance_.segment<2>(kWind).setZero();
     covariance_.diagonal().segment<2>(kWind).setZero();
   }
@@ -58,7 +91,7 @@ void Estimator::reset(const vessel::State& measured) {
   const Eigen::Vector3d sigma(options_.wave_velocity_mps, options_.wave_velocity_mps,
                               options_.wave_yaw_rate_radps);
   covariance_.diagonal().segment<3>(kWaveRate) = sigma.cwiseAbs2();
-  covariance_.diagonal().segment<3>(kWave) = (sigma / options_.wave_frequency_radps).cwiseAbs2();
+  covariance_.diagonal().segment<3>(kWave) = (sigma / kWaveRadps).cwiseAbs2();
 }
 
 Eigen::Matrix<double, 6, Estimator::kSize> Estimator::measurement() const {
@@ -132,10 +165,10 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   from_current(1, 0) -= state_[kYawRate];
   f.block<3, 2>(kSurge, kCurrent) = dt_s * from_current * body_from_earth;
   f.block<3, 2>(kSurge, kWind) = dt_s * fromWind();
-  const double w = options_.wave_frequency_radps;
+  const double w = kWaveRadps;
   f.block<3, 3>(kWave, kWaveRate).diagonal().setConstant(dt_s);
   f.block<3, 3>(kWaveRate, kWave).diagonal().setConstant(-dt_s * w * w);
-  f.block<3, 3>(kWaveRate, kWaveRate).diagonal().array() -= 2.0 * dt_s * options_.wave_damping * w;
+  f.block<3, 3>(kWaveRate, kWaveRate).diagonal().array() -= 2.0 * dt_s * kWaveDamping * w;
   return f;
 }
 
@@ -145,8 +178,8 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   covariance_.noalias() = spread * f.transpose();
   covariance_.diagonal() += dt_s * walk_variance_;
   // Semi-implicit, so that the oscillator keeps its energy.
-  const double w = options_.wave_frequency_radps;
-  wave_rate_ -= dt_s * (w * w * wave_ + 2.0 * options_.wave_damping * w * wave_rate_);
+  const double w = kWaveRadps;
+  wave_rate_ -= dt_s * (w * w * wave_ + 2.0 * kWaveDamping * w * wave_rate_);
   wave_ += dt_s * wave_rate_;
   state_ = rk4Step(
       [&](double, const vessel::State& x) {
@@ -185,13 +218,12 @@ void Estimator::limit() {
       v *= limit / norm;
     }
   };
-  clampNorm(disturbance_.force_n, options_.force_max_n);
-  clampNorm(disturbance_.current_mps, options_.current_max_mps);
-  clampNorm(wind_pressure_, options_.wind_max_mps * options_.wind_max_mps);
+  clampNorm(disturbance_.force_n, force_most_n_);
+  clampNorm(disturbance_.current_mps, kCurrentMostMps);
+  clampNorm(wind_pressure_, kWindMostMps * kWindMostMps);
   const double size = wind_pressure_.norm();
   disturbance_.wind_mps = size > 0.0 ? (wind_pressure_ / std::sqrt(size)).eval() : wind_pressure_;
-  disturbance_.moment_nm =
-      std::clamp(disturbance_.moment_nm, -options_.moment_max_nm, options_.moment_max_nm);
+  disturbance_.moment_nm = std::clamp(disturbance_.moment_nm, -moment_most_nm_, moment_most_nm_);
 }
 
 }  // namespace otter_nav::tracker

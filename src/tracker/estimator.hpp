@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "otter_nav/tracker/estimator_options.hpp"
+#include "otter_nav/tracker/options.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -17,8 +17,7 @@ namespace otter_nav::tracker {
 
 class Estimator {
  public:
-  Estimator(const EstimatorOptions& options, const vessel::ManoeuvringModel& model,
-            const vessel::Thrusters& thrusters);
+  Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel);
 
   // Starts at a measured state; keeps what is known of the disturbance.
   void reset(const vessel::State& measured);
@@ -58,6 +57,8 @@ class Estimator {
   Eigen::Vector3d wave_rate_ = Eigen::Vector3d::Zero();
   Covariance covariance_ = Covariance::Zero();
   vessel::State measurement_variance_;
+  double force_most_n_;
+  double moment_most_nm_;
   Eigen::Matrix<double, kSize, 1> walk_variance_;
 };
 

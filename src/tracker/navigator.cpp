@@ -6,13 +6,20 @@
 #include "otter_nav/base/rk4.hpp"
 
 namespace otter_nav::tracker {
-namespace {}  // namespace
+namespace {
+
+// A step this far off the prediction is not believed until it has stayed for a while.
+constexpr double kJumpM = 1.0;
+constexpr double kJumpRad = 0.5;
+constexpr double kBelieveJumpAfterS = 0.3;
+
+}  // namespace
 
 Navigator::Navigator(const Options& options, const vessel::Parameters& vessel)
     : options_(options.odometry),
       period_s_(options.period_s),
       vessel_(vessel),
-      estimator_(options.estimator, vessel.manoeuvring, vessel.thrusters) {}
+      estimator_(options.estimator, vessel) {}
 
 void Navigator::addCommand(double stamp_s, const vessel::Thrusts& thrusts) {
   sent_[static_cast<std::size_t>(sent_count_ % kHistory)] = {stamp_s, thrusts};
@@ -52,8 +59,7 @@ void Navigator::forEachPiece(double until_s, vessel::Thrusts& acting, Step step)
 
 bool Navigator::believable(double stamp_s, const vessel::State& state) {
   const vessel::State jump = estimator_.innovation(state);
-  const bool jumps =
-      jump.head<2>().norm() > options_.jump_m || std::abs(jump[vessel::kPsi]) > options_.jump_rad;
+  const bool jumps = jump.head<2>().norm() > kJumpM || std::abs(jump[vessel::kPsi]) > kJumpRad;
   if (!jumps) {
     jumping_ = false;
     return true;
@@ -62,7 +68,7 @@ bool Navigator::believable(double stamp_s, const vessel::State& state) {
     jumping_ = true;
     jump_since_s_ = stamp_s;
   }
-  return stamp_s - jump_since_s_ >= options_.believe_jump_after_s;
+  return stamp_s - jump_since_s_ >= kBelieveJumpAfterS;
 }
 
 void Navigator::addOdometry(double stamp_s, const vessel::State& state) {

@@ -27,6 +27,10 @@ constexpr double kLightLoadN = 5.0;
 constexpr double kSameHeadingRad = 0.5;
 constexpr double kSlowMps = 0.05;
 constexpr double kLeastWaitingSpeedMps = 0.3;
+// The reference waits for a vessel that is farther behind it (at the start, or where the thrust is
+// spent), and catches up by at most so many seconds a second.
+constexpr double kLeashLengths = 1.0;
+constexpr double kCatchUpRate = 0.5;
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -43,20 +47,18 @@ struct ReferenceSource::Course {
 };
 
 ReferenceSource::ReferenceSource(const Options& options, const vessel::Parameters& vessel)
-    : method_(options.method),
-      vessel_(vessel),
-      leash_m_(options.leash_m),
-      catch_up_rate_(options.catch_up_rate) {}
+    : method_(options.method), vessel_(vessel) {}
 
 void ReferenceSource::wait(double now_s, const Vector2d& position) {
   const vessel::FlatPoint z = flat(now_s);
   const double speed = z.velocity.norm();
   const double elapsed = now_s - waited_at_s_;
   waited_at_s_ = now_s;
-  lag_s_ = std::max(0.0, lag_s_ - catch_up_rate_ * elapsed);
+  lag_s_ = std::max(0.0, lag_s_ - kCatchUpRate * elapsed);
   const double behind = speed > 0.0 ? (z.position - position).dot(z.velocity) / speed : 0.0;
-  if (behind > leash_m_) {
-    lag_s_ = std::min(lag_s_ + (behind - leash_m_) / std::max(speed, kLeastWaitingSpeedMps),
+  const double leash_m = kLeashLengths * vessel_.hull.length_m;
+  if (behind > leash_m) {
+    lag_s_ = std::min(lag_s_ + (behind - leash_m) / std::max(speed, kLeastWaitingSpeedMps),
                       now_s - start_s_);
   }
 }

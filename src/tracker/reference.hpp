@@ -62,8 +62,6 @@ class ReferenceSource {
   vessel::Parameters vessel_;
   const trajectory::Trajectory* trajectory_ = nullptr;
   double start_s_ = 0.0;
-  double leash_m_;
-  double catch_up_rate_;
   double lag_s_ = 0.0;
   double waited_at_s_ = 0.0;
   trajectory::Piece joining_;

@@ -23,8 +23,8 @@ class StationKeeper {
   // Thrusts that slow the vessel down on the heading it has.
   [[nodiscard]] vessel::Thrusts brake(const vessel::State& state,
                                       const vessel::Disturbance& disturbance) const;
-  [[nodiscard]] const Eigen::Vector2d& position() const { return position_; }
-  [[nodiscard]] double heading() const { return psi_rad_; }
+  // Whether the vessel lies at the spot on its heading.
+  [[nodiscard]] bool holds(const vessel::State& state) const;
   [[nodiscard]] bool weathervaning() const { return weathervanes_; }
 
  private:
@@ -35,6 +35,11 @@ class StationKeeper {
 
   HoldingOptions options_;
   vessel::Parameters vessel_;
+  double surge_gain_npm_;
+  double surge_damping_kgps_;
+  double yaw_gain_nm_;
+  double yaw_damping_nms_;
+  double side_load_n_;
   Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
   double psi_rad_ = 0.0;
   bool weathervanes_ = false;

@@ -1,10 +1,43 @@
 #include "otter_nav/tracker/tracker.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <utility>
 
-#include "tracker/core.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+#include "tracker/handover.hpp"
+#include "tracker/navigator.hpp"
+#include "tracker/predictive_controller.hpp"
+#include "tracker/reference.hpp"
+#include "tracker/station_keeper.hpp"
+#include "tracker/trajectory_check.hpp"
 
 namespace otter_nav::tracker {
+namespace {
+
+using Eigen::Vector2d;
+using vessel::kPsi;
+using vessel::kSurge;
+using vessel::kSway;
+using vessel::kYawRate;
+
+constexpr double kRestMps = 0.05;
+constexpr double kRestRadps = 0.05;
+// A reference farther from the vessel than this is approached along a curve, on which the offset
+// shrinks at this mean speed.
+constexpr double kJoinLengths = 1.5;
+constexpr double kJoinSpeedMps = 0.7;
+constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts the next one
+constexpr double kBrakeBlindS = 5.0;  // braking by the model alone without odometry; then no thrust
+
+Vector2d velocityOverGround(const vessel::State& x) {
+  const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
+  return x[kSurge] * e + x[kSway] * Vector2d(-e.y(), e.x());
+}
+
+}  // namespace
 
 std::string_view name(Mode mode) {
   switch (mode) {
@@ -22,6 +55,289 @@ std::string_view name(Mode mode) {
       return "fault";
   }
   return "unknown";
+}
+
+// What happens in one control step.
+class Tracker::Core {
+ public:
+  Core(const Options& options, const vessel::Parameters& vessel);
+
+  Status setTrajectory(trajectory::Trajectory trajectory, double start_s);
+  void addOdometry(double stamp_s, const vessel::State& state);
+  void requestStop(std::string_view reason);
+  Command step(double now_s);
+  void prepare(double next_s);
+
+  [[nodiscard]] const Prediction& prediction() const { return controller_.prediction(); }
+  [[nodiscard]] const Options& options() const { return options_; }
+
+ private:
+  struct Assignment {
+    trajectory::Trajectory trajectory;  // empty: stop
+    double start_s = 0.0;
+    std::string_view reason;
+  };
+  struct Measurement {
+    double stamp_s = 0.0;
+    vessel::State state = vessel::State::Zero();
+  };
+
+  void takeOdometry();
+  void takeAssignment(double now_s, const vessel::State& state);
+  void beginTracking(double now_s, const vessel::State& state);
+  void beginStop(std::string_view reason);
+  void beginHolding();
+  void watchFix(Fix fix, double now_s, const vessel::State& state);
+
+  // Each gives the thrusts of its mode.
+  vessel::Thrusts track(double now_s, const vessel::State& state, Command& command);
+  vessel::Thrusts hold(const vessel::State& state, Command& command);
+  vessel::Thrusts stop(const vessel::State& state, Fix fix, Command& command);
+
+  void finish(double now_s, const vessel::State& state, Command& command);
+  [[nodiscard]] vessel::Thrusts slew(const vessel::Thrusts& wanted) const;
+
+  Options options_;
+  vessel::Parameters vessel_;
+  Handover<Assignment> incoming_;
+  Ring<Measurement, 256> odometry_;
+  std::atomic<double> last_now_s_{0.0};
+
+  std::unique_ptr<Assignment> waiting_;  // not yet due, or already over: see fresh_
+  std::unique_ptr<Assignment> sailing_;
+  bool fresh_ = false;  // waiting_ is still to come
+  Navigator navigator_;
+  ReferenceSource reference_source_;
+  StationKeeper keeper_;
+  PredictiveController controller_;
+
+  Mode mode_ = Mode::kIdle;
+  std::string_view stop_reason_;
+  double lost_since_s_ = 0.0;
+  vessel::Thrusts last_thrusts_ = vessel::Thrusts::Zero();
+};
+
+Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
+    : options_(options),
+      vessel_(vessel),
+      navigator_(options, vessel),
+      reference_source_(options, vessel),
+      keeper_(options.holding, vessel),
+      controller_(options, vessel) {}
+
+Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double start_s) {
+  if (Status status = checkTrajectory(trajectory); !status) {
+    return status;
+  }
+  if (!std::isfinite(start_s)) {
+    return failure("trajectory start time is not finite");
+  }
+  const double over_for = last_now_s_.load() - (start_s + trajectory.duration());
+  if (over_for > 0.0) {
+    return failure("trajectory ended " + std::to_string(over_for) + " s ago");
+  }
+  auto assignment = std::make_unique<Assignment>();
+  assignment->trajectory = std::move(trajectory);
+  assignment->start_s = start_s;
+  incoming_.give(std::move(assignment));
+  return {};
+}
+
+void Tracker::Core::requestStop(std::string_view reason) {
+  auto assignment = std::make_unique<Assignment>();
+  assignment->reason = reason;
+  incoming_.give(std::move(assignment));
+}
+
+void Tracker::Core::addOdometry(double stamp_s, const vessel::State& state) {
+  odometry_.push({stamp_s, state});
+}
+
+void Tracker::Core::takeOdometry() {
+  Measurement m;
+  while (odometry_.pop(m)) {
+    navigator_.addOdometry(m.stamp_s, m.state);
+  }
+}
+
+void Tracker::Core::takeAssignment(double now_s, const vessel::State& state) {
+  if (incoming_.take(waiting_)) {
+    fresh_ = true;
+  }
+  if (!fresh_ || waiting_->start_s > now_s) {
+    return;
+  }
+  // The one that ends stays in waiting_ until the next is taken; then the giver frees it.
+  std::swap(waiting_, sailing_);
+  fresh_ = false;
+  if (sailing_->trajectory.empty()) {
+    beginStop(sailing_->reason);
+  } else {
+    beginTracking(now_s, state);
+  }
+}
+
+void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
+  const bool under_way = mode_ == Mode::kTracking;
+  mode_ = Mode::kTracking;
+  stop_reason_ = {};
+  reference_source_.start(&sailing_->trajectory, sailing_->start_s, now_s);
+  const vessel::FlatPoint z = reference_source_.flat(now_s);
+  const Vector2d offset = state.head<2>() - z.position;
+  if (offset.norm() > kJoinLengths * vessel_.hull.length_m) {
+    const Vector2d velocity_offset = velocityOverGround(state) - z.velocity;
+    reference_source_.join(now_s, offset, velocity_offset,
+                           std::max(4.0, offset.norm() / kJoinSpeedMps));
+  }
+  controller_.start(under_way && offset.norm() < kSamePathLengths * vessel_.hull.length_m);
+}
+
+void Tracker::Core::beginStop(std::string_view reason) {
+  if (mode_ != Mode::kStopped) {
+    mode_ = Mode::kStopping;
+  }
+  stop_reason_ = reason;
+  controller_.dropPlan();
+}
+
+void Tracker::Core::beginHolding() {
+  mode_ = Mode::kHolding;
+  const trajectory::Sample goal = reference_source_.at(reference_source_.end());
+  keeper_.start(goal.state.head<2>(), goal.state[kPsi]);
+  controller_.dropPlan();
+}
+
+vessel::Thrusts Tracker::Core::track(double now_s, const vessel::State& state, Command& command) {
+  const auto thrusts =
+      controller_.step(now_s, state, last_thrusts_, navigator_, reference_source_, command);
+  if (thrusts) {
+    return *thrusts;
+  }
+  beginStop("no usable plan");
+  return keeper_.brake(state, navigator_.disturbance());
+}
+
+vessel::Thrusts Tracker::Core::hold(const vessel::State& state, Command& command) {
+  if (keeper_.weathervaning()) {
+    command.reason = "the heading yields to the position";
+  }
+  return keeper_.step(state, navigator_.disturbance());
+}
+
+vessel::Thrusts Tracker::Core::stop(const vessel::State& state, Fix fix, Command& command) {
+  command.reason = stop_reason_;
+  const bool rests =
+      std::hypot(state[kSurge], state[kSway]) < kRestMps && std::abs(state[kYawRate]) < kRestRadps;
+  if (mode_ == Mode::kStopping && rests) {
+    mode_ = Mode::kStopped;
+    keeper_.start(state.head<2>(), state[kPsi]);
+  }
+  if (mode_ == Mode::kStopped) {
+    return fix == Fix::kLost ? vessel::Thrusts::Zero()
+                             : keeper_.step(state, navigator_.disturbance());
+  }
+  return keeper_.brake(state, navigator_.disturbance());
+}
+
+// Without odometry the model alone brakes the vessel; when that is too old to mean anything, the
+// thrusters rest until odometry comes back, and the vessel then holds the spot it is found at.
+void Tracker::Core::watchFix(Fix fix, double now_s, const vessel::State& state) {
+  if (fix != Fix::kLost) {
+    lost_since_s_ = now_s;
+    if (mode_ == Mode::kFault) {
+      mode_ = Mode::kStopped;
+      keeper_.start(state.head<2>(), state[kPsi]);
+    }
+    return;
+  }
+  if (mode_ == Mode::kTracking || mode_ == Mode::kHolding) {
+    beginStop("odometry lost");
+  }
+  if (mode_ != Mode::kIdle && now_s - lost_since_s_ > kBrakeBlindS) {
+    mode_ = Mode::kFault;
+  }
+}
+
+vessel::Thrusts Tracker::Core::slew(const vessel::Thrusts& wanted) const {
+  const double most = options_.thrust_rate_nps * options_.period_s;
+  const vessel::Thrusts change = (wanted - last_thrusts_).cwiseMax(-most).cwiseMin(most);
+  return vessel::clampThrusts(last_thrusts_ + change, vessel_.thrusters);
+}
+
+void Tracker::Core::prepare(double next_s) {
+  if (mode_ == Mode::kTracking) {
+    controller_.prepare(next_s, last_thrusts_, navigator_, reference_source_);
+  }
+}
+
+Command Tracker::Core::step(double now_s) {
+  last_now_s_.store(now_s);
+  Command command;
+  command.stamp_s = now_s;
+  takeOdometry();
+  const Fix fix = navigator_.fix(now_s);
+  const vessel::State state = navigator_.predict(now_s);
+  if (fix != Fix::kNone) {
+    takeAssignment(now_s, state);
+  }
+  watchFix(fix, now_s, state);
+  if (mode_ == Mode::kTracking && now_s >= reference_source_.end()) {
+    beginHolding();
+  }
+  if (mode_ == Mode::kTracking) {
+    reference_source_.wait(now_s, state.head<2>());
+  }
+  vessel::Thrusts wanted = vessel::Thrusts::Zero();
+  switch (mode_) {
+    case Mode::kTracking:
+      wanted = track(now_s, state, command);
+      break;
+    case Mode::kHolding:
+      wanted = hold(state, command);
+      break;
+    case Mode::kStopping:
+    case Mode::kStopped:
+      wanted = stop(state, fix, command);
+      break;
+    case Mode::kFault:
+      command.reason = "odometry lost";
+      break;
+    case Mode::kIdle:
+      break;
+  }
+  command.thrusts = slew(wanted);
+  finish(now_s, state, command);
+  return command;
+}
+
+void Tracker::Core::finish(double now_s, const vessel::State& state, Command& command) {
+  if (!command.thrusts.allFinite()) {
+    command.thrusts.setZero();
+    command.reason = "a thrust was not finite";
+  }
+  last_thrusts_ = command.thrusts;
+  navigator_.addCommand(now_s, command.thrusts);
+  command.mode = mode_;
+  command.estimate = state;
+  command.disturbance = navigator_.disturbance();
+  const double psi = state[kPsi];
+  const vessel::OutsideLoad load =
+      vessel::outsideLoad(psi, vessel_.manoeuvring, command.disturbance);
+  command.outside_force_n = Eigen::Rotation2Dd(psi) * Vector2d(load.surge_n, load.sway_n);
+  command.outside_moment_nm = load.yaw_nm;
+  if (command.reason.empty()) {
+    command.reason = navigator_.reason();
+  }
+  if (mode_ == Mode::kTracking || mode_ == Mode::kHolding) {
+    command.reference = reference_source_.at(now_s).state;
+    const vessel::FlatPoint z = reference_source_.flat(now_s);
+    command.reference.head<2>() = z.position;
+    command.tracking_error_m = (state.head<2>() - z.position).norm();
+    command.time_left_s = std::max(0.0, reference_source_.end() - now_s);
+    command.at_goal = mode_ == Mode::kHolding && keeper_.holds(state);
+  } else {
+    command.reference = state;
+  }
 }
 
 Tracker::Tracker(const Options& options, const vessel::Parameters& vessel)

@@ -2,7 +2,11 @@ otter_nav_test(unit_tracker_solver SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/sol
                ROOMS tracker tracker_oracle)
 otter_nav_test(unit_tracker_box_qp SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/box_qp_test.cpp
                ROOMS tracker)
-otter_nav_test(unit_tracker SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/tracker_test.cpp ROOMS tracker)
+otter_nav_test(unit_tracker
+  SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/tracker/options_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracker/tracker_test.cpp
+  ROOMS tracker)
 otter_nav_test(unit_tracker_allocation
                SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/allocation_test.cpp ROOMS tracker)
 otter_nav_test(unit_tracker_csv_path

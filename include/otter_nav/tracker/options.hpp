@@ -1,24 +1,36 @@
-// Settings of the tracker (config/tracker.yaml, docs/tracker.md).
+// Settings of the tracker (config/tracker.yaml, docs/tracker.md). What follows from the vessel, and
+// what nobody need set, is constants beside what they rule.
 #pragma once
 
 #include <string>
 
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/tracker/estimator_options.hpp"
+#include "otter_nav/tracker/limits.hpp"
 
 namespace otter_nav::tracker {
 
 // Diagonals of Q and R (paper, section V-B) per second of horizon: errors of the state in its own
-// units, thrusts in N.
+// units, thrusts in N. The last state weighs as one second.
 struct Weights {
-  double position = 100.0;       // per m^2
-  double heading = 1.0;          // per rad^2
-  double surge = 1.0;            // per (m/s)^2
-  double sway = 1.0;             // per (m/s)^2
-  double yaw_rate = 1.0;         // per (rad/s)^2
-  double thrust = 1e-4;          // per N^2, each thruster
-  double terminal_gain_s = 1.0;  // the last state weighs as this many seconds
+  double position = 100.0;
+  double heading = 50.0;
+  double surge = 1.0;
+  double sway = 1.0;
+  double yaw_rate = 0.1;
+  double thrust = 3e-4;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    constexpr config::Range kWeight{0.0, 1e9};
+    fields("position", o.position, kWeight, "per m^2");
+    fields("heading", o.heading, kWeight, "per rad^2");
+    fields("surge", o.surge, kWeight, "per (m/s)^2");
+    fields("sway", o.sway, kWeight, "per (m/s)^2");
+    fields("yaw_rate", o.yaw_rate, kWeight, "per (rad/s)^2");
+    fields("thrust", o.thrust, {1e-9, 1e9}, "per N^2, each thruster");
+  }
 };
 
 // What the reference takes from the trajectory.
@@ -27,56 +39,85 @@ enum class Method {
   kPlain,     // position, heading of the path and speed along it (the paper's comparison)
 };
 
-// What counts as an odometry one can steer by.
-struct OdometryOptions {
-  double predict_through_s = 0.5;  // gaps up to here are bridged by the model
-  double jump_m = 1.0;             // a step off the prediction that is not believed at once
-  double jump_rad = 0.5;
-  double believe_jump_after_s = 0.3;  // a jump that stays this long is the truth
-  double brake_blind_s = 5.0;         // braking by the model alone; then no thrust
-  double latency_s = 0.0;             // age of the state at its stamp, known delays of the sensor
+struct EstimatorOptions {
+  bool enabled = true;
+  double position_sigma_m = 0.01;
+  double heading_sigma_rad = 0.005;
+  double velocity_sigma_mps = 0.02;
+  double yaw_rate_sigma_radps = 0.01;
+  double current_walk_mps = 0.0;
+  double wave_velocity_mps = 0.0;
+  double wave_yaw_rate_radps = 0.0;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    constexpr config::Range kSigma{1e-6, 1e6};
+    constexpr config::Range kNotNegative{0.0, 1e6};
+    fields("enabled", o.enabled, "false: no force, moment, wind or current is estimated");
+    fields("position_sigma_m", o.position_sigma_m, kSigma, "of the odometry, as the next three");
+    fields("heading_sigma_rad", o.heading_sigma_rad, kSigma, "");
+    fields("velocity_sigma_mps", o.velocity_sigma_mps, kSigma, "");
+    fields("yaw_rate_sigma_radps", o.yaw_rate_sigma_radps, kSigma, "");
+    fields("current_walk_mps", o.current_walk_mps, kNotNegative,
+           "per sqrt(s); 0: no current is estimated, the force carries it");
+    fields("wave_velocity_mps", o.wave_velocity_mps, kNotNegative,
+           "of motion with the waves that the propellers leave alone; 0: none");
+    fields("wave_yaw_rate_radps", o.wave_yaw_rate_radps, kNotNegative, "of the same");
+  }
 };
 
-// Holding station at the end of a trajectory.
+struct OdometryOptions {
+  double latency_s = 0.0;
+  double predict_through_s = 0.5;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("latency_s", o.latency_s, {0.0, 1.0}, "age of a state at its stamp");
+    fields("predict_through_s", o.predict_through_s, {0.0, 5.0},
+           "gaps bridged by the model; after longer ones the vessel brakes");
+  }
+};
+
 struct HoldingOptions {
-  double heading_radius_m = 0.5;      // inside, the goal's heading is held
-  double weathervane_radius_m = 0.8;  // outside, position alone counts
-  double surge_gain_nspm = 25.0;      // N per m along the hull
-  double surge_damping_kgps = 30.0;   // N per m/s
-  double yaw_gain_nm = 25.0;          // N m per rad
-  double yaw_damping_nms = 20.0;      // N m per rad/s
-  double side_load_n = 15.0;          // abeam; below, the heading may be held again
-  double thrust_share = 0.8;          // of the limits
+  double heading_radius_m = 0.5;
+  double weathervane_radius_m = 0.8;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("heading_radius_m", o.heading_radius_m, {1e-6, 100.0}, "inside, the heading is held");
+    fields("weathervane_radius_m", o.weathervane_radius_m, {o.heading_radius_m, 100.0},
+           "outside, position alone counts");
+  }
 };
 
 struct Options {
   Method method = Method::kFlatness;
-  int stages = 20;         // N: 1 to kMaxStages
-  double horizon_s = 2.0;  // stages are of equal length
-  double period_s = 0.01;  // of the control loop
+  int stages = 40;
+  double horizon_s = 6.0;
+  double period_s = 0.01;
+  double thrust_rate_nps = 1500.0;
   Weights flatness;
-  Weights plain;
-  double thrust_share = 1.0;  // of the thrusters' limits the tracker may use
-  // Of either thrust's command, N/s: the command never jumps. With `plan_thrust_rate` the plan
-  // knows of it too (thrusts it cannot reach in time are out of its bounds).
-  double thrust_rate_nps = 1000.0;
-  bool plan_thrust_rate = true;
-  double keep_plan_s = 0.3;       // how long the last good plan stands in for a failing solver
-  double far_m = 0.5;             // position errors beyond weigh in proportion, not squared
-  double heading_step_rad = 0.5;  // most that one iteration turns the plan's headings
-  double step_share = 0.5;        // of each iteration's step: whole ones swing in saturation
-  // The reference waits for a vessel that falls behind it by more than this (at the start, or where
-  // the thrust is spent), and catches up by at most this share of time when it can.
-  double leash_m = 1.0;
-  double catch_up_rate = 0.5;
-  // A reference further from the vessel than this is approached along a joining curve.
-  double join_offset_m = 0.5;
-  double join_speed_mps = 0.7;
-  double arrival_radius_m = 1.0;  // for `at goal` in the status
-  double arrival_heading_rad = 0.17;
   EstimatorOptions estimator;
   OdometryOptions odometry;
   HoldingOptions holding;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields.choice(
+        "method", o.method,
+        config::Choices<Method>{{"flatness", Method::kFlatness}, {"plain", Method::kPlain}},
+        "flatness: all states and thrusts of the reference; plain: path and speed");
+    fields("stages", o.stages, {2.0, static_cast<double>(kMaxStages)},
+           "of the horizon, all of one length");
+    fields("horizon_s", o.horizon_s, {0.1, 20.0}, "how far the plan looks ahead");
+    fields("period_s", o.period_s, {0.001, 0.2}, "of the control loop");
+    fields("thrust_rate_nps", o.thrust_rate_nps, {1e-6, 1e6},
+           "of each thruster's command, N/s: the plan and the command keep it");
+    fields.group("flatness", o.flatness, "weights per second of horizon");
+    fields.group("estimator", o.estimator, "standard deviations");
+    fields.group("odometry", o.odometry, "");
+    fields.group("holding", o.holding, "station at the end of a trajectory");
+  }
 };
 
 [[nodiscard]] Result<Options> readOptions(config::Section section);

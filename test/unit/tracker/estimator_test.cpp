@@ -55,7 +55,7 @@ TEST(Estimator, FindsForceAndMoment) {
   Sea sea;
   sea.disturbance.force_n = {6.0, -9.0};
   sea.disturbance.moment_nm = 2.0;
-  Estimator estimator(shipped(), sea.vessel.manoeuvring, sea.vessel.thrusters);
+  Estimator estimator(shipped(), sea.vessel);
   estimator.reset(sea.measured());
   for (int i = 0; i < 6000; ++i) {
     sea.advance();
@@ -73,7 +73,7 @@ TEST(Estimator, FindsTheWindOfAVesselThatKnowsItsLoads) {
   sea.vessel.manoeuvring.wind_sway_kgpm = 0.5;
   sea.vessel.manoeuvring.wind_yaw_kg = -0.3;
   sea.disturbance.wind_mps = {3.0, -5.0};
-  Estimator estimator(shipped(), sea.vessel.manoeuvring, sea.vessel.thrusters);
+  Estimator estimator(shipped(), sea.vessel);
   estimator.reset(sea.measured());
   for (int i = 0; i < 12000; ++i) {
     sea.advance();
@@ -88,7 +88,7 @@ TEST(Estimator, FindsTheWindOfAVesselThatKnowsItsLoads) {
 double worstVelocityError(const EstimatorOptions& options) {
   Sea sea;
   sea.wave_m = 0.1;
-  Estimator estimator(options, sea.vessel.manoeuvring, sea.vessel.thrusters);
+  Estimator estimator(options, sea.vessel);
   estimator.reset(sea.measured());
   double worst = 0.0;
   for (int i = 0; i < 8000; ++i) {
@@ -108,8 +108,6 @@ TEST(Estimator, LeavesWaveMotionAside) {
   options.wave_velocity_mps = 0.0;
   const double without = worstVelocityError(options);
   options.wave_velocity_mps = 0.15;
-  options.wave_frequency_radps = 2.0;
-  options.wave_damping = 0.1;
   const double with = worstVelocityError(options);
   EXPECT_GT(without, 0.05);
   EXPECT_LT(with, 0.25 * without);

@@ -1,0 +1,126 @@
+#include "tracker/predictive_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace otter_nav::tracker {
+namespace {
+
+using vessel::kPsi;
+
+constexpr double kKeepPlanS = 0.3;  // how long the last good plan stands in for a failing solver
+constexpr double kTerminalGainS = 1.0;  // the last state weighs as this many seconds
+constexpr double kFarLengths = 0.25;    // position errors beyond weigh in proportion, not squared
+// Whole steps swing between two plans when thrust is spent, and may turn the plan's headings so far
+// that the iteration diverges.
+constexpr double kStepShare = 0.5;
+constexpr double kHeadingStepRad = 0.5;
+
+// Of the plain method, tuned on its own: its headings and sway are wrong by nature.
+Weights plainWeights() {
+  Weights w;
+  w.heading = 1.0;
+  w.sway = 0.0;
+  w.yaw_rate = 0.0;
+  return w;
+}
+
+OcpOptions problemOf(const Options& o, const vessel::Parameters& vessel) {
+  const Weights w = o.method == Method::kPlain ? plainWeights() : o.flatness;
+  OcpOptions ocp;
+  ocp.stages = o.stages;
+  ocp.step_s = o.horizon_s / o.stages;
+  vessel::State q;
+  q << w.position, w.position, w.heading, w.surge, w.sway, w.yaw_rate;
+  ocp.weights.state = q * ocp.step_s;
+  ocp.weights.terminal = q * kTerminalGainS;
+  ocp.weights.thrusts = vessel::Thrusts::Constant(w.thrust * ocp.step_s);
+  ocp.lower_n.setConstant(-vessel.thrusters.astern_max_n);
+  ocp.upper_n.setConstant(vessel.thrusters.ahead_max_n);
+  ocp.far_m = kFarLengths * vessel.hull.length_m;
+  return ocp;
+}
+
+RtiOptions iterationOf() {
+  RtiOptions rti;
+  rti.heading_step_rad = kHeadingStepRad;
+  rti.step_share = kStepShare;
+  return rti;
+}
+
+}  // namespace
+
+PredictiveController::PredictiveController(const Options& options, const vessel::Parameters& vessel)
+    : stages_(options.stages),
+      period_s_(options.period_s),
+      thrust_rate_nps_(options.thrust_rate_nps),
+      lag_s_(vessel.thrusters.lag_s),
+      solver_(problemOf(options, vessel), iterationOf(), vessel.manoeuvring, vessel.thrusters) {
+  prediction_.step_s = options.horizon_s / options.stages;
+}
+
+void PredictiveController::start(bool keep_plan) {
+  plan_valid_ = plan_valid_ && keep_plan;
+  prepared_ = false;
+}
+
+void PredictiveController::prepareFor(double start_s, double psi_rad, const vessel::Thrusts& last,
+                                      const Navigator& navigator, ReferenceSource& source) {
+  solver_.setDisturbance(navigator.disturbance());
+  solver_.limitRates(last, thrust_rate_nps_);
+  source.fill(start_s, prediction_.step_s, stages_, psi_rad, navigator.disturbance(), reference_);
+  if (plan_valid_) {
+    solver_.shift((start_s - solved_for_s_) / prediction_.step_s);
+  } else {
+    solver_.initialize(reference_);
+  }
+  solved_for_s_ = start_s;
+  prepared_for_s_ = start_s;
+  prepared_ = true;
+  solver_.prepare(reference_);
+}
+
+void PredictiveController::prepare(double next_s, const vessel::Thrusts& last,
+                                   const Navigator& navigator, ReferenceSource& source) {
+  if (plan_valid_) {
+    prepareFor(next_s + lag_s_, solver_.states()[0][kPsi], last, navigator, source);
+  }
+}
+
+std::optional<vessel::Thrusts> PredictiveController::step(double now_s, const vessel::State& state,
+                                                          const vessel::Thrusts& last,
+                                                          const Navigator& navigator,
+                                                          ReferenceSource& source,
+                                                          Command& command) {
+  // The thrusters follow with their lag, so the plan starts where the vessel will be by then.
+  const double start_s = now_s + lag_s_;
+  const vessel::State start = lag_s_ > 0.0 ? navigator.predict(start_s) : state;
+  if (!prepared_ || std::abs(prepared_for_s_ - start_s) > 0.5 * period_s_) {
+    prepareFor(start_s, start[kPsi], last, navigator, source);
+  }
+  prepared_ = false;
+  command.solver = solver_.feedback(start);
+  command.solver_iterations = solver_.iterations();
+  plan_valid_ = usable(command.solver);
+  if (!plan_valid_) {
+    command.reason = "no plan: the last one is kept";
+    return fromLastPlan(now_s);
+  }
+  last_good_s_ = now_s;
+  prediction_.start_s = start_s;
+  prediction_.size = stages_ + 1;
+  std::copy_n(solver_.states().begin(), prediction_.size, prediction_.states.begin());
+  plan_thrusts_ = solver_.thrusts();
+  return plan_thrusts_[0];
+}
+
+std::optional<vessel::Thrusts> PredictiveController::fromLastPlan(double now_s) const {
+  const double since = now_s + lag_s_ - prediction_.start_s;
+  const int stage = static_cast<int>(since / prediction_.step_s);
+  if (prediction_.size == 0 || now_s - last_good_s_ > kKeepPlanS || stage < 0 || stage >= stages_) {
+    return std::nullopt;
+  }
+  return plan_thrusts_[static_cast<std::size_t>(stage)];
+}
+
+}  // namespace otter_nav::tracker
