@@ -6,6 +6,8 @@ find_package(catkin REQUIRED COMPONENTS
   move_base_msgs nav_msgs rosbag roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs tf2 tf2_msgs
   tf2_ros visualization_msgs xmlrpcpp)
 
+# Messages are generated into the Python package of python/.
+catkin_python_setup()
 add_message_files(FILES
   ContactEvent.msg GuidePath.msg PlannerStatus.msg PlantState.msg ThrusterCommand.msg
   TrackerStatus.msg Trajectory.msg TrajectoryPiece.msg)
