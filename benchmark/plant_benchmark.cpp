@@ -106,9 +106,14 @@ Result<nlohmann::json> measure(const Arguments& a) {
   nlohmann::json report;
   std::printf("times real time, no lidar (step 0.01 s)\n");
   for (const char* vessel : {"otter", "otter_gazebo"}) {
+    const Result<vessel::Parameters> parameters =
+        vessel::loadParameters(a.config + "/vessels/" + vessel + ".yaml");
+    if (!parameters) {
+      return failure(parameters.error().message);
+    }
     for (const char* preset : {"none", "force10", "paper", "hard"}) {
       const Result<plant::Options> options = plant::loadOptions(
-          vessel, a.config + "/plant.yaml", a.config + "/disturbances/" + preset + ".yaml");
+          *parameters, a.config + "/plant.yaml", a.config + "/disturbances/" + preset + ".yaml");
       if (!options) {
         return failure(options.error().message);
       }
@@ -117,9 +122,7 @@ Result<nlohmann::json> measure(const Arguments& a) {
       report["real_time_factor"][vessel][preset] = factor;
     }
   }
-  plant::Options options;
-  options.lidar.range_noise_m = 0.01;
-  options.lidar.dropout_probability = 0.001;
+  const plant::Options options;
   const ScanTimes times = scanTimes(options, *world, a.scans);
   std::printf("lidar, %d beams on %d by %d cells: median %.3f ms, max %.3f ms\n",
               options.lidar.beams, world->geometry.width, world->geometry.height, times.median_ms,
@@ -133,7 +136,7 @@ Result<nlohmann::json> measure(const Arguments& a) {
 int main(int argc, char** argv) try {
   CLI::App app("Measures the plants' real-time factor and the lidar's scan time");
   Arguments arguments;
-  app.add_option("--config", arguments.config, "folder with plant.yaml and disturbances")
+  app.add_option("--config", arguments.config, "folder with plant.yaml, vessels and disturbances")
       ->capture_default_str();
   app.add_option("--world", arguments.world, "map_server YAML; a made archipelago if absent");
   app.add_option("--seconds", arguments.seconds, "simulated for each row")

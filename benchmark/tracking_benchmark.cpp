@@ -70,7 +70,7 @@ Result<benchmark::RunSetup> buildSetup(const Arguments& a) {
   if (!options) {
     return failure(options.error().message);
   }
-  const auto plant = plant::loadOptions(vessel->name, *plant_file, *disturbance_file);
+  const auto plant = plant::loadOptions(*vessel, *plant_file, *disturbance_file);
   if (!plant) {
     return failure(plant.error().message);
   }

@@ -22,7 +22,7 @@ struct Arguments {
   bool now_only = false;
 };
 
-Result<plant::Options> plantOptions(const Arguments& a) {
+Result<plant::Options> plantOptions(const Arguments& a, const vessel::Parameters& vessel) {
   const auto plant_file = config::findFile("config/plant.yaml");
   const auto disturbance_file = config::findFile("config/disturbances/" + a.disturbance + ".yaml");
   for (const auto* file : {&plant_file, &disturbance_file}) {
@@ -30,7 +30,7 @@ Result<plant::Options> plantOptions(const Arguments& a) {
       return failure(file->error().message);
     }
   }
-  return plant::loadOptions("otter_gazebo", *plant_file, *disturbance_file);
+  return plant::loadOptions(vessel, *plant_file, *disturbance_file);
 }
 
 // Wind and current at each step. Neither depends on the vessel, and this vessel's waves do not
@@ -54,9 +54,9 @@ int runOnce(const Arguments& a) {
   const auto vessel = vessel_file
                           ? vessel::loadParameters(*vessel_file)
                           : Result<vessel::Parameters>(failure(vessel_file.error().message));
-  const auto options = plantOptions(a);
-  if (!vessel || !options) {
-    std::cerr << "tracking_limit: " << (vessel ? options.error() : vessel.error()).message << "\n";
+  const auto options = vessel.and_then([&](const auto& v) { return plantOptions(a, v); });
+  if (!options) {
+    std::cerr << "tracking_limit: " << options.error().message << "\n";
     return 1;
   }
   benchmark::ForesightPlanner::Options planner_options;

@@ -10,7 +10,7 @@ Installs what is missing (root or sudo), builds, and sails a mission from its st
 Exits with 0 only if the vessel arrived without touching anything.
   --scenario FILE.yaml     scenario to sail (default: the demo archipelago)
   --mission K              mission of the scenario, counted from 0 (default 0)
-  --vessel NAME            otter_gazebo or otter (default otter_gazebo)
+  --vessel NAME            a name of config/vessels, or a file (default otter_gazebo)
   --disturbance NAME       none, force10, paper or hard (default paper)
   --speed X                times real time (default 1; 0: as fast as it goes)
   --seed N                 seed of sea, sensors and planner (default 1)
@@ -40,7 +40,7 @@ while [ $# -gt 0 ]; do
   case "$1" in
     --scenario) scenario=$(absolute "$2") ;;
     --mission) mission=$2 ;;
-    --vessel) vessel=$2 ;;
+    --vessel) if [ -f "$2" ]; then vessel=$(absolute "$2"); else vessel=$2; fi ;;
     --disturbance) disturbance=$2 ;;
     --speed) speed=$2 ;;
     --seed) seed=$2 ;;
@@ -55,7 +55,8 @@ number='^[0-9]+([.][0-9]+)?$'
 [[ $seed =~ ^[0-9]+$ ]] || die "--seed must be a whole number from 0, got '$seed'"
 [[ $speed =~ $number ]] || die "--speed must be a number from 0, got '$speed'"
 [ -f "$scenario" ] || die "--scenario: no file '$scenario'"
-[ -f "$top/config/vessels/$vessel.yaml" ] || die "--vessel must be otter_gazebo or otter, got '$vessel'"
+[ -f "$vessel" ] || [ -f "$top/config/vessels/$vessel.yaml" ] ||
+  die "--vessel must be a name of config/vessels, or a file, got '$vessel'"
 [ -f "$top/config/disturbances/$disturbance.yaml" ] ||
   die "--disturbance must be none, force10, paper or hard, got '$disturbance'"
 [ -z "$record" ] || [ -d "$(dirname "$record")" ] || die "--record: no folder '$(dirname "$record")'"

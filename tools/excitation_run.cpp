@@ -36,7 +36,8 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option("--vessel", a.vessel, "otter or otter_gazebo")->capture_default_str();
+  app.add_option("--vessel", a.vessel, "NAME of config/vessels or a YAML file")
+      ->capture_default_str();
   app.add_option("--plant", a.plant, "options of the plant")->capture_default_str();
   app.add_option("--disturbance", a.disturbance, "preset file")->capture_default_str();
   app.add_option("--excitation", a.excitation, "list of manoeuvres")->capture_default_str();
@@ -68,7 +69,12 @@ Result<plant::Simulator> makeSimulator(const Arguments& a) {
   if (!disturbance_file) {
     return failure(disturbance_file.error().message);
   }
-  Result<plant::Options> options = plant::loadOptions(a.vessel, *plant_file, *disturbance_file);
+  const Result<vessel::Parameters> vessel =
+      config::vesselFile(a.vessel).and_then(vessel::loadParameters);
+  if (!vessel) {
+    return failure(vessel.error().message);
+  }
+  Result<plant::Options> options = plant::loadOptions(*vessel, *plant_file, *disturbance_file);
   if (!options) {
     return failure(options.error().message);
   }

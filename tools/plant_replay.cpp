@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "number_in.hpp"
+#include "otter_nav/config/share.hpp"
 #include "otter_nav/plant/replay.hpp"
 
 namespace {
@@ -13,6 +14,7 @@ namespace {
 using namespace otter_nav;
 
 struct Arguments {
+  std::string vessel;
   plant::Options options;
   std::string input;
   std::string output;
@@ -22,9 +24,7 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& a, std::vector<double>& position) {
-  app.add_option("--vessel", a.options.vessel, "otter or otter_gazebo")
-      ->check(CLI::IsMember({"otter", "otter_gazebo"}))
-      ->required();
+  app.add_option("--vessel", a.vessel, "NAME of config/vessels or a YAML file")->required();
   app.add_option("--input", a.input, "CSV with t, n_left, n_right and perhaps the motion")
       ->required();
   app.add_option("--output", a.output, "CSV of the motion computed")->required();
@@ -44,7 +44,12 @@ void declare(CLI::App& app, Arguments& a, std::vector<double>& position) {
   app.add_flag("--no-lag", a.no_lag, "propellers take up a speed at once");
 }
 
-Result<plant::Recording> run(const Arguments& a) {
+Result<plant::Recording> run(Arguments a) {
+  Result<vessel::Parameters> vessel = config::vesselFile(a.vessel).and_then(vessel::loadParameters);
+  if (!vessel) {
+    return failure(vessel.error().message);
+  }
+  a.options.vessel = *std::move(vessel);
   Result<plant::Recording> input = plant::readRecording(a.input);
   if (!input) {
     return input;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "otter_nav/vessel/hull.hpp"
 #include "sensed_layers.hpp"
 
 namespace otter_nav::map {
@@ -72,19 +73,22 @@ class Changed {
 }  // namespace
 
 struct OccupancyMap::Sensed {
-  Sensed(OccupancyGrid the_chart, const OccupancyMapOptions& the_options)
-      : options(the_options),
+  Sensed(OccupancyGrid the_chart, const vessel::Hull& own_hull,
+         const OccupancyMapOptions& the_options)
+      : hull(own_hull),
+        hull_margin_m(the_options.hull_margin_m),
         chart(std::move(the_chart)),
         projection(chart),
-        layers(chart.geometry, options) {}
+        layers(chart.geometry, the_options) {}
 
   // A column that changed: what it is now.
   void project(std::size_t index, Changed& changed);
-  [[nodiscard]] bool onOwnHull(const SensorPose& sensor, const Eigen::Vector2d& p) const;
-  void clearOwnHull(const SensorPose& sensor, Changed& changed);
-  void insert(const SensorPose& sensor, const Scan& scan, Changed& changed);
+  [[nodiscard]] bool onOwnHull(const HullPose& own, const Eigen::Vector2d& p) const;
+  void clearOwnHull(const HullPose& own, Changed& changed);
+  void insert(const SensorPose& sensor, const HullPose& own, const Scan& scan, Changed& changed);
 
-  OccupancyMapOptions options;
+  vessel::Hull hull;
+  double hull_margin_m;
   OccupancyGrid chart;
   OccupancyGrid projection;
   SensedLayers layers;
@@ -104,26 +108,22 @@ void OccupancyMap::Sensed::project(std::size_t index, Changed& changed) {
   }
 }
 
-bool OccupancyMap::Sensed::onOwnHull(const SensorPose& sensor, const Eigen::Vector2d& p) const {
-  const Eigen::Vector2d local =
-      Eigen::Rotation2Dd(-sensor.yaw_rad) * (p - sensor.position.head<2>());
-  return std::abs(local.x() + options.sensor_ahead_m) <=
-             0.5 * options.hull_length_m + options.hull_margin_m &&
-         std::abs(local.y()) <= 0.5 * options.hull_beam_m + options.hull_margin_m;
+bool OccupancyMap::Sensed::onOwnHull(const HullPose& own, const Eigen::Vector2d& p) const {
+  const Eigen::Vector2d local = Eigen::Rotation2Dd(-own.psi_rad) * (p - own.position);
+  return std::abs(local.x()) <= 0.5 * hull.length_m + hull_margin_m &&
+         std::abs(local.y()) <= 0.5 * hull.beam_m + hull_margin_m;
 }
 
 // Where the vessel is, nothing else is.
-void OccupancyMap::Sensed::clearOwnHull(const SensorPose& sensor, Changed& changed) {
+void OccupancyMap::Sensed::clearOwnHull(const HullPose& own, Changed& changed) {
   const GridGeometry& g = chart.geometry;
-  const double reach = 0.5 * std::hypot(options.hull_length_m, options.hull_beam_m) +
-                       2.0 * options.hull_margin_m + std::abs(options.sensor_ahead_m);
-  const Eigen::Vector2d at = sensor.position.head<2>();
-  const Eigen::Vector2i low = g.cellAt(at - Eigen::Vector2d::Constant(reach));
-  const Eigen::Vector2i high = g.cellAt(at + Eigen::Vector2d::Constant(reach));
+  const double reach = vessel::circumscribedRadius(hull) + 2.0 * hull_margin_m;
+  const Eigen::Vector2i low = g.cellAt(own.position - Eigen::Vector2d::Constant(reach));
+  const Eigen::Vector2i high = g.cellAt(own.position + Eigen::Vector2d::Constant(reach));
   for (int row = std::max(0, low.y()); row <= std::min(g.height - 1, high.y()); ++row) {
     for (int column = std::max(0, low.x()); column <= std::min(g.width - 1, high.x()); ++column) {
       const std::size_t index = g.index(column, row);
-      if (layers.occupied(index) && onOwnHull(sensor, g.centreOf(column, row)) &&
+      if (layers.occupied(index) && onOwnHull(own, g.centreOf(column, row)) &&
           layers.clear(index)) {
         project(index, changed);
       }
@@ -132,7 +132,8 @@ void OccupancyMap::Sensed::clearOwnHull(const SensorPose& sensor, Changed& chang
 }
 
 // Hits first, so that a beam passing close by an obstacle does not take from what another met.
-void OccupancyMap::Sensed::insert(const SensorPose& sensor, const Scan& scan, Changed& changed) {
+void OccupancyMap::Sensed::insert(const SensorPose& sensor, const HullPose& own, const Scan& scan,
+                                  Changed& changed) {
   const GridGeometry& g = chart.geometry;
   const Eigen::Matrix3d rotation = rotationOf(sensor);
   const auto direction = [&](std::size_t i) -> Eigen::Vector3d {
@@ -150,7 +151,7 @@ void OccupancyMap::Sensed::insert(const SensorPose& sensor, const Scan& scan, Ch
     }
     const Eigen::Vector3d end = sensor.position + range * direction(i);
     const int layer = layers.layers().at(end.z());
-    if (layer < 0 || !g.contains(end.head<2>()) || onOwnHull(sensor, end.head<2>())) {
+    if (layer < 0 || !g.contains(end.head<2>()) || onOwnHull(own, end.head<2>())) {
       continue;
     }
     const Eigen::Vector2i cell = g.cellAt(end.head<2>());
@@ -174,8 +175,9 @@ void OccupancyMap::Sensed::insert(const SensorPose& sensor, const Scan& scan, Ch
   }
 }
 
-OccupancyMap::OccupancyMap(OccupancyGrid chart, const OccupancyMapOptions& options)
-    : sensed_(std::make_unique<Sensed>(std::move(chart), options)) {}
+OccupancyMap::OccupancyMap(OccupancyGrid chart, const vessel::Hull& own_hull,
+                           const OccupancyMapOptions& options)
+    : sensed_(std::make_unique<Sensed>(std::move(chart), own_hull, options)) {}
 OccupancyMap::~OccupancyMap() = default;
 OccupancyMap::OccupancyMap(OccupancyMap&&) noexcept = default;
 OccupancyMap& OccupancyMap::operator=(OccupancyMap&&) noexcept = default;
@@ -187,13 +189,18 @@ const OccupancyGrid& OccupancyMap::chart() const {
   return sensed_->chart;
 }
 
-Result<CellRectangle> OccupancyMap::insertScan(const SensorPose& sensor, const Scan& scan) {
-  if (const std::string why = whyRefused(sensed_->chart.geometry, sensor, scan); !why.empty()) {
+Result<CellRectangle> OccupancyMap::insertScan(const SensorPose& sensor, const HullPose& own,
+                                               const Scan& scan) {
+  std::string why = whyRefused(sensed_->chart.geometry, sensor, scan);
+  if (why.empty() && !(own.position.allFinite() && std::isfinite(own.psi_rad))) {
+    why = "the hull's pose is not a number";
+  }
+  if (!why.empty()) {
     return failure("scan refused: " + why);
   }
   Changed changed;
-  sensed_->insert(sensor, scan, changed);
-  sensed_->clearOwnHull(sensor, changed);
+  sensed_->insert(sensor, own, scan, changed);
+  sensed_->clearOwnHull(own, changed);
   return changed.rectangle();
 }
 

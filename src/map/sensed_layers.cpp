@@ -24,8 +24,8 @@ SensedLayers::SensedLayers(const GridGeometry& grid, const OccupancyMapOptions& 
       hit_log_odds_(octomap::logodds(options.hit_probability)),
       miss_log_odds_(octomap::logodds(options.miss_probability)) {
   tree_.setOccupancyThres(options.occupied_probability);
-  tree_.setClampingThresMin(options.min_probability);
-  tree_.setClampingThresMax(options.max_probability);
+  tree_.setClampingThresMin(OccupancyMapOptions::kMinProbability);
+  tree_.setClampingThresMax(OccupancyMapOptions::kMaxProbability);
   const Eigen::Vector2d corner = grid.centreOf(0, 0);
   first_ = tree_.coordToKey(corner.x(), corner.y(), options.band.min_m + 0.5 * grid.resolution_m);
   columns_.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));

@@ -1,5 +1,6 @@
 #include "map_node.hpp"
 
+#include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -39,8 +40,10 @@ Result<std::string> chartPath(const std::string& chart, const std::string& scena
 Result<std::unique_ptr<MapNode>> MapNode::create(config::Section section) {
   std::string chart;
   std::string scenario;
+  std::string vessel;
   section.read("chart", chart);
   section.read("scenario", scenario);
+  section.read("vessel", vessel);
   const Result<map::OccupancyMapOptions> options =
       map::readOccupancyMapOptions(section.child("map"));
   if (const Status status = section.finish(); !status) {
@@ -52,10 +55,16 @@ Result<std::unique_ptr<MapNode>> MapNode::create(config::Section section) {
   if (chart.empty() == scenario.empty()) {
     return failure(section.where() + ": give one of the parameters 'chart' and 'scenario'");
   }
+  const Result<vessel::Parameters> own =
+      config::vesselFile(vessel).and_then(vessel::loadParameters);
+  if (!own) {
+    return failure(section.where() + ": parameter 'vessel': " + own.error().message);
+  }
   return chartPath(chart, scenario)
       .and_then([&](const std::string& path) { return map::loadMap(path, options->band); })
       .map([&](map::OccupancyGrid grid) {
-        return std::unique_ptr<MapNode>(new MapNode(map::OccupancyMap(std::move(grid), *options)));
+        return std::unique_ptr<MapNode>(
+            new MapNode(map::OccupancyMap(std::move(grid), own->hull, *options)));
       });
 }
 
@@ -89,10 +98,10 @@ void MapNode::publishMapTo(const ros::SingleSubscriberPublisher& subscriber) con
   }
 }
 
-Result<map::SensorPose> MapNode::sensorPose(const std_msgs::Header& header) const {
+Result<map::SensorPose> MapNode::poseOf(const std::string& frame, const ros::Time& stamp) const {
   try {
     const geometry_msgs::Transform transform =
-        transforms_.lookupTransform(kMapFrame, header.frame_id, header.stamp).transform;
+        transforms_.lookupTransform(kMapFrame, frame, stamp).transform;
     const Eigen::Vector3d angles = ros_bridge::rollPitchYaw(
         {transform.rotation.w, transform.rotation.x, transform.rotation.y, transform.rotation.z});
     map::SensorPose pose;
@@ -106,6 +115,17 @@ Result<map::SensorPose> MapNode::sensorPose(const std_msgs::Header& header) cons
   }
 }
 
+// Sensor and hull are where tf says they are, so the sensor may sit anywhere on the vessel.
+Result<map::CellRectangle> MapNode::insert(const sensor_msgs::LaserScan& message) {
+  const ros::Time& stamp = message.header.stamp;
+  const Result<map::SensorPose> sensor = poseOf(message.header.frame_id, stamp);
+  const Result<map::SensorPose> base = poseOf(ros_bridge::kBaseFrame, stamp);
+  if (!sensor || !base) {
+    return failure((sensor ? base : sensor).error().message);
+  }
+  return map_.insertScan(*sensor, {base->position.head<2>(), base->yaw_rad}, toScan(message));
+}
+
 void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   if (message->header.stamp <= last_scan_) {
     if (message->header.stamp == last_scan_) {
@@ -115,10 +135,7 @@ void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
     }
     return;
   }
-  const Result<map::CellRectangle> changed =
-      sensorPose(message->header).and_then([&](const map::SensorPose& pose) {
-        return map_.insertScan(pose, toScan(*message));
-      });
+  const Result<map::CellRectangle> changed = insert(*message);
   if (!changed) {
     diagnostics_.refuse("scan", changed.error().message);
   }

@@ -29,7 +29,10 @@ class MapNode {
   explicit MapNode(map::OccupancyMap map);
 
   void onScan(const sensor_msgs::LaserScanConstPtr& message);
-  [[nodiscard]] Result<map::SensorPose> sensorPose(const std_msgs::Header& header) const;
+  [[nodiscard]] Result<map::CellRectangle> insert(const sensor_msgs::LaserScan& message);
+  // A frame's pose in the map frame.
+  [[nodiscard]] Result<map::SensorPose> poseOf(const std::string& frame,
+                                               const ros::Time& stamp) const;
   bool onSave(SaveMap::Request& request, SaveMap::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   // An update is sent for every scan, of one unchanged cell if need be: it says that the scan has

@@ -11,7 +11,7 @@ constexpr double kMaxSpeed = 1000.0;
 Result<PlantNodeOptions> readNodeOptions(config::Section& section) {
   PlantNodeOptions options;
   std::vector<double> start = {0.0, 0.0, 0.0};
-  section.read("vessel", options.vessel, std::vector<std::string>{"otter_gazebo", "otter"});
+  section.read("vessel", options.vessel);
   section.read("disturbance", options.disturbance);
   section.read("scenario", options.scenario);
   section.read("mission", options.mission, {0.0, 1e6});
@@ -51,7 +51,7 @@ Status takeScenario(PlantNodeOptions& options) {
 
 Result<PlantNodeSetup> readPlantNodeSetup(config::Section section) {
   Result<PlantNodeOptions> node = readNodeOptions(section);
-  Result<plant::Options> plant = plant::readOptions(section.child("plant"));
+  Result<plant::Options> plant = config::read<plant::Options>(section.child("plant"));
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);
   }
@@ -82,7 +82,12 @@ Result<PlantNodeSetup> readPlantNodeSetup(config::Section section) {
   if (!disturbance) {
     return failure(disturbance.error().message);
   }
-  plant->vessel = node->vessel;
+  Result<vessel::Parameters> vessel =
+      config::vesselFile(node->vessel).and_then(vessel::loadParameters);
+  if (!vessel) {
+    return failure(section.where() + ": parameter 'vessel': " + vessel.error().message);
+  }
+  plant->vessel = *std::move(vessel);
   plant->disturbance = *disturbance;
   return PlantNodeSetup{*node, *plant};
 }

@@ -1,4 +1,4 @@
-#include "otter_nav/plant/current.hpp"
+#include "current.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "otter_nav/plant/environment.hpp"
+#include "environment.hpp"
 
 #include <cmath>
 

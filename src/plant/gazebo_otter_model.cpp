@@ -1,7 +1,9 @@
-#include "otter_nav/plant/gazebo_otter_model.hpp"
+#include "gazebo_otter_model.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "kinematics.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -41,7 +43,7 @@ double sectionBuoyancy(double immersion_m) {
 
 }  // namespace
 
-GazeboOtterModel::GazeboOtterModel() {
+GazeboOtterModel::GazeboOtterModel() : PlantModel(0.0) {
   constexpr int kBisections = 60;
   double low = 0.0;
   double high = kPontoonRadius;
@@ -74,8 +76,7 @@ Eigen::Vector3d GazeboOtterModel::restoring(const Eigen::Vector3d& pose,
           pitch * std::cos(pose[2]) + tipping * sin_pitch};
 }
 
-PlantState GazeboOtterModel::derivative(const PlantState& x, const Eigen::Vector2d& /*command*/,
-                                        const Surroundings& around) const {
+PlantState GazeboOtterModel::hullDerivative(const PlantState& x, const Surroundings& around) const {
   const Vector6 nu = velocityOf(x);
   const Vector6 nu_water = nu - around.water_velocity;
   const vessel::Thrusts thrust = thrusts(x);
@@ -103,13 +104,8 @@ PlantState GazeboOtterModel::derivative(const PlantState& x, const Eigen::Vector
   return dx;
 }
 
-// Tilts stay below a tenth of a radian, so plane and tilt are kept apart.
 Vector6 GazeboOtterModel::poseRate(const PlantState& x) const {
-  const double c = std::cos(x[kYaw]);
-  const double s = std::sin(x[kYaw]);
-  Vector6 rate;
-  rate << c * x[kU] - s * x[kV], s * x[kU] + c * x[kV], x[kW], x[kP], x[kQ], x[kR];
-  return rate;
+  return levelPoseRate(x);
 }
 
 PlantState GazeboOtterModel::settled() const {

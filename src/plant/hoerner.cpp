@@ -1,4 +1,4 @@
-#include "otter_nav/plant/hoerner.hpp"
+#include "hoerner.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "otter_nav/plant/lidar.hpp"
+#include "lidar.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

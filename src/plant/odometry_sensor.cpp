@@ -1,4 +1,4 @@
-#include "otter_nav/plant/odometry_sensor.hpp"
+#include "odometry_sensor.hpp"
 
 #include "otter_nav/base/angles.hpp"
 

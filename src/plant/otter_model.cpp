@@ -1,10 +1,10 @@
-#include "otter_nav/plant/otter_model.hpp"
+#include "otter_model.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "otter_nav/plant/hoerner.hpp"
-#include "otter_nav/plant/kinematics.hpp"
+#include "hoerner.hpp"
+#include "kinematics.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -21,6 +21,7 @@ constexpr double kYawGyration = 0.25 * kLength;
 // Bollard pull of both propellers: 24.4 kg ahead, 13.6 kg astern.
 constexpr double kAheadPull = 24.4 * kGravity;
 constexpr double kAsternPull = 13.6 * kGravity;
+constexpr double kPropellerLag = 0.1;
 // One pontoon.
 constexpr double kPontoonBeam = 0.25;
 constexpr double kPontoonOffset = 0.395;  // also the propellers' lever arm
@@ -67,8 +68,8 @@ Vector6 poseRateAbout(const Eigen::Vector3d& trim_pose, const PlantState& x) {
 }  // namespace
 
 OtterModel::OtterModel(const PayloadOptions& payload, bool propeller_lag)
-    : payload_(payload),
-      propeller_lag_(propeller_lag),
+    : PlantModel(propeller_lag ? kPropellerLag : 0.0),
+      payload_(payload),
       propeller_{0.02216 / 2.0, 0.01289 / 2.0, 0.5 * kAheadPull, 0.5 * kAsternPull},
       mass_kg_(kHullMass + payload.mass_kg) {
   setUpInertia();
@@ -193,8 +194,7 @@ Eigen::Vector3d OtterModel::trim(double roll_rad, double pitch_rad) const {
   return vertical_compliance_ * Eigen::Vector3d(force.z(), moment.x(), moment.y());
 }
 
-PlantState OtterModel::derivative(const PlantState& x, const Eigen::Vector2d& command,
-                                  const Surroundings& around) const {
+PlantState OtterModel::hullDerivative(const PlantState& x, const Surroundings& around) const {
   const Vector6 nu = velocityOf(x);
   const Vector6 nu_water = nu - around.water_velocity;
   Vector6 nu_surface = nu_water;  // what damps: relative to the moving surface, too
@@ -214,9 +214,6 @@ PlantState OtterModel::derivative(const PlantState& x, const Eigen::Vector2d& co
   // The water's velocity seen from the turning body.
   dx.head<3>() -= nu.tail<3>().cross(around.water_velocity.head<3>());
   dx.segment<6>(kNorth) = poseRateAbout(trim_pose, x);
-  dx.tail<2>() = propellersAtOnce()
-                     ? Eigen::Vector2d::Zero()
-                     : Eigen::Vector2d((saturate(command) - x.tail<2>()) / propeller_.lag_s);
   return dx;
 }
 

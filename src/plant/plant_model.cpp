@@ -1,18 +1,23 @@
 #include "otter_nav/plant/plant_model.hpp"
 
-#include "otter_nav/plant/gazebo_otter_model.hpp"
-#include "otter_nav/plant/otter_model.hpp"
+#include "gazebo_otter_model.hpp"
+#include "otter_model.hpp"
+#include "planar_model.hpp"
 
 namespace otter_nav::plant {
 
 Result<std::unique_ptr<PlantModel>> makePlantModel(const Options& options) {
-  if (options.vessel == "otter") {
+  const std::string& name = options.vessel.plant_model;
+  if (name == "planar") {
+    return std::make_unique<PlanarModel>(options.vessel);
+  }
+  if (name == "otter") {
     return std::make_unique<OtterModel>(options.payload, options.propeller_lag);
   }
-  if (options.vessel == "otter_gazebo") {
+  if (name == "otter_gazebo") {
     return std::make_unique<GazeboOtterModel>();
   }
-  return failure("vessel '" + options.vessel + "' is none of: otter, otter_gazebo");
+  return failure("plant_model '" + name + "' is none of: planar, otter, otter_gazebo");
 }
 
 }  // namespace otter_nav::plant

@@ -36,8 +36,7 @@ Recording replay(const PlantModel& model, const Recording& recording, const Stea
     const double interval_s = next.time_s - here.time_s;
     const int steps = std::max(1, static_cast<int>(std::ceil(interval_s / step_s - kRounding)));
     for (int i = 0; i < steps; ++i) {
-      const Eigen::Vector2d command = speeds_of(i == 0 ? here : next);
-      x = step(model, x, command, interval_s / steps, surroundings_at);
+      x = model.step(x, speeds_of(here), interval_s / steps, surroundings_at);
     }
     if (model.propellersAtOnce()) {
       x.tail<2>() = model.saturate(speeds_of(next));

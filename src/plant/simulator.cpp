@@ -4,15 +4,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include "otter_nav/plant/environment.hpp"
-#include "otter_nav/plant/hull_contact.hpp"
-#include "otter_nav/plant/lidar.hpp"
-#include "otter_nav/plant/odometry_sensor.hpp"
+#include "environment.hpp"
+#include "hull_contact.hpp"
+#include "lidar.hpp"
+#include "odometry_sensor.hpp"
 #include "otter_nav/plant/plant_model.hpp"
-#include "otter_nav/plant/world_map.hpp"
+#include "world_map.hpp"
 
 namespace otter_nav::plant {
 namespace {
+
+constexpr double kStepS = 0.01;  // of the integrator, at most
 
 // Offsets that keep the sensors' noise apart from the disturbances'.
 constexpr std::uint64_t kOdometrySeed = 0x6f646f6dULL;
@@ -51,7 +53,7 @@ class Simulator::Impl {
 
   void advance(double dt_s) {
     constexpr double kRounding = 1e-9;
-    const double count = std::ceil(dt_s / options_.step_s - kRounding);
+    const double count = std::ceil(dt_s / kStepS - kRounding);
     const int steps = count > 1.0 ? static_cast<int>(count) : 1;
     for (int i = 0; i < steps; ++i) {
       stepOnce(dt_s / steps);
@@ -72,7 +74,7 @@ class Simulator::Impl {
   }
 
   [[nodiscard]] double clearance() const {
-    return hullClearance(world_, options_.hull, truth_.planar.head<2>(), truth_.yaw_rad,
+    return hullClearance(world_, options_.vessel.hull, truth_.planar.head<2>(), truth_.yaw_rad,
                          kClearanceLimit);
   }
   [[nodiscard]] Eigen::Vector2d thrustLimits() const {
@@ -100,8 +102,9 @@ class Simulator::Impl {
         environment_.at(time_s_ + 0.5 * dt_s, planarPose(state_), *model_);
     const Eigen::Vector2d command =
         commandTimedOut() ? model_->commandFor(vessel::Thrusts::Zero()) : command_;
-    state_ = plant::step(*model_, state_, command, dt_s,
-                         [&](const PlantState& x) { return surroundings(conditions, x, *model_); });
+    state_ = model_->step(state_, command, dt_s, [&](const PlantState& x) {
+      return surroundings(conditions, x, *model_);
+    });
     time_s_ += dt_s;
     truth_.wind_mps = conditions.wind_mps;
     truth_.current_mps = conditions.current_mps;
@@ -117,7 +120,8 @@ class Simulator::Impl {
     truth_.wind_mps = wind;
     truth_.current_mps = current;
     odometry_.measure(truth_);
-    in_contact_ = hullTouches(world_, options_.hull, truth_.planar.head<2>(), truth_.yaw_rad);
+    in_contact_ =
+        hullTouches(world_, options_.vessel.hull, truth_.planar.head<2>(), truth_.yaw_rad);
     had_contact_ = had_contact_ || in_contact_;
   }
 

@@ -1,4 +1,4 @@
-#include "otter_nav/plant/waves.hpp"
+#include "waves.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "otter_nav/plant/wind.hpp"
+#include "wind.hpp"
 
 #include <algorithm>
 

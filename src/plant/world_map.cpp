@@ -1,4 +1,4 @@
-#include "otter_nav/plant/world_map.hpp"
+#include "world_map.hpp"
 
 #include <algorithm>
 #include <cmath>

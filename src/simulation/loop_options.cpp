@@ -32,14 +32,6 @@ Result<planner::Options> loadPlannerOptions(const std::string& path) {
   return planner::loadOptions(std::filesystem::path(path).parent_path().string());
 }
 
-Result<map::OccupancyMapOptions> loadMapOptions(const std::string& path) {
-  const Result<YAML::Node> root = config::loadFile(path);
-  if (!root) {
-    return failure(root.error().message);
-  }
-  return map::readOccupancyMapOptions(config::Section(*root, path));
-}
-
 Status readVessel(const std::string& name, LoopOptions& options) {
   const Result<std::string> path = config::vesselFile(name);
   if (!path) {
@@ -60,7 +52,7 @@ Status readPlant(const std::string& disturbance, LoopOptions& options) {
   if (!file || !preset) {
     return failure(!file ? file.error().message : preset.error().message);
   }
-  Result<plant::Options> plant = plant::loadOptions(options.vessel.name, *file, *preset);
+  Result<plant::Options> plant = plant::loadOptions(options.vessel, *file, *preset);
   if (!plant) {
     return failure(plant.error().message);
   }
@@ -83,7 +75,8 @@ Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string
                                              o.tracker);
       },
       [&] {
-        return readShipped<map::OccupancyMapOptions>("config/map.yaml", loadMapOptions, o.map);
+        return readShipped<map::OccupancyMapOptions>("config/map.yaml",
+                                                     map::loadOccupancyMapOptions, o.map);
       },
       [&] {
         return readShipped<mission::SupervisorOptions>(

@@ -23,7 +23,7 @@ map::SensorPose sensorPose(const plant::Odometry& odometry, const Eigen::Vector3
 }  // namespace
 
 Sensing::Sensing(map::OccupancyGrid chart, const LoopOptions& options)
-    : map_(std::move(chart), options.map),
+    : map_(std::move(chart), options.vessel.hull, options.map),
       field_(map_.projection(), {options.field_distance_m, false}),
       lidar_in_base_(options.plant.lidar.position_m) {}
 
@@ -34,7 +34,8 @@ Status Sensing::insert(const plant::Scan& scan, const plant::Odometry& odometry)
   scan_.range_max_m = scan.range_max_m;
   scan_.ranges_m.assign(scan.ranges.begin(), scan.ranges.end());
   const Result<map::CellRectangle> changed =
-      map_.insertScan(sensorPose(odometry, lidar_in_base_), scan_);
+      map_.insertScan(sensorPose(odometry, lidar_in_base_),
+                      {odometry.state.head<2>(), odometry.state[vessel::kPsi]}, scan_);
   if (!changed) {
     return failure(changed.error().message);
   }

@@ -5,8 +5,7 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
-#include "otter_nav/plant/scan.hpp"
-#include "otter_nav/plant/truth.hpp"
+#include "otter_nav/plant/signals.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
 
 namespace otter_nav::simulation {

@@ -2,6 +2,7 @@ otter_nav_test(unit_plant_models
   SOURCES
     ${CMAKE_CURRENT_LIST_DIR}/plant/otter_model_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/plant/gazebo_otter_model_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/plant/models_test.cpp
   ROOMS plant)
 otter_nav_test(unit_plant
   SOURCES

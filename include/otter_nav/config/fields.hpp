@@ -58,6 +58,21 @@ class FieldReader {
             const char* /*effect*/) {
     section_.read(key, values, size, range);
   }
+  void optionalText(const char* key, std::string& value, const std::vector<std::string>& allowed,
+                    const char* /*effect*/) {
+    if (section_.has(key)) {
+      section_.read(key, value, allowed);
+    }
+  }
+  // An Eigen vector of fixed size, as a list.
+  template <typename Vector>
+  void vector(const char* key, Vector& value, Range range, const char* effect) {
+    std::vector<double> values;
+    list(key, values, static_cast<std::size_t>(value.size()), range, effect);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      value[static_cast<int>(i)] = values[i];
+    }
+  }
   void texts(const char* key, std::vector<std::string>& values, const char* /*effect*/) {
     section_.read(key, values);
   }
@@ -76,10 +91,16 @@ class FieldReader {
   template <typename Group>
   void group(const char* key, Group& options, const char* /*effect*/) {
     Section child = section_.child(key);
-    FieldReader reader(child);
-    Group::describe(options, reader);
-    if (const Status status = child.finish(); !status && status_) {
-      status_ = status;
+    readGroup(child, options);
+  }
+
+  // A list of groups, of any length.
+  template <typename Group>
+  void groups(const char* key, std::vector<Group>& list_of, const char* /*effect*/) {
+    list_of.clear();
+    for (Section& child : section_.children(key)) {
+      list_of.emplace_back();
+      readGroup(child, list_of.back());
     }
   }
 
@@ -91,9 +112,18 @@ class FieldReader {
   }
 
   // The first fault of a group, if any; the section's own come from Section::finish().
-  [[nodiscard]] const Status& groups() const { return status_; }
+  [[nodiscard]] const Status& status() const { return status_; }
 
  private:
+  template <typename Group>
+  void readGroup(Section& section, Group& options) {
+    FieldReader reader(section);
+    Group::describe(options, reader);
+    if (const Status own = section.finish(); status_ && (!own || !reader.status())) {
+      status_ = own ? reader.status() : own;
+    }
+  }
+
   Section& section_;
   Status status_;
 };
@@ -125,6 +155,14 @@ class FieldWriter {
     }
     line(key, '[' + all + ']', effect);
   }
+  void optionalText(const char* key, const std::string& value,
+                    const std::vector<std::string>& /*allowed*/, const char* effect) {
+    line(key, value, effect);
+  }
+  template <typename Vector>
+  void vector(const char* key, const Vector& value, Range range, const char* effect) {
+    list(key, std::vector<double>(value.data(), value.data() + value.size()), 0, range, effect);
+  }
   void texts(const char* key, const std::vector<std::string>& values, const char* effect) {
     std::string all;
     for (const std::string& value : values) {
@@ -153,6 +191,18 @@ class FieldWriter {
     group(key, options, effect);
   }
 
+  template <typename Group>
+  void groups(const char* key, const std::vector<Group>& list_of, const char* effect) {
+    line(key, list_of.empty() ? "[]" : "", effect);
+    for (const Group& options : list_of) {
+      FieldWriter writer(indent_.size() + 4);
+      Group::describe(options, writer);
+      std::string lines = writer.str();
+      lines[indent_.size() + 2] = '-';
+      text_ << lines;
+    }
+  }
+
   [[nodiscard]] std::string str() const { return text_.str(); }
 
  private:
@@ -171,7 +221,7 @@ template <typename Options>
 [[nodiscard]] Status readFields(Section& section, Options& options) {
   FieldReader reader(section);
   Options::describe(options, reader);
-  return reader.groups();
+  return reader.status();
 }
 
 // All of a section: what is missing, unknown or out of range is an error that names it.

@@ -8,25 +8,38 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/config/section.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
+#include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::map {
 
 struct OccupancyMapOptions {
-  HeightBand band;                    // hits outside it are ignored: below is water, above is sky
-  double hit_probability = 0.85;      // of a voxel being occupied, seen one hit
-  double miss_probability = 0.4;      // the same, seen one beam pass
-  double occupied_probability = 0.7;  // from here on a voxel counts
-  double min_probability = 0.12;      // beliefs are clamped, so that what moved away clears in time
-  double max_probability = 0.97;
-  double hull_length_m = 2.0;  // the vessel's own outline, grown by hull_margin_m: echoes of
-  double hull_beam_m = 1.08;   // it are dropped, and what was sensed there before is cleared
+  HeightBand band;
+  double hit_probability = 0.85;
+  double miss_probability = 0.4;
+  double occupied_probability = 0.7;
   double hull_margin_m = 0.2;
-  double sensor_ahead_m = 0.0;  // of the outline's centre
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("band_min_m", o.band.min_m, {-10.0, 100.0}, "heights over the water that matter:");
+    fields("band_max_m", o.band.max_m, {-10.0, 100.0}, "below are waves, above is sky");
+    fields("hit_probability", o.hit_probability, {0.5, 0.99},
+           "of a voxel being occupied, seen one echo");
+    fields("miss_probability", o.miss_probability, {0.01, 0.5}, "the same, seen one beam pass");
+    fields("occupied_probability", o.occupied_probability, {0.5, kMaxProbability},
+           "from here on a voxel counts as an obstacle");
+    fields("hull_margin_m", o.hull_margin_m, {0.0, 10.0},
+           "echoes this close to the own hull are its own");
+  }
+  // Beliefs are clamped, so that what moved away clears in time.
+  static constexpr double kMinProbability = 0.12;
+  static constexpr double kMaxProbability = 0.97;
 };
 [[nodiscard]] Result<OccupancyMapOptions> readOccupancyMapOptions(config::Section section);
+[[nodiscard]] Result<OccupancyMapOptions> loadOccupancyMapOptions(const std::string& path);
 
 // The sensor in the map frame (ENU, FLU); z over the mean water surface, angles as yaw, then
 // pitch, then roll.
@@ -35,6 +48,12 @@ struct SensorPose {
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
   double yaw_rad = 0.0;
+};
+
+// Where the own hull's middle (base_link) is while the sensor looks, in the map frame.
+struct HullPose {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double psi_rad = 0.0;
 };
 
 // sensor_msgs/LaserScan's figures; REP-117: +inf is free water up to range_max, -inf (too close)
@@ -60,14 +79,17 @@ struct CellRectangle {
 class OccupancyMap {
  public:
   // The chart's obstacles stand from the sea up: no beam ever clears them.
-  OccupancyMap(OccupancyGrid chart, const OccupancyMapOptions& options);
+  OccupancyMap(OccupancyGrid chart, const vessel::Hull& own_hull,
+               const OccupancyMapOptions& options);
   ~OccupancyMap();
   OccupancyMap(OccupancyMap&&) noexcept;
   OccupancyMap& operator=(OccupancyMap&&) noexcept;
 
   // The cells whose projection changed, or why the scan is refused (a pose or angle that is no
-  // number, no beams, limits that make no sense, a negative range): then nothing changes.
-  [[nodiscard]] Result<CellRectangle> insertScan(const SensorPose& sensor, const Scan& scan);
+  // number, no beams, limits that make no sense, a negative range): then nothing changes. Echoes
+  // within the own hull's outline and its margin are dropped, and what was sensed there is cleared.
+  [[nodiscard]] Result<CellRectangle> insertScan(const SensorPose& sensor, const HullPose& own,
+                                                 const Scan& scan);
 
   [[nodiscard]] const OccupancyGrid& projection() const;
   [[nodiscard]] const OccupancyGrid& chart() const;

@@ -55,13 +55,40 @@ struct Surroundings {
   Vector6 force = Vector6::Zero();  // wind and constant forces: [X Y Z K M N]
 };
 
+// One hull, its actuators and its trim. The models say what moves them; the propellers' states and
+// the Runge-Kutta step are the same for all.
 class PlantModel {
  public:
+  // `lag_s`: time constant of the propellers' states behind their command; 0: they take it up at
+  // once, and a step writes it into the state.
+  explicit PlantModel(double lag_s) : lag_s_(lag_s) {}
   virtual ~PlantModel() = default;
 
-  // x' with the propellers commanded to `command` (the unit of the propeller states).
-  [[nodiscard]] virtual PlantState derivative(const PlantState& x, const Eigen::Vector2d& command,
-                                              const Surroundings& around) const = 0;
+  // One RK4 step under a constant command (in the unit of the propeller states);
+  // `surroundings(x)` gives what acts.
+  template <typename SurroundingsAt>
+  [[nodiscard]] PlantState step(const PlantState& x, const Eigen::Vector2d& command, double dt_s,
+                                const SurroundingsAt& surroundings) const {
+    PlantState start = x;
+    if (propellersAtOnce()) {
+      start.tail<2>() = saturate(command);
+    }
+    return rk4Step(
+        [&](double /*t*/, const PlantState& state) {
+          return derivative(state, command, surroundings(state));
+        },
+        0.0, start, dt_s);
+  }
+  // x' under a command.
+  [[nodiscard]] PlantState derivative(const PlantState& x, const Eigen::Vector2d& command,
+                                      const Surroundings& around) const {
+    PlantState dx = hullDerivative(x, around);
+    dx.tail<2>() = propellersAtOnce() ? Eigen::Vector2d::Zero()
+                                      : Eigen::Vector2d((saturate(command) - x.tail<2>()) / lag_s_);
+    return dx;
+  }
+  [[nodiscard]] bool propellersAtOnce() const { return lag_s_ == 0.0; }
+
   // eta', the pose's part of the derivative.
   [[nodiscard]] virtual Vector6 poseRate(const PlantState& x) const = 0;
   // At rest over ground where calm water carries the hull, at the origin, heading north.
@@ -71,8 +98,6 @@ class PlantModel {
   [[nodiscard]] virtual Eigen::Vector2d commandFor(const vessel::Thrusts& thrusts_n) const = 0;
   [[nodiscard]] virtual Eigen::Vector2d saturate(const Eigen::Vector2d& command) const = 0;
   [[nodiscard]] virtual vessel::Thrusts thrusts(const PlantState& x) const = 0;
-  // Whether propellers take up a command at once; the caller then writes it into the state.
-  [[nodiscard]] virtual bool propellersAtOnce() const = 0;
 
   // Force of a true wind (air velocity over ground, body frame) on the hull.
   [[nodiscard]] virtual Vector6 windForce(const Eigen::Vector2d& wind_in_body,
@@ -84,24 +109,16 @@ class PlantModel {
   // Whether the water's orbital motion carries the hull in the plane, too; otherwise waves heave,
   // roll and pitch it only.
   [[nodiscard]] virtual bool wavesCarryInPlane() const = 0;
+
+ private:
+  // nu' and eta'; the propellers' rows are overwritten.
+  [[nodiscard]] virtual PlantState hullDerivative(const PlantState& x,
+                                                  const Surroundings& around) const = 0;
+
+  double lag_s_;
 };
 
-// The model `options.vessel` names.
+// The model that the file of `options.vessel` asks for.
 [[nodiscard]] Result<std::unique_ptr<PlantModel>> makePlantModel(const Options& options);
-
-// One RK4 step under a constant command, for every model; `surroundings(x)` gives what acts.
-template <typename SurroundingsAt>
-PlantState step(const PlantModel& model, const PlantState& x, const Eigen::Vector2d& command,
-                double dt, const SurroundingsAt& surroundings) {
-  PlantState start = x;
-  if (model.propellersAtOnce()) {
-    start.tail<2>() = model.saturate(command);
-  }
-  return rk4Step(
-      [&](double /*t*/, const PlantState& state) {
-        return model.derivative(state, command, surroundings(state));
-      },
-      0.0, start, dt);
-}
 
 }  // namespace otter_nav::plant

@@ -15,7 +15,7 @@ namespace otter_nav::plant {
 
 struct RecordedRow {
   double time_s = 0.0;
-  PlantState state = PlantState::Zero();  // the propellers' rows are the speeds in force
+  PlantState state = PlantState::Zero();  // the propellers' rows are the speeds from here on
 };
 
 struct Recording {
@@ -36,9 +36,8 @@ struct SteadyCurrent {
 };
 
 // Starts from the first row's motion, or from the settled trim heading north if there is none, with
-// propellers at the first row's speed (at rest if they lag). A row's speeds are in force in the
-// step that ends at its time; a changed speed acts from the first step after the row before, as the
-// row's time shows the speed then in force. `step_s` is the longest step.
+// propellers at the first row's speed (at rest if they lag). A row's speeds hold from its time to
+// the next row's; its motion is the one before they act. `step_s` is the longest step.
 [[nodiscard]] Recording replay(const PlantModel& model, const Recording& recording,
                                const SteadyCurrent& current, double step_s = 0.01);
 

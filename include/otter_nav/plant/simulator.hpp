@@ -13,8 +13,7 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
 #include "otter_nav/plant/options.hpp"
-#include "otter_nav/plant/scan.hpp"
-#include "otter_nav/plant/truth.hpp"
+#include "otter_nav/plant/signals.hpp"
 #include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::plant {
@@ -22,7 +21,7 @@ namespace otter_nav::plant {
 class Simulator {
  public:
   // The plant at rest in the settled trim at the origin, heading east, at time zero. Throws
-  // std::invalid_argument for an unknown vessel name (readers check it first). A grid of no cells
+  // std::invalid_argument for an unknown plant model (readers check it first). A grid of no cells
   // is open water; occupied cells are walls, everything beyond the grid is water.
   Simulator(const Options& options, const map::OccupancyGrid& world, std::uint64_t seed);
   ~Simulator();
@@ -40,7 +39,7 @@ class Simulator {
   // Takes a command, N a side, positive ahead; the plant saturates it. A command that is not finite
   // is refused: the last one goes on until it times out.
   bool command(const vessel::Thrusts& thrusts_n);
-  // Goes on for `dt_s` under the last command (RK4 steps of at most Options::step_s).
+  // Goes on for `dt_s` under the last command (RK4 steps of at most 0.01 s).
   void advance(double dt_s);
   // command() and advance().
   void step(const vessel::Thrusts& thrusts_n, double dt_s);

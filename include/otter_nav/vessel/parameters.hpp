@@ -132,11 +132,16 @@ struct Parameters {
   Thrusters thrusters;
   Hull hull;
   double top_speed_mps = 5.0;
+  // What sails for it in simulation: `planar` is the manoeuvring model above, `otter` and
+  // `otter_gazebo` are plants of their own (docs/plant.md).
+  std::string plant_model = "planar";
 
   template <typename Self, typename Fields>
   static void describe(Self& p, Fields& fields) {
     fields("name", p.name, "of the vessel");
     fields("top_speed_mps", p.top_speed_mps, kPositive, "steady surge at full thrust");
+    fields.optionalText("plant_model", p.plant_model, {"planar", "otter", "otter_gazebo"},
+                        "what sails for it in simulation");
     fields.group("paper_model", p.paper, "the planner's");
     fields.optionalGroup("manoeuvring_model", p.manoeuvring, "the tracker's");
     fields.group("thrusters", p.thrusters, "two fixed ones");

@@ -51,8 +51,9 @@ config::Section sectionOf(const char* file) {
 
 Recording recordOtter(std::vector<ManoeuvreOptions> manoeuvres,
                       const plant::OdometryOptions& odometry) {
-  auto options = plant::loadOptions("otter", OTTER_NAV_SOURCE_DIR "/config/plant.yaml",
-                                    OTTER_NAV_SOURCE_DIR "/config/disturbances/none.yaml");
+  auto options =
+      plant::loadOptions(vesselOf("otter.yaml"), OTTER_NAV_SOURCE_DIR "/config/plant.yaml",
+                         OTTER_NAV_SOURCE_DIR "/config/disturbances/none.yaml");
   EXPECT_TRUE(options) << options.error().message;
   options->odometry = odometry;
   plant::Simulator simulator(*options, map::OccupancyGrid{}, 1);

@@ -35,7 +35,7 @@ class VesselAtSea {
   explicit VesselAtSea(const std::string& disturbance, double latency_s = 0.0) {
     const auto vessel = vessel::loadParameters(kSource + "/config/vessels/otter_gazebo.yaml");
     const auto options = loadOptions(kSource + "/config/tracker.yaml");
-    auto plant = plant::loadOptions("otter_gazebo", kSource + "/config/plant.yaml",
+    auto plant = plant::loadOptions(*vessel, kSource + "/config/plant.yaml",
                                     kSource + "/config/disturbances/" + disturbance + ".yaml");
     EXPECT_TRUE(vessel && options && plant);
     plant->odometry.latency_s = latency_s;

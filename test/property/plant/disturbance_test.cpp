@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/plant/current.hpp"
-#include "otter_nav/plant/waves.hpp"
-#include "otter_nav/plant/wind.hpp"
+#include "plant/current.hpp"
+#include "plant/waves.hpp"
+#include "plant/wind.hpp"
 
 namespace otter_nav::plant {
 namespace {

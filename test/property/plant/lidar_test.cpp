@@ -1,5 +1,5 @@
 // Ray casting and hull contact against slow, plain versions of themselves.
-#include "otter_nav/plant/lidar.hpp"
+#include "plant/lidar.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/plant/hull_contact.hpp"
 #include "otter_nav/vessel/hull.hpp"
+#include "plant/hull_contact.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -96,10 +96,17 @@ Truth levelAt(const Eigen::Vector2d& position, double psi) {
   return truth;
 }
 
+LidarOptions noiseless() {
+  LidarOptions options;
+  options.range_noise_m = 0.0;
+  options.dropout_probability = 0.0;
+  return options;
+}
+
 TEST(LidarScan, LevelScanIsTheCastBeams) {
   const map::OccupancyGrid grid = randomWorld(31, 0.02);
   const WorldMap world(grid);
-  LidarOptions options;
+  LidarOptions options = noiseless();
   options.position_m = {0.5, 0.0, 0.8};
   Lidar lidar(options, 1);
   const Truth truth = levelAt({4.0, 8.0}, 0.9);
@@ -137,7 +144,7 @@ map::OccupancyGrid wallToTheEast(double distance_m) {
 
 TEST(LidarScan, TiltedBeamsMeetTheWaterFirst) {
   const WorldMap world(wallToTheEast(10.0));
-  LidarOptions options;
+  LidarOptions options = noiseless();
   options.position_m = {0.0, 0.0, 0.8};
   Lidar lidar(options, 1);
   Truth truth = levelAt({0.0, 0.0}, 0.0);
@@ -156,7 +163,7 @@ TEST(LidarScan, TiltedBeamsMeetTheWaterFirst) {
 
 TEST(LidarScan, NoiseAndDropoutsHaveTheirShare) {
   const WorldMap world(wallToTheEast(10.0));
-  LidarOptions options;
+  LidarOptions options = noiseless();
   options.position_m = {0.0, 0.0, 0.8};
   options.range_noise_m = 0.05;
   options.dropout_probability = 0.2;
@@ -179,7 +186,7 @@ TEST(LidarScan, NoiseAndDropoutsHaveTheirShare) {
 
 TEST(LidarScan, TooNearIsMinusInfinity) {
   const WorldMap world(wallToTheEast(0.1));
-  LidarOptions options;
+  LidarOptions options = noiseless();
   options.position_m = {0.0, 0.0, 0.8};
   Lidar lidar(options, 7);
   const float range = lidar.scan(world, levelAt({-0.05, 0.0}, 0.0)).ranges[360];

@@ -14,6 +14,7 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 const OccupancyMapOptions kOptions;
+const vessel::Hull kHull{2.0, 1.08};
 
 // 40 m by 40 m around the origin, land west of x = -15.
 OccupancyGrid coast() {
@@ -41,19 +42,24 @@ SensorPose sensorAt(double x, double y, double yaw = 0.0) {
   return {{x, y, 0.8}, 0.0, 0.0, yaw};
 }
 
+// The sensor sits over the hull's middle.
+Result<CellRectangle> insert(OccupancyMap& map, const SensorPose& sensor, const Scan& scan) {
+  return map.insertScan(sensor, {sensor.position.head<2>(), sensor.yaw_rad}, scan);
+}
+
 Cell cellAt(const OccupancyMap& map, double x, double y) {
   const Eigen::Vector2i cell = map.projection().geometry.cellAt({x, y});
   return map.projection().at(cell.x(), cell.y());
 }
 
 TEST(OccupancyMap, FloatingObstacleAppearsAndClears) {
-  OccupancyMap map(coast(), kOptions);
+  OccupancyMap map(coast(), kHull, kOptions);
   for (int i = 0; i < 10; ++i) {  // open water, certainly
-    ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), openWater()));
+    ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), openWater()));
   }
-  const auto first = map.insertScan(sensorAt(0.0, 0.0), aheadOnly(5.1F));
+  const auto first = insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F));
   ASSERT_TRUE(first);
-  const auto second = map.insertScan(sensorAt(0.0, 0.0), aheadOnly(5.1F));
+  const auto second = insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F));
   ASSERT_TRUE(second);
   EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kOccupied);
   EXPECT_EQ(second->width, 1);
@@ -62,7 +68,7 @@ TEST(OccupancyMap, FloatingObstacleAppearsAndClears) {
             Eigen::Vector2d(5.125, 0.125));
   int misses = 0;
   while (cellAt(map, 5.1, 0.0) == Cell::kOccupied && misses < 50) {
-    ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), aheadOnly(kInf)));
+    ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(kInf)));
     ++misses;
   }
   EXPECT_GT(misses, 1);
@@ -70,9 +76,9 @@ TEST(OccupancyMap, FloatingObstacleAppearsAndClears) {
 }
 
 TEST(OccupancyMap, ChartedLandStays) {
-  OccupancyMap map(coast(), kOptions);
+  OccupancyMap map(coast(), kHull, kOptions);
   for (int i = 0; i < 30; ++i) {
-    const auto changed = map.insertScan(sensorAt(-10.0, 0.0), openWater());
+    const auto changed = insert(map, sensorAt(-10.0, 0.0), openWater());
     ASSERT_TRUE(changed);
     EXPECT_TRUE(changed->empty());
   }
@@ -82,8 +88,8 @@ TEST(OccupancyMap, ChartedLandStays) {
 TEST(OccupancyMap, UnknownWaterBecomesFreeWhereBeamsPass) {
   OccupancyGrid chart = coast();
   std::fill(chart.cells.begin(), chart.cells.end(), Cell::kUnknown);
-  OccupancyMap map(chart, kOptions);
-  const auto changed = map.insertScan(sensorAt(0.0, 0.0), aheadOnly(kInf));
+  OccupancyMap map(chart, kHull, kOptions);
+  const auto changed = insert(map, sensorAt(0.0, 0.0), aheadOnly(kInf));
   ASSERT_TRUE(changed);
   EXPECT_EQ(cellAt(map, 7.0, 0.1), Cell::kFree);
   EXPECT_EQ(cellAt(map, 16.0, 0.1), Cell::kUnknown);  // beyond range_max
@@ -96,8 +102,8 @@ TEST(OccupancyMap, Rep117ValuesThatSayNothing) {
   OccupancyGrid chart = coast();
   std::fill(chart.cells.begin(), chart.cells.end(), Cell::kUnknown);
   for (const float range : {-kInf, kNan, 0.1F, 16.0F}) {
-    OccupancyMap map(chart, kOptions);
-    const auto changed = map.insertScan(sensorAt(0.0, 0.0), aheadOnly(range));
+    OccupancyMap map(chart, kHull, kOptions);
+    const auto changed = insert(map, sensorAt(0.0, 0.0), aheadOnly(range));
     ASSERT_TRUE(changed) << range;
     EXPECT_TRUE(changed->empty()) << range;
   }
@@ -105,40 +111,60 @@ TEST(OccupancyMap, Rep117ValuesThatSayNothing) {
 
 TEST(OccupancyMap, TiltedBeamsMeetWaterOrSky) {
   for (const double pitch : {0.2, -0.2}) {  // bow down: 5 m ahead the beam is under water
-    OccupancyMap map(coast(), kOptions);
+    OccupancyMap map(coast(), kHull, kOptions);
     SensorPose sensor = sensorAt(0.0, 0.0);
     sensor.pitch_rad = pitch;
     const float range = pitch > 0.0 ? 5.0F : 10.0F;
-    ASSERT_TRUE(map.insertScan(sensor, aheadOnly(range)));
+    ASSERT_TRUE(insert(map, sensor, aheadOnly(range)));
     EXPECT_EQ(map.projection().cells, coast().cells);
     sensor.pitch_rad = 0.0;
-    ASSERT_TRUE(map.insertScan(sensor, aheadOnly(range)));
+    ASSERT_TRUE(insert(map, sensor, aheadOnly(range)));
     EXPECT_EQ(cellAt(map, range, 0.0), Cell::kOccupied);
   }
-  OccupancyMap map(coast(), kOptions);  // roll turns a beam abeam down, and leaves one ahead
+  OccupancyMap map(coast(), kHull, kOptions);  // roll turns a beam abeam down, and leaves one ahead
   SensorPose rolled = sensorAt(0.0, 0.0);
   rolled.roll_rad = -0.2;
-  ASSERT_TRUE(map.insertScan(rolled, {0.5 * kPi, 0.1, 0.2, 15.0, {6.0F}}));
+  ASSERT_TRUE(insert(map, rolled, {0.5 * kPi, 0.1, 0.2, 15.0, {6.0F}}));
   EXPECT_EQ(map.projection().cells, coast().cells);
 }
 
 TEST(OccupancyMap, OwnHullIsNeitherMarkedNorStays) {
-  OccupancyMap map(coast(), kOptions);
-  ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), aheadOnly(0.9F)));
+  OccupancyMap map(coast(), kHull, kOptions);
+  ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(0.9F)));
   EXPECT_EQ(map.projection().cells, coast().cells);
-  ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), aheadOnly(3.1F)));
+  ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(3.1F)));
   EXPECT_EQ(cellAt(map, 3.1, 0.0), Cell::kOccupied);
   // Across the place, its bow north: the cell lies within the beam.
-  const auto changed = map.insertScan(sensorAt(3.0, 0.5, 0.5 * kPi), aheadOnly(-kInf));
+  const auto changed = insert(map, sensorAt(3.0, 0.5, 0.5 * kPi), aheadOnly(-kInf));
   ASSERT_TRUE(changed);
   EXPECT_EQ(changed->width, 1);
   EXPECT_EQ(map.projection().cells, coast().cells);
 }
 
+// A lidar ahead of the hull's middle: the mask lies where the hull lies, not around the sensor.
+TEST(OccupancyMap, OnlyTheHullIsMaskedWhereverTheSensorSits) {
+  const HullPose own{{0.0, 0.0}, 0.5 * kPi};  // bow north at y = 1, stern at y = -1
+  const SensorPose sensor = sensorAt(0.0, 0.5, 0.5 * kPi);
+  OccupancyMap map(coast(), kHull, kOptions);
+  ASSERT_TRUE(map.insertScan(sensor, own, aheadOnly(0.6F)));  // 0.1 m off the bow: the margin
+  ASSERT_TRUE(map.insertScan(sensor, own, {kPi, 0.1, 0.2, 15.0, {1.6F}}));  // and off the stern
+  EXPECT_EQ(map.projection().cells, coast().cells);
+  ASSERT_TRUE(map.insertScan(sensor, own, aheadOnly(0.9F)));  // 0.4 m off the bow
+  EXPECT_EQ(cellAt(map, 0.01, 1.4), Cell::kOccupied);
+  ASSERT_TRUE(map.insertScan(sensor, own, openWater(1)));
+  EXPECT_EQ(cellAt(map, 0.01, 1.4), Cell::kOccupied);
+  // What drifted under the stern is gone.
+  ASSERT_TRUE(
+      map.insertScan(sensorAt(0.0, -4.0, 0.5 * kPi), {{0.0, -4.0}, 0.5 * kPi}, aheadOnly(2.9F)));
+  ASSERT_EQ(cellAt(map, 0.01, -1.1), Cell::kOccupied);
+  ASSERT_TRUE(map.insertScan(sensor, own, openWater(1)));
+  EXPECT_EQ(cellAt(map, 0.01, -1.1), Cell::kFree);
+}
+
 TEST(OccupancyMap, MalformedScansAreRefusedWithAReason) {
-  OccupancyMap map(coast(), kOptions);
+  OccupancyMap map(coast(), kHull, kOptions);
   const auto reason = [&](const SensorPose& sensor, const Scan& scan) {
-    const auto result = map.insertScan(sensor, scan);
+    const auto result = insert(map, sensor, scan);
     return result ? std::string() : result.error().message;
   };
   const auto expect = [](const std::string& message, const std::string& part) {
@@ -155,8 +181,8 @@ TEST(OccupancyMap, MalformedScansAreRefusedWithAReason) {
 }
 
 TEST(OccupancyMap, SavesAndResets) {
-  OccupancyMap map(coast(), kOptions);
-  ASSERT_TRUE(map.insertScan(sensorAt(0.0, 0.0), aheadOnly(5.1F)));
+  OccupancyMap map(coast(), kHull, kOptions);
+  ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F)));
   const std::vector<Cell> seen = map.projection().cells;
   ASSERT_NE(seen, coast().cells);
   for (const std::string ending : {".bt", ".ot", ".yaml"}) {
@@ -177,7 +203,7 @@ TEST(OccupancyMap, SavesAndResets) {
 }
 
 TEST(LoadOctomap, BrokenFilesAreNamed) {
-  OccupancyMap map(coast(), kOptions);
+  OccupancyMap map(coast(), kHull, kOptions);
   for (const std::string ending : {".bt", ".ot"}) {
     const std::string path = testing::TempDir() + "/broken_octomap" + ending;
     ASSERT_TRUE(map.save(path));
@@ -200,13 +226,10 @@ TEST(LoadOctomap, BrokenFilesAreNamed) {
 
 TEST(OccupancyMapOptions, ShippedFileHoldsTheDefaults) {
   const std::string path = std::string(OTTER_NAV_SOURCE_DIR) + "/config/map.yaml";
-  const auto node = config::loadFile(path);
-  ASSERT_TRUE(node) << node.error().message;
-  const auto options = readOccupancyMapOptions({*node, path});
+  const auto options = loadOccupancyMapOptions(path);
   ASSERT_TRUE(options) << options.error().message;
-  EXPECT_EQ(options->hit_probability, kOptions.hit_probability);
-  EXPECT_EQ(options->band.max_m, kOptions.band.max_m);
-  YAML::Node wrong = YAML::Clone(*node);
+  EXPECT_EQ(config::toYaml(*options), config::toYaml(kOptions));
+  YAML::Node wrong = config::loadFile(path).value();
   wrong["band_min_m"] = 3.0;
   const auto refused = readOccupancyMapOptions({wrong, path});
   ASSERT_FALSE(refused);

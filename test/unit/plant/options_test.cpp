@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "otter_nav/plant/plant_model.hpp"
+
 namespace otter_nav::plant {
 namespace {
 
@@ -13,15 +15,37 @@ std::string preset(const std::string& name) {
   return kConfig + "disturbances/" + name + ".yaml";
 }
 
+vessel::Parameters vesselOf(const std::string& name) {
+  return vessel::loadParameters(kConfig + "vessels/" + name + ".yaml").value();
+}
+
 TEST(PlantOptions, ShippedFilesLoad) {
-  for (const char* vessel : {"otter", "otter_gazebo"}) {
+  for (const char* vessel : {"otter", "otter_gazebo", "wam_v"}) {
     for (const char* name : {"none", "force10", "paper", "hard"}) {
-      const Result<Options> options = loadOptions(vessel, kConfig + "plant.yaml", preset(name));
+      const Result<Options> options =
+          loadOptions(vesselOf(vessel), kConfig + "plant.yaml", preset(name));
       ASSERT_TRUE(options) << options.error().message;
-      EXPECT_EQ(options->vessel, vessel);
+      EXPECT_EQ(options->vessel.name, vessel);
       EXPECT_EQ(options->disturbance.name, name);
+      EXPECT_TRUE(makePlantModel(*options));
     }
   }
+}
+
+TEST(PlantOptions, ShippedFilesHoldTheDefaults) {
+  EXPECT_EQ(config::toYaml(config::load<Options>(kConfig + "plant.yaml").value()),
+            config::toYaml(Options()));
+  EXPECT_EQ(config::toYaml(loadDisturbance(preset("none")).value()),
+            config::toYaml(EnvironmentOptions()));
+}
+
+TEST(PlantOptions, DisturbancesSurviveARoundTrip) {
+  const std::string text = config::toYaml(loadDisturbance(preset("paper")).value());
+  const Result<EnvironmentOptions> again =
+      config::read<EnvironmentOptions>({YAML::Load(text), "paper"});
+  ASSERT_TRUE(again) << again.error().message << "\n" << text;
+  EXPECT_EQ(again->waves.components.size(), 3U);
+  EXPECT_EQ(config::toYaml(*again), text);
 }
 
 TEST(PlantOptions, PresetsAreWhatTheyAreNamedFor) {
@@ -54,7 +78,7 @@ TEST(PlantOptions, PresetsAreWhatTheyAreNamedFor) {
 }
 
 void expectError(const YAML::Node& node, const std::string& word) {
-  const Result<Options> options = readOptions(config::Section(node, "plant.yaml"));
+  const Result<Options> options = config::read<Options>({node, "plant.yaml"});
   ASSERT_FALSE(options);
   EXPECT_NE(options.error().message.find(word), std::string::npos) << options.error().message;
 }
@@ -71,22 +95,23 @@ TEST(PlantOptions, BadValuesAreNamed) {
   node["lidar"]["rnage_max_m"] = 10.0;
   expectError(node, "rnage_max_m");
   node = shipped();
-  node["step_s"] = "soon";
-  expectError(node, "step_s");
+  node["command_timeout_s"] = "soon";
+  expectError(node, "command_timeout_s");
 }
 
 TEST(PlantOptions, BadWavesAndVesselsAreNamed) {
   YAML::Node node = config::loadFile(preset("paper")).value();
   node["waves"]["components"][1]["period_s"] = 0.0;
-  const Result<EnvironmentOptions> options =
-      readEnvironmentOptions(config::Section(node, "paper.yaml"));
+  const Result<EnvironmentOptions> options = config::read<EnvironmentOptions>({node, "paper.yaml"});
   ASSERT_FALSE(options);
   EXPECT_NE(options.error().message.find("components[1]"), std::string::npos);
   EXPECT_NE(options.error().message.find("period_s"), std::string::npos);
 
-  const Result<Options> vessel = loadOptions("raft", kConfig + "plant.yaml", preset("none"));
-  ASSERT_FALSE(vessel);
-  EXPECT_NE(vessel.error().message.find("raft"), std::string::npos);
+  Options rowed;
+  rowed.vessel.plant_model = "raft";
+  const auto model = makePlantModel(rowed);
+  ASSERT_FALSE(model);
+  EXPECT_NE(model.error().message.find("raft"), std::string::npos);
 }
 
 }  // namespace

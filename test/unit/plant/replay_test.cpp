@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "otter_nav/plant/otter_model.hpp"
+#include "plant/otter_model.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -60,15 +60,18 @@ TEST(Recording, BadFilesAreNamedByLineAndColumn) {
   EXPECT_FALSE(readRecording("/no/such/file.csv"));
 }
 
-TEST(Replay, ChangedSpeedsActFromTheFirstStepAfterTheRow) {
+TEST(Replay, SpeedsHoldFromTheirRowToTheNext) {
   const OtterModel model({}, false);
-  const Recording changing = read("t,n_left,n_right\n0,50,50\n0.02,50,50\n0.04,-50,-50\n").value();
-  const Recording run = replay(model, changing, {});
+  // Rows neither even nor on a grid of steps; the last one's speeds have no effect.
+  const Recording changing = read("t,n_left,n_right\n0,50,50\n0.015,-50,20\n0.04,70,70\n").value();
+  const Recording run = replay(model, changing, {}, 0.005);
   PlantState x = model.settled();
   const auto calm = [](const PlantState& /*x*/) { return Surroundings(); };
-  for (int i = 0; i < 3; ++i) x = step(model, x, {50.0, 50.0}, 0.01, calm);
-  x = step(model, x, {-50.0, -50.0}, 0.01, calm);
-  EXPECT_LT((run.rows.back().state - x).norm(), 1e-12);
+  for (int i = 0; i < 3; ++i) x = model.step(x, {50.0, 50.0}, 0.005, calm);
+  EXPECT_LT((run.rows[1].state - x).head<12>().norm(), 1e-12);
+  for (int i = 0; i < 5; ++i) x = model.step(x, {-50.0, 20.0}, 0.005, calm);
+  EXPECT_LT((run.rows[2].state - x).head<12>().norm(), 1e-12);
+  EXPECT_EQ(run.rows[1].state[kPropeller], -50.0);
 }
 
 TEST(Replay, NotANumberIsTheWorstDifference) {

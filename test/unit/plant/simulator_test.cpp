@@ -12,8 +12,8 @@ namespace {
 
 Options optionsFor(const std::string& vessel, const std::string& disturbance = "none") {
   const std::string config = std::string(OTTER_NAV_SOURCE_DIR) + "/config/";
-  return loadOptions(vessel, config + "plant.yaml",
-                     config + "disturbances/" + disturbance + ".yaml")
+  return loadOptions(vessel::loadParameters(config + "vessels/" + vessel + ".yaml").value(),
+                     config + "plant.yaml", config + "disturbances/" + disturbance + ".yaml")
       .value();
 }
 
@@ -25,9 +25,9 @@ map::OccupancyGrid island() {
   return grid;
 }
 
-class BothVessels : public testing::TestWithParam<const char*> {};
+class EveryVessel : public testing::TestWithParam<const char*> {};
 
-TEST_P(BothVessels, StartAtRestWhereTheyArePlaced) {
+TEST_P(EveryVessel, StartAtRestWhereTheyArePlaced) {
   Simulator simulator(optionsFor(GetParam()), {}, 1);
   simulator.placeAt({3.0, -2.0}, 2.0);
   for (int i = 0; i < 200; ++i) simulator.step({0.0, 0.0}, 0.01);
@@ -38,7 +38,7 @@ TEST_P(BothVessels, StartAtRestWhereTheyArePlaced) {
   EXPECT_NEAR(simulator.time(), 2.0, 1e-9);
 }
 
-TEST_P(BothVessels, SailWhereTheyPointAndTurnTowardsTheWeakerSide) {
+TEST_P(EveryVessel, SailWhereTheyPointAndTurnTowardsTheWeakerSide) {
   Simulator simulator(optionsFor(GetParam()), {}, 1);
   simulator.placeAt({0.0, 0.0}, 0.5 * kPi);
   for (int i = 0; i < 100; ++i) simulator.step({30.0, 30.0}, 0.01);
@@ -50,7 +50,7 @@ TEST_P(BothVessels, SailWhereTheyPointAndTurnTowardsTheWeakerSide) {
 }
 
 // The planar velocities are the position's derivatives, whatever the tilt.
-TEST_P(BothVessels, PlanarVelocityIsThePositionsDerivative) {
+TEST_P(EveryVessel, PlanarVelocityIsThePositionsDerivative) {
   Simulator simulator(optionsFor(GetParam(), "hard"), {}, 3);
   for (int i = 0; i < 500; ++i) simulator.step({40.0, 30.0}, 0.01);
   const Truth before = simulator.truth();
@@ -64,7 +64,7 @@ TEST_P(BothVessels, PlanarVelocityIsThePositionsDerivative) {
   EXPECT_NEAR(before.planar[vessel::kYawRate], (after.yaw_rad - before.yaw_rad) / 1e-4, 1e-3);
 }
 
-TEST_P(BothVessels, AreTheSameForASeedAndDifferForAnother) {
+TEST_P(EveryVessel, AreTheSameForASeedAndDifferForAnother) {
   Options options = optionsFor(GetParam(), "hard");
   options.odometry.position_noise_m = 0.1;
   Simulator one(options, island(), 5);
@@ -85,7 +85,7 @@ TEST_P(BothVessels, AreTheSameForASeedAndDifferForAnother) {
   }
 }
 
-TEST_P(BothVessels, StopThrustWhenNoCommandComes) {
+TEST_P(EveryVessel, StopThrustWhenNoCommandComes) {
   Simulator simulator(optionsFor(GetParam()), {}, 1);
   EXPECT_TRUE(simulator.commandTimedOut());
   ASSERT_TRUE(simulator.command({30.0, 20.0}));
@@ -98,7 +98,7 @@ TEST_P(BothVessels, StopThrustWhenNoCommandComes) {
   EXPECT_NEAR(simulator.truth().thrusts_n.norm(), 0.0, 1e-3);
 }
 
-TEST_P(BothVessels, RefuseCommandsThatAreNotNumbers) {
+TEST_P(EveryVessel, RefuseCommandsThatAreNotNumbers) {
   Simulator simulator(optionsFor(GetParam()), {}, 1);
   EXPECT_FALSE(simulator.command({std::numeric_limits<double>::quiet_NaN(), 0.0}));
   EXPECT_FALSE(simulator.command({0.0, std::numeric_limits<double>::infinity()}));
@@ -106,21 +106,24 @@ TEST_P(BothVessels, RefuseCommandsThatAreNotNumbers) {
   EXPECT_TRUE(simulator.truth().planar.allFinite());
 }
 
-TEST_P(BothVessels, SayWhenTheyTouch) {
-  Simulator simulator(optionsFor(GetParam()), island(), 1);
-  simulator.placeAt({0.0, 0.0}, 0.0);
+TEST_P(EveryVessel, SayWhenTheyTouch) {
+  const Options options = optionsFor(GetParam());
+  const double half_length = 0.5 * options.vessel.hull.length_m;
+  const double half_beam = 0.5 * options.vessel.hull.beam_m;
+  Simulator simulator(options, island(), 1);
+  simulator.placeAt({1.0 - half_length, 0.0}, 0.0);
   EXPECT_FALSE(simulator.inContact());
   EXPECT_NEAR(simulator.clearance(), 4.0, 1e-9);
-  simulator.placeAt({5.125, 0.66}, 0.0);  // the beam's half is 0.54
+  simulator.placeAt({5.125, half_beam + 0.12}, 0.0);
   EXPECT_TRUE(simulator.inContact());
   EXPECT_EQ(simulator.clearance(), 0.0);
-  simulator.placeAt({2.5, 0.1}, 0.0);
+  simulator.placeAt({4.5 - half_length, 0.1}, 0.0);
   EXPECT_FALSE(simulator.hadContact());
-  for (int i = 0; i < 300; ++i) simulator.step({50.0, 50.0}, 0.01);
+  for (int i = 0; i < 300; ++i) simulator.step({1e4, 1e4}, 0.01);
   EXPECT_TRUE(simulator.hadContact());
 }
 
-INSTANTIATE_TEST_SUITE_P(Simulator, BothVessels, testing::Values("otter", "otter_gazebo"));
+INSTANTIATE_TEST_SUITE_P(Simulator, EveryVessel, testing::Values("otter", "otter_gazebo", "wam_v"));
 
 TEST(Simulator, ForceTowardsNorthPushesNorth) {
   Simulator simulator(optionsFor("otter_gazebo", "force10"), {}, 1);
@@ -198,7 +201,7 @@ TEST(Simulator, KnowsItsThrustLimits) {
 
 TEST(Simulator, RejectsUnknownVesselsAndBrokenGrids) {
   Options options = optionsFor("otter");
-  options.vessel = "rowing_boat";
+  options.vessel.plant_model = "rowing_boat";
   const Result<Simulator> unknown = Simulator::create(options, {}, 1);
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().message.find("rowing_boat"), std::string::npos);

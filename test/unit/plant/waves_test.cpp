@@ -1,4 +1,4 @@
-#include "otter_nav/plant/waves.hpp"
+#include "plant/waves.hpp"
 
 #include <gtest/gtest.h>
 

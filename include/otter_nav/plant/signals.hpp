@@ -1,7 +1,8 @@
-// What really happens to the vessel, in the project's outside frames (docs/plant.md).
+// What a plant lets the world know, in the project's outside frames (docs/plant.md).
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "otter_nav/vessel/types.hpp"
 
@@ -31,6 +32,18 @@ struct Odometry {
   double z_m = 0.0;
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
+};
+
+// ranges[i] is the beam at angle_min_rad + i * angle_increment_rad in the lidar's own plane. Values
+// after REP-117: +inf no return (or the water's surface came first), -inf too close, NaN a lost
+// measurement.
+struct Scan {
+  double stamp_s = 0.0;
+  double angle_min_rad = 0.0;
+  double angle_increment_rad = 0.0;
+  double range_min_m = 0.0;
+  double range_max_m = 0.0;
+  std::vector<float> ranges;
 };
 
 }  // namespace otter_nav::plant

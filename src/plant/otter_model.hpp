@@ -10,7 +10,7 @@
 #include <array>
 
 #include "otter_nav/plant/plant_model.hpp"
-#include "otter_nav/plant/propeller.hpp"
+#include "propeller.hpp"
 
 namespace otter_nav::plant {
 
@@ -18,14 +18,11 @@ class OtterModel final : public PlantModel {
  public:
   OtterModel(const PayloadOptions& payload, bool propeller_lag);
 
-  [[nodiscard]] PlantState derivative(const PlantState& x, const Eigen::Vector2d& command,
-                                      const Surroundings& around) const override;
   [[nodiscard]] Vector6 poseRate(const PlantState& x) const override;
   [[nodiscard]] PlantState settled() const override;
   [[nodiscard]] Eigen::Vector2d commandFor(const vessel::Thrusts& thrusts_n) const override;
   [[nodiscard]] Eigen::Vector2d saturate(const Eigen::Vector2d& command) const override;
   [[nodiscard]] vessel::Thrusts thrusts(const PlantState& x) const override;
-  [[nodiscard]] bool propellersAtOnce() const override { return !propeller_lag_; }
   [[nodiscard]] Vector6 windForce(const Eigen::Vector2d& wind_in_body,
                                   const Vector6& velocity) const override;
   [[nodiscard]] Eigen::Vector2d gridHalfSize() const override;
@@ -39,6 +36,8 @@ class OtterModel final : public PlantModel {
   [[nodiscard]] Eigen::Vector3d trim(double roll_rad, double pitch_rad) const;
 
  private:
+  [[nodiscard]] PlantState hullDerivative(const PlantState& x,
+                                          const Surroundings& around) const override;
   void setUpInertia();
   void setUpHydrostatics();
   void setUpDamping();
@@ -47,7 +46,6 @@ class OtterModel final : public PlantModel {
   [[nodiscard]] Vector6 crossFlowDrag(const Vector6& velocity_water) const;
 
   PayloadOptions payload_;
-  bool propeller_lag_;
   Propeller propeller_;
 
   double mass_kg_ = 0.0;  // with payload

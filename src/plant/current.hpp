@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "otter_nav/base/random.hpp"
-#include "otter_nav/plant/environment_options.hpp"
-#include "otter_nav/plant/gauss_markov.hpp"
+#include "otter_nav/plant/options.hpp"
+#include "gauss_markov.hpp"
 
 namespace otter_nav::plant {
 

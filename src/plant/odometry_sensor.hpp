@@ -6,7 +6,7 @@
 
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/plant/options.hpp"
-#include "otter_nav/plant/truth.hpp"
+#include "otter_nav/plant/signals.hpp"
 
 namespace otter_nav::plant {
 

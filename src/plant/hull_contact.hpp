@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "otter_nav/plant/world_map.hpp"
+#include "world_map.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::plant {

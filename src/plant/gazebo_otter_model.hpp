@@ -12,17 +12,14 @@ namespace otter_nav::plant {
 
 class GazeboOtterModel final : public PlantModel {
  public:
+  // That simulator's thrusters have no lag; the propeller states are thrusts.
   GazeboOtterModel();
 
-  [[nodiscard]] PlantState derivative(const PlantState& x, const Eigen::Vector2d& command,
-                                      const Surroundings& around) const override;
   [[nodiscard]] Vector6 poseRate(const PlantState& x) const override;
   [[nodiscard]] PlantState settled() const override;
   [[nodiscard]] Eigen::Vector2d commandFor(const vessel::Thrusts& thrusts_n) const override;
   [[nodiscard]] Eigen::Vector2d saturate(const Eigen::Vector2d& command) const override;
   [[nodiscard]] vessel::Thrusts thrusts(const PlantState& x) const override;
-  // That simulator's thrusters have no lag; the propeller states are thrusts.
-  [[nodiscard]] bool propellersAtOnce() const override { return true; }
   [[nodiscard]] Vector6 windForce(const Eigen::Vector2d& wind_in_body,
                                   const Vector6& velocity) const override;
   [[nodiscard]] Eigen::Vector2d gridHalfSize() const override;
@@ -31,6 +28,8 @@ class GazeboOtterModel final : public PlantModel {
   [[nodiscard]] bool wavesCarryInPlane() const override { return false; }
 
  private:
+  [[nodiscard]] PlantState hullDerivative(const PlantState& x,
+                                          const Surroundings& around) const override;
   // [Z K M] of buoyancy and weight for the pose [z phi theta] over the surface's plane.
   [[nodiscard]] Eigen::Vector3d restoring(const Eigen::Vector3d& pose,
                                           const Eigen::Vector3d& surface) const;

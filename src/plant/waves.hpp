@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "otter_nav/base/random.hpp"
-#include "otter_nav/plant/environment_options.hpp"
+#include "otter_nav/plant/options.hpp"
 
 namespace otter_nav::plant {
 

@@ -51,6 +51,15 @@ struct Attitude {
   double sin_roll, cos_roll, sin_pitch, cos_pitch, sin_yaw, cos_yaw;
 };
 
+// eta' where tilts stay below a tenth of a radian, so that plane and tilt are kept apart.
+inline Vector6 levelPoseRate(const PlantState& x) {
+  const double c = std::cos(x[kYaw]);
+  const double s = std::sin(x[kYaw]);
+  Vector6 rate;
+  rate << c * x[kU] - s * x[kV], s * x[kU] + c * x[kV], x[kW], x[kP], x[kQ], x[kR];
+  return rate;
+}
+
 // H(r): moves velocities from the origin to a point at r; M_origin = H' M_point H.
 inline Matrix6 movedBy(const Eigen::Vector3d& r) {
   Matrix6 h = Matrix6::Identity();

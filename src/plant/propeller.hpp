@@ -1,5 +1,5 @@
 // A fixed-pitch propeller in bollard pull (Fossen 2021, section 9.1): T = k |n| n, with its own k
-// ahead and astern, saturated shaft speed and a first-order lag.
+// ahead and astern, and a saturated shaft speed.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,6 @@ struct Propeller {
   double astern_coefficient;  // N s^2
   double ahead_max_n;
   double astern_max_n;  // a positive number
-  double lag_s = 0.1;
 
   [[nodiscard]] double maxSpeed() const { return std::sqrt(ahead_max_n / ahead_coefficient); }
   [[nodiscard]] double minSpeed() const { return -std::sqrt(astern_max_n / astern_coefficient); }

@@ -7,9 +7,8 @@
 
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/plant/options.hpp"
-#include "otter_nav/plant/scan.hpp"
-#include "otter_nav/plant/truth.hpp"
-#include "otter_nav/plant/world_map.hpp"
+#include "otter_nav/plant/signals.hpp"
+#include "world_map.hpp"
 
 namespace otter_nav::plant {
 

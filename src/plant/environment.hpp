@@ -5,12 +5,12 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "otter_nav/plant/current.hpp"
-#include "otter_nav/plant/environment_options.hpp"
+#include "current.hpp"
+#include "otter_nav/plant/options.hpp"
 #include "otter_nav/plant/plant_model.hpp"
-#include "otter_nav/plant/truth.hpp"
-#include "otter_nav/plant/waves.hpp"
-#include "otter_nav/plant/wind.hpp"
+#include "otter_nav/plant/signals.hpp"
+#include "waves.hpp"
+#include "wind.hpp"
 
 namespace otter_nav::plant {
 
