@@ -63,16 +63,8 @@ void declare(CLI::App& app, Arguments& a) {
 }
 
 Result<identification::Options> loadOptions(const Arguments& a) {
-  const Result<std::string> path = config::findFile(a.config);
-  if (!path) {
-    return failure(path.error().message);
-  }
-  const Result<YAML::Node> node = config::loadFile(*path);
-  if (!node) {
-    return failure(node.error().message);
-  }
   Result<identification::Options> options =
-      identification::readOptions(config::Section(*node, *path));
+      config::findFile(a.config).and_then(config::load<identification::Options>);
   if (options && a.current) {
     options->problem.estimate_current = true;
   }

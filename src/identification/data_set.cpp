@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/identification/thrust_history.hpp"
+#include "thrust_history.hpp"
 
 namespace otter_nav::identification {
 namespace {

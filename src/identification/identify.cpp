@@ -6,9 +6,12 @@
 #include <cstdlib>
 #include <utility>
 
-#include "otter_nav/identification/regression.hpp"
-#include "otter_nav/identification/uncertainty.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
+#include "problem.hpp"
+#include "regression.hpp"
+#include "solver.hpp"
+#include "uncertainty.hpp"
+#include "windows.hpp"
 
 namespace otter_nav::identification {
 namespace {

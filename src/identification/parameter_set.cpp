@@ -1,4 +1,4 @@
-#include "otter_nav/identification/parameter_set.hpp"
+#include "parameter_set.hpp"
 
 #include <algorithm>
 #include <cmath>

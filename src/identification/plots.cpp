@@ -5,6 +5,8 @@
 #include <memory>
 #include <sstream>
 
+#include "prediction.hpp"
+
 namespace otter_nav::identification {
 namespace {
 

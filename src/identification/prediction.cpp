@@ -1,4 +1,4 @@
-#include "otter_nav/identification/prediction.hpp"
+#include "prediction.hpp"
 
 #include <cmath>
 

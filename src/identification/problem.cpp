@@ -1,4 +1,4 @@
-#include "otter_nav/identification/problem.hpp"
+#include "problem.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "otter_nav/identification/regression.hpp"
+#include "regression.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

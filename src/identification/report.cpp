@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "plots.hpp"
+#include "prediction.hpp"
 
 namespace otter_nav::identification {
 namespace {

@@ -1,4 +1,4 @@
-#include "otter_nav/identification/sensitivity.hpp"
+#include "sensitivity.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "otter_nav/identification/solver.hpp"
+#include "solver.hpp"
 
 #include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>

@@ -1,4 +1,4 @@
-#include "otter_nav/identification/thrust_history.hpp"
+#include "thrust_history.hpp"
 
 #include <algorithm>
 #include <cmath>

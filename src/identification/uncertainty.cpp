@@ -1,4 +1,4 @@
-#include "otter_nav/identification/uncertainty.hpp"
+#include "uncertainty.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

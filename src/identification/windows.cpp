@@ -1,4 +1,4 @@
-#include "otter_nav/identification/windows.hpp"
+#include "windows.hpp"
 
 #include <algorithm>
 

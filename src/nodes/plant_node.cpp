@@ -13,6 +13,8 @@ namespace {
 constexpr int kQueue = 100;
 // Simulated time begins here: zero means "no time" to ROS.
 constexpr double kStartTimeS = 1.0;
+// Of wall time that a node may keep the others waiting; then the plant gives up.
+constexpr double kLockstepTimeoutS = 60.0;
 // While time stands still the last messages are sent again this often: a node that started late
 // missed them.
 constexpr std::chrono::milliseconds kRepeatAfter{250};
@@ -37,7 +39,7 @@ Result<std::unique_ptr<PlantNode>> PlantNode::create(config::Section section) {
   if (!simulator) {
     return failure(simulator.error().message);
   }
-  simulator->placeAt(setup->node.start.position, setup->node.start.psi_rad);
+  simulator->placeAt(setup->node.start.head<2>(), setup->node.start.z());
   return std::unique_ptr<PlantNode>(new PlantNode(setup->node, std::move(*simulator)));
 }
 
@@ -148,13 +150,13 @@ bool PlantNode::takeCommand() {
 bool PlantNode::waitPatiently(const std::function<bool()>& ready,
                               const std::function<std::string()>& what) {
   const ros::WallTime give_up =
-      ros::WallTime::now() + ros::WallDuration(options_.lockstep_timeout_s);
+      ros::WallTime::now() + ros::WallDuration(kLockstepTimeoutS);
   while (!ready()) {
     if (!ros::ok()) {
       return false;
     }
     if (ros::WallTime::now() > give_up) {
-      ROS_FATAL_STREAM("Lockstep: waited " << options_.lockstep_timeout_s << " s for " << what()
+      ROS_FATAL_STREAM("Lockstep: waited " << kLockstepTimeoutS << " s for " << what()
                                            << " at " << now_.toSec() << " s");
       exit_code_ = 1;
       ros::requestShutdown();

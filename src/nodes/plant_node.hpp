@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "lockstep_gate.hpp"
-#include "otter_nav/config/section.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
 #include "plant_publisher.hpp"
@@ -22,22 +22,35 @@
 namespace otter_nav::nodes {
 
 struct PlantNodeOptions {
-  std::string vessel;       // otter_gazebo or otter
-  std::string disturbance;  // a preset of config/disturbances, or a file
-  // Where it sails: mission `mission` of a scenario, or `world` and `start`. No world: open water.
+  std::string vessel = "otter_gazebo";
+  std::string disturbance = "paper";
   std::string scenario;
   int mission = 0;
   std::string world;
-  ros_bridge::PlanarPose start;
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
   int seed = 1;
   double control_period_s = 0.01;
-  double speed = 1.0;  // times real time; 0, in lockstep only: as fast as it goes
-  // In lockstep time stands still until the command of the control step has come.
+  double speed = 1.0;
   bool lockstep = true;
-  // Nodes that have to acknowledge a scan before time goes on past it by `lockstep_lag_s`.
-  std::vector<std::string> lockstep_nodes;
+  std::vector<std::string> lockstep_nodes = {"planner_node"};
   double lockstep_lag_s = 0.05;
-  double lockstep_timeout_s = 60.0;  // of wall time, then the plant gives up
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("vessel", o.vessel, "a name of config/vessels, or a file");
+    fields("disturbance", o.disturbance, "a preset of config/disturbances, or a file");
+    fields("scenario", o.scenario, "file to take world and start from; empty: the two below");
+    fields("mission", o.mission, {0.0, 1e6}, "of the scenario, counted from 0");
+    fields("world", o.world, "map_server's YAML; empty: open water");
+    fields.vector("start", o.start, {-1e6, 1e6}, "x m, y m, yaw rad; map frame, from east");
+    fields("seed", o.seed, {0.0, 2147483647.0}, "of wind, waves and sensor noise");
+    fields("control_period_s", o.control_period_s, {0.001, 0.1}, "between two commands");
+    fields("speed", o.speed, {0.0, 1000.0}, "times real time; 0, in lockstep: as fast as it goes");
+    fields("lockstep", o.lockstep, "time stands still until the control step's command has come");
+    fields.texts("lockstep_nodes", o.lockstep_nodes, "have to acknowledge each scan as well");
+    fields("lockstep_lag_s", o.lockstep_lag_s, {0.0, 1.0},
+           "time may go on this far past a scan meanwhile");
+  }
 };
 
 class PlantNode {

@@ -50,10 +50,21 @@ struct DataSet {
 };
 
 struct DataOptions {
-  double min_duration_s = 30.0;     // shorter recordings are refused
-  double sample_interval_s = 0.05;  // faster odometry is thinned to this, its thrusts averaged
-  double max_gap_s = 0.5;           // a longer pause of the odometry splits the recording
-  double command_timeout_s = 0.5;   // thrust is zero this long after the last command
+  double min_duration_s = 30.0;
+  double sample_interval_s = 0.05;
+  double max_gap_s = 0.5;
+  double command_timeout_s = 0.5;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("min_duration_s", o.min_duration_s, {10.0, 1e5}, "shorter recordings are refused");
+    fields("sample_interval_s", o.sample_interval_s, {0.001, 1.0},
+           "faster odometry is thinned to this, its thrusts averaged");
+    fields("max_gap_s", o.max_gap_s, {0.001, 60.0},
+           "a longer pause of the odometry splits the recording");
+    fields("command_timeout_s", o.command_timeout_s, {0.01, 1e5},
+           "thrust is zero this long after the last command");
+  }
 };
 
 // Checks a recording (finite values, time going forward, both streams there and overlapping, long

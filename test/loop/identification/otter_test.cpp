@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/prediction.hpp"
 #include "otter_nav/identification/identify.hpp"
 #include "otter_nav/identification/manoeuvres.hpp"
 #include "otter_nav/identification/report.hpp"
@@ -90,7 +91,7 @@ class IdentifyOtter : public ::testing::Test {
   static void SetUpTestSuite() {
     const auto manoeuvres = readExcitation(sectionOf("excitation.yaml"));
     ASSERT_TRUE(manoeuvres) << manoeuvres.error().message;
-    const auto options = readOptions(sectionOf("identification.yaml"));
+    const auto options = config::read<Options>(sectionOf("identification.yaml"));
     ASSERT_TRUE(options) << options.error().message;
     result_ = new Result<Identification>(
         identify(recordOtter(*manoeuvres, {}), vesselOf("otter_textbook.yaml"), *options));

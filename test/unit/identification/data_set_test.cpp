@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "otter_nav/identification/thrust_history.hpp"
-#include "otter_nav/identification/windows.hpp"
+#include "identification/thrust_history.hpp"
+#include "identification/windows.hpp"
 
 namespace otter_nav::identification {
 namespace {

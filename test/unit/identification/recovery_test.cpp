@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/prediction.hpp"
 #include "otter_nav/identification/identify.hpp"
 #include "simulated.hpp"
 

@@ -13,9 +13,13 @@ namespace {
 
 Options shippedOptions() {
   const std::string path = OTTER_NAV_SOURCE_DIR "/config/identification.yaml";
-  const Result<Options> options = readOptions(config::Section(*config::loadFile(path), path));
+  const Result<Options> options = config::load<Options>(path);
   EXPECT_TRUE(options) << options.error().message;
   return *options;
+}
+
+TEST(IdentificationOptions, ShippedFileHoldsTheDefaults) {
+  EXPECT_EQ(config::toYaml(shippedOptions()), config::toYaml(Options()));
 }
 
 class Report : public ::testing::Test {

@@ -1,12 +1,12 @@
 // The analytic derivatives of rollouts and of the cost against central differences.
-#include "otter_nav/identification/sensitivity.hpp"
+#include "identification/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "otter_nav/identification/problem.hpp"
+#include "identification/problem.hpp"
 #include "simulated.hpp"
 
 namespace otter_nav::identification {

@@ -1,9 +1,9 @@
 // Recordings made with the project's own planar models, for the tests.
 #pragma once
 
+#include "identification/sensitivity.hpp"
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/identification/data_set.hpp"
-#include "otter_nav/identification/sensitivity.hpp"
 
 namespace otter_nav::identification::testing {
 

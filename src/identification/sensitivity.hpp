@@ -4,7 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "otter_nav/identification/coefficients.hpp"
+#include "coefficients.hpp"
+#include "otter_nav/identification/identify.hpp"
 #include "otter_nav/vessel/model.hpp"
 
 namespace otter_nav::identification {
@@ -19,12 +20,6 @@ using Sensitivity =
 // Parameters to coefficients.
 using CoefficientMap =
     Eigen::Matrix<double, kCoefficientCount, Eigen::Dynamic, 0, kCoefficientCount, kMaxParameters>;
-
-struct Model {
-  vessel::ManoeuvringModel coefficients;
-  vessel::Thrusters thrusters;
-  Eigen::Vector2d current_mps = Eigen::Vector2d::Zero();
-};
 
 // Advances `state` and its sensitivity by one step of dt seconds. `map` is d coefficients /
 // d parameters; with `with_current` the two columns after the parameters are the current's. The

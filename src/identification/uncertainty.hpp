@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/identification/problem.hpp"
+#include "problem.hpp"
 
 namespace otter_nav::identification {
 

@@ -5,25 +5,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "otter_nav/identification/data_set.hpp"
-#include "otter_nav/identification/parameter_set.hpp"
+#include "otter_nav/identification/identify.hpp"
+#include "parameter_set.hpp"
 
 namespace otter_nav::identification {
-
-// The weights Omega are inverse squares of these.
-struct Deviations {
-  double position_m = 0.02;
-  double heading_rad = 0.005;
-  double velocity_mps = 0.02;
-  double yaw_rate_radps = 0.01;
-};
-
-struct ProblemOptions {
-  Deviations deviations;
-  bool free_initial_states = true;  // estimated beside the parameters; else as measured
-  bool estimate_current = false;    // one steady current over the whole recording
-  double max_current_mps = 2.0;
-};
 
 // Gradient of a window's cost and its Gauss-Newton Hessian over [parameters, current, initial
 // state].

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/identification/sensitivity.hpp"
+#include "otter_nav/identification/identify.hpp"
+#include "sensitivity.hpp"
 
 namespace otter_nav::identification {
 
@@ -25,12 +26,6 @@ struct Parameter {
 struct ParameterSet {
   std::vector<Parameter> parameters;
   CoefficientMap map;
-};
-
-// Bounds h_l <= h <= h_u of the paper's equation 8.
-struct PaperBounds {
-  vessel::PaperModel lower{5.0, 1.0, 1.0, 1.0, 1.0};
-  vessel::PaperModel upper{1000.0, 1000.0, 1000.0, 1000.0, 1000.0};
 };
 
 // h = [m1, m2, d1, d2, d3]. A guess outside the bounds is an error.

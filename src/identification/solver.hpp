@@ -4,14 +4,10 @@
 #include <Eigen/Core>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/identification/problem.hpp"
+#include "otter_nav/identification/identify.hpp"
+#include "problem.hpp"
 
 namespace otter_nav::identification {
-
-struct SolverOptions {
-  int max_iterations = 100;
-  double tolerance = 1e-6;  // on the scaled optimality error
-};
 
 struct Solution {
   Eigen::VectorXd variables;  // of the problem

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "otter_nav/identification/data_set.hpp"
-#include "otter_nav/identification/parameter_set.hpp"
+#include "parameter_set.hpp"
 
 namespace otter_nav::identification {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "otter_nav/identification/data_set.hpp"
-#include "otter_nav/identification/sensitivity.hpp"
+#include "otter_nav/identification/identify.hpp"
+#include "sensitivity.hpp"
 
 namespace otter_nav::identification {
 
