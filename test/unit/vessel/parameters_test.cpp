@@ -12,6 +12,7 @@ TEST(LoadParameters, ShippedVesselRoundTrips) {
   const auto loaded = loadParameters(kShipped);
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->name, "otter_gazebo");
+  EXPECT_EQ(loaded->plant_model, "otter_gazebo");
   const auto again = readParameters({YAML::Load(toYaml(*loaded)), "text"});
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(toYaml(*again), toYaml(*loaded));
@@ -26,6 +27,16 @@ TEST(WithThrustShare, LeavesEverythingButThrustAndSpeed) {
   less.thrusters = whole.thrusters;
   less.top_speed_mps = whole.top_speed_mps;
   EXPECT_EQ(toYaml(less), toYaml(whole));
+}
+
+TEST(LoadParameters, SailsItsOwnModelUnlessTheFileSaysElse) {
+  YAML::Node node = YAML::Load(toYaml(Parameters{}));
+  node.remove("plant_model");
+  EXPECT_EQ(readParameters({node, "text"})->plant_model, "planar");
+  node["plant_model"] = "raft";
+  const auto refused = readParameters({node, "text"});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("'plant_model'"), std::string::npos);
 }
 
 TEST(LoadParameters, NamesTheOffender) {
