@@ -143,7 +143,8 @@ class Point {
     return j;
   }
   // weight * max(0, excess)^2, growing linearly from `knee` on (Huber), so that a bad first guess
-  // does not drown all else; `rows` makes the derivative of excess.
+  // does not drown all else; `rows` makes the derivative of excess. `weight` must not depend on the
+  // unknowns: a mean over the piece takes `share`, not dt().
   template <typename MakeRows>
   void addHinge(double weight, double excess, double knee, const MakeRows& rows) {
     if (excess <= 0.0) {

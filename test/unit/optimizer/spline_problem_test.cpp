@@ -124,9 +124,9 @@ TEST_F(SplineProblemTest, GradientOfAnEndThatMovesWithItsManoeuvreIsThatOfTheCos
 // A wall to starboard of the spline that comes nearer with time.
 struct ComingWall : feasibility::ObstacleLayer {
   [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const override {
-    return position.y() - 0.2 * time_s + 1.0;
+    return position.y() - 0.4 * time_s + 1.0;
   }
-  [[nodiscard]] double rateBound() const override { return 0.2; }
+  [[nodiscard]] double rateBound() const override { return 0.4; }
   [[nodiscard]] map::DistanceField::Smooth smooth(const Eigen::Vector2d& position,
                                                   double time_s) const override {
     return {clearance(position, time_s), Eigen::Vector2d::UnitY()};
@@ -138,9 +138,18 @@ TEST_F(SplineProblemTest, ObstaclesCountWhereTheyAreWhenTheSplineIsThere) {
   const Spline spline = bentSpline(random);
   const ComingWall wall;
   obstacles.add(wall);
-  const double at_first = problem.evaluate(spline, nullptr);
-  problem.targets.start_s = 5.0;
-  EXPECT_GT(problem.evaluate(spline, nullptr), at_first + 1.0);
+  const auto rise = [&] {
+    problem.targets.start_s = 0.0;
+    const double at_first = problem.evaluate(spline, nullptr);
+    problem.targets.start_s = 5.0;
+    return problem.evaluate(spline, nullptr) - at_first;
+  };
+  SplineLimits& limits = problem.targets.limits;
+  limits.hull_offset_m = 0.0;
+  EXPECT_GT(rise(), 1.0) << "the hull's centre";
+  limits.hull_offset_m = 0.667;
+  limits.clearance_m = -100.0;
+  EXPECT_GT(rise(), 1.0) << "its ends";
 }
 
 TEST_F(SplineProblemTest, ClosedFormStepIsTheDenseSolution) {
