@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/vessel/flatness.hpp"
+#include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::benchmark {
 

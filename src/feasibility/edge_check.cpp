@@ -18,7 +18,7 @@ constexpr double kHullSlackM = 0.02;
 
 EdgeCheck::EdgeCheck(const EdgeLimits& limits, const vessel::Parameters& vessel)
     : limits_(limits),
-      model_(vessel.paper),
+      inverse_(vessel),
       end_offset_m_(0.25 * vessel.hull.length_m),
       disc_radius_m_(std::hypot(0.25 * vessel.hull.length_m, 0.5 * vessel.hull.beam_m)),
       circumscribed_m_(vessel::circumscribedRadius(vessel.hull)) {}
@@ -42,8 +42,7 @@ EdgeFault EdgeCheck::checkMotion(const Motion& motion) const {
   if (speed2 > limits_.speed_max_mps * limits_.speed_max_mps) {
     return EdgeFault::kSpeed;
   }
-  const Eigen::Vector2d force =
-      model_.m1_kg * motion.acceleration + model_.d1_kgps * motion.velocity;
+  const Eigen::Vector2d force = inverse_.surgeForce(motion.velocity, motion.acceleration);
   const double limit =
       force.dot(motion.velocity) >= 0.0 ? limits_.force_ahead_n : limits_.force_astern_n;
   return force.squaredNorm() > limit * limit ? EdgeFault::kThrust : EdgeFault::kNone;
@@ -56,7 +55,7 @@ double EdgeCheck::slack(const Motion& motion) const {
   if (left < 0.0 || centre >= circumscribed_m_) {
     return left;
   }
-  const Eigen::Vector2d w = model_.m1_kg * motion.acceleration + model_.d2_kgps * motion.velocity;
+  const Eigen::Vector2d w = inverse_.headingForce(motion.velocity, motion.acceleration);
   const Eigen::Vector2d along = w.squaredNorm() > 1e-6 ? w : motion.velocity;
   const double norm = along.norm();
   if (norm < 1e-6) {

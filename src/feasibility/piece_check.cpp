@@ -7,6 +7,7 @@
 
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::feasibility {
 namespace {
@@ -16,10 +17,11 @@ using trajectory::evaluate;
 using trajectory::lineOf;
 using trajectory::speedBound;
 
-constexpr double kSlowMps = 1e-3;       // below it a course says nothing of the heading
-constexpr double kLeastSlackM = 1e-3;   // nearer to the limit than this counts as a fault
-constexpr double kSwayN = 0.1;          // what pieces of degree 7 leave, next to the model
-constexpr double kAcrossCosine = 0.02;  // heading and course nearer to a right angle: a jump
+constexpr double kSlowMps = 1e-3;             // below it a course says nothing of the heading
+constexpr double kLeastSlackM = 1e-3;         // nearer to the limit than this counts as a fault
+constexpr double kSwayN = 0.1;                // what pieces of degree 7 leave, next to the model
+constexpr double kLeastHeadingForceN = 1e-6;  // above rounding
+constexpr double kAcrossCosine = 0.02;        // heading and course nearer to a right angle: a jump
 
 // Watches a quantity sampled at equal steps: its bound includes what a parabola through three
 // neighbours (twice its height, to be sure) rises to between them.
@@ -43,19 +45,15 @@ class Sampled {
   double before_ = 0.0;
 };
 
-double shareOf(double thrust_n, const vessel::Thrusters& limits) {
-  return thrust_n >= 0.0 ? thrust_n / limits.ahead_max_n
-                         : -thrust_n / std::max(limits.astern_max_n, 1e-9);
-}
-
 }  // namespace
 
 struct PieceCheck::Point {
-  Eigen::Vector2d velocity, w;
-  double thrust_left_n = 0.0;
-  double thrust_right_n = 0.0;
+  Eigen::Vector2d velocity;
+  vessel::Thrusts thrusts;
+  Eigen::Vector2d bow = Eigen::Vector2d::Zero();
   double yaw_rate_radps = 0.0;
-  double sway_n = 0.0;  // a force to port that no thruster gives
+  double heading_force_n = 0.0;  // against the course: negative
+  double sway_n = 0.0;           // a force to port that no thruster gives
 };
 
 HullCircles hullCircles(const vessel::Hull& hull) {
@@ -64,11 +62,11 @@ HullCircles hullCircles(const vessel::Hull& hull) {
 
 PieceCheck::PieceCheck(const trajectory::Piece& piece, const vessel::Parameters& vessel,
                        const CheckOptions& options)
-    : piece_(piece), vessel_(vessel), options_(options) {
-  velocity_ = trajectory::differentiate<8>(piece.position);
-  acceleration_ = trajectory::differentiate<7>(velocity_);
-  jerk_ = trajectory::differentiate<6>(acceleration_);
-  snap_ = trajectory::differentiate<5>(jerk_);
+    : piece_(piece), vessel_(vessel), inverse_(vessel), options_(options) {
+  velocity_ = differentiate<8>(piece.position);
+  acceleration_ = differentiate<7>(velocity_);
+  jerk_ = differentiate<6>(acceleration_);
+  snap_ = differentiate<5>(jerk_);
   if (piece.kind == trajectory::PieceKind::kSail) {
     direction_ = trajectory::lineOf(piece);
     straight_ = direction_.squaredNorm() > 0.5;
@@ -76,29 +74,23 @@ PieceCheck::PieceCheck(const trajectory::Piece& piece, const vessel::Parameters&
 }
 
 PieceCheck::Point PieceCheck::at(double t_s) const {
-  const vessel::PaperModel& m = vessel_.paper;
+  vessel::FlatPoint z;
+  z.velocity = evaluate<7>(velocity_, t_s);
+  z.acceleration = evaluate<6>(acceleration_, t_s);
   Point p;
-  p.velocity = trajectory::evaluate<7>(velocity_, t_s);
-  const Eigen::Vector2d a = trajectory::evaluate<6>(acceleration_, t_s);
-  p.w = m.m1_kg * a + m.d2_kgps * p.velocity;
+  p.velocity = z.velocity;
   if (straight_) {
-    const double force = m.m1_kg * direction_.dot(a) + m.d1_kgps * direction_.dot(p.velocity);
-    p.thrust_left_n = p.thrust_right_n = 0.5 * force;
-    p.yaw_rate_radps = 0.0;
+    const auto held = inverse_.held(direction_, 0.0, 0.0, z.velocity, z.acceleration);
+    p.thrusts = vessel::thrustsFromTau(held.tau, vessel_.thrusters);
     return p;
   }
-  const Eigen::Vector2d j = trajectory::evaluate<5>(jerk_, t_s);
-  const Eigen::Vector2d w1 = m.m1_kg * j + m.d2_kgps * a;
-  const Eigen::Vector2d w2 = m.m1_kg * trajectory::evaluate<4>(snap_, t_s) + m.d2_kgps * j;
-  const double norm2 = std::max(p.w.squaredNorm(), 1e-12);
-  p.yaw_rate_radps = cross(p.w, w1) / norm2;
-  const double yaw_acceleration = (cross(p.w, w2) - 2.0 * p.yaw_rate_radps * p.w.dot(w1)) / norm2;
-  const double sign = p.w.dot(p.velocity) >= 0.0 ? 1.0 : -1.0;
-  const double surge = sign * p.w.dot(m.m1_kg * a + m.d1_kgps * p.velocity) / std::sqrt(norm2);
-  const double difference = (m.m2_kgm2 * yaw_acceleration + m.d3_kgm2ps * p.yaw_rate_radps) /
-                            vessel_.thrusters.lever_arm_m;
-  p.thrust_left_n = 0.5 * (surge - difference);
-  p.thrust_right_n = 0.5 * (surge + difference);
+  z.jerk = evaluate<5>(jerk_, t_s);
+  z.snap = evaluate<4>(snap_, t_s);
+  const vessel::Sailing sailing = inverse_.sailing(z, z.velocity, kLeastHeadingForceN);
+  p.yaw_rate_radps = sailing.yaw_rate_radps;
+  p.heading_force_n = sailing.bow.firmness_n;
+  p.bow = sailing.bow.ahead;
+  p.thrusts = vessel::thrustsFromTau(sailing.tau, vessel_.thrusters);
   return p;
 }
 
@@ -123,33 +115,26 @@ Eigen::Vector2d PieceCheck::bowAt(double t_s) const {
   if (straight_) {
     return direction_;
   }
-  const Eigen::Vector2d velocity = trajectory::evaluate<7>(velocity_, t_s);
-  const Eigen::Vector2d w = vessel_.paper.m1_kg * trajectory::evaluate<6>(acceleration_, t_s) +
-                            vessel_.paper.d2_kgps * velocity;
+  const Eigen::Vector2d velocity = evaluate<7>(velocity_, t_s);
   Eigen::Vector2d ahead = velocity;
   if (velocity.norm() < kSlowMps) {
     const double inward = std::min(1e-2, 0.25 * piece_.duration_s);
-    ahead = trajectory::evaluate<7>(velocity_,
-                                    t_s < 0.5 * piece_.duration_s ? t_s + inward : t_s - inward);
+    ahead = evaluate<7>(velocity_, t_s < 0.5 * piece_.duration_s ? t_s + inward : t_s - inward);
   }
-  return w.dot(ahead) >= 0.0 ? w.normalized() : Eigen::Vector2d(-w.normalized());
+  const Eigen::Vector2d w = inverse_.headingForce(velocity, evaluate<6>(acceleration_, t_s));
+  return inverse_.bow(w, ahead, kLeastHeadingForceN).ahead;
 }
 
 PieceCheck::Point PieceCheck::inSpin(double t_s) const {
-  const vessel::PaperModel& m = vessel_.paper;
   const Eigen::Vector3d psi = piece_.spinHeading(t_s);
-  const Eigen::Vector2d bow(std::cos(psi[0]), std::sin(psi[0]));
   Point p;
-  p.velocity = trajectory::evaluate<7>(velocity_, t_s);
-  const Eigen::Vector2d a = trajectory::evaluate<6>(acceleration_, t_s);
-  p.w = m.m1_kg * a + m.d2_kgps * p.velocity;
-  p.sway_n = cross(bow, p.w);
+  p.velocity = evaluate<7>(velocity_, t_s);
+  p.bow = {std::cos(psi[0]), std::sin(psi[0])};
+  const vessel::HeldDemand held =
+      inverse_.held(p.bow, psi[1], psi[2], p.velocity, evaluate<6>(acceleration_, t_s));
+  p.sway_n = held.sway_n;
   p.yaw_rate_radps = psi[1];
-  const double surge = bow.dot(m.m1_kg * a + m.d1_kgps * p.velocity);
-  const double difference =
-      (m.m2_kgm2 * psi[2] + m.d3_kgm2ps * psi[1]) / vessel_.thrusters.lever_arm_m;
-  p.thrust_left_n = 0.5 * (surge - difference);
-  p.thrust_right_n = 0.5 * (surge + difference);
+  p.thrusts = vessel::thrustsFromTau(held.tau, vessel_.thrusters);
   return p;
 }
 
@@ -161,8 +146,9 @@ void PieceCheck::checkSpin(PieceReport& report) const {
     report.time_s = piece_.duration_s * i / steps;
     const Point p = inSpin(report.time_s);
     report.thrust_share =
-        std::max({report.thrust_share, left.bound(shareOf(p.thrust_left_n, vessel_.thrusters)),
-                  right.bound(shareOf(p.thrust_right_n, vessel_.thrusters))});
+        std::max({report.thrust_share,
+                  left.bound(vessel::shareOfLimit(p.thrusts[vessel::kLeft], vessel_.thrusters)),
+                  right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
     report.speed_mps = std::max(report.speed_mps, p.velocity.norm());
     report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
     if (std::abs(p.sway_n) > kSwayN) {
@@ -194,12 +180,14 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
     report.speed_mps = std::max(report.speed_mps, speed);
     report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
     report.thrust_share =
-        std::max({report.thrust_share, left.bound(shareOf(p.thrust_left_n, vessel_.thrusters)),
-                  right.bound(shareOf(p.thrust_right_n, vessel_.thrusters))});
+        std::max({report.thrust_share,
+                  left.bound(vessel::shareOfLimit(p.thrusts[vessel::kLeft], vessel_.thrusters)),
+                  right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
     if (!straight_) {
-      const double norm = p.w.norm();
+      const double norm = std::abs(p.heading_force_n);
       report.heading_force_n = std::min(report.heading_force_n, norm);
-      const double cosine = p.w.dot(p.velocity) / std::max(norm * speed, 1e-12);
+      const double side = p.heading_force_n >= 0.0 ? 1.0 : -1.0;
+      const double cosine = side * p.bow.dot(p.velocity) / std::max(speed, 1e-12);
       if (speed > kSlowMps && (std::abs(cosine) < kAcrossCosine || cosine * branch < 0.0)) {
         report.fault = Fault::kHeadingJump;
       }
@@ -232,7 +220,7 @@ void PieceCheck::checkClearance(const map::DistanceField& field, PieceReport& re
   double t = 0.0;
   while (report.fault == Fault::kNone) {
     report.time_s = t;
-    const Eigen::Vector2d p = trajectory::evaluate<8>(piece_.position, t);
+    const Eigen::Vector2d p = evaluate<8>(piece_.position, t);
     const double clearance = field.clearance(p);
     report.clearance_m = std::min(report.clearance_m, clearance);
     const double slack = clearance - options_.clearance_m;

@@ -8,6 +8,7 @@
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/splice.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -102,9 +103,8 @@ Orders Supervisor::requestFromVessel(double now_s, const Situation& situation,
   request.thrust_share =
       std::min(options_.margins.thrust_share,
                freeThrustShare() + times_refused_ * options_.margins.thrust_share_step);
-  request.start = stopping::flatFromState(
-      situation.state, vessel_.paper,
-      kStartShare * request.thrust_share * 2.0 * vessel_.thrusters.ahead_max_n);
+  request.start = vessel::InverseDynamics(vessel_).fromState(
+      situation.state, kStartShare * request.thrust_share * 2.0 * vessel_.thrusters.ahead_max_n);
   request.start.position += latency_s_ * request.start.velocity;
   request.start_psi_rad = situation.state[vessel::kPsi];
   request.start_time_s = now_s + latency_s_;

@@ -3,6 +3,7 @@
 
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/optimizer/local_optimizer.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kTurningRadps = 0.15;  // a course turning less counts as strai
 
 EdgeCheck LocalOptimizer::check(const map::DistanceField& field,
                                 const trajectory::Piece& piece) const {
-  const vessel::PaperModel& m = vessel_.paper;
+  const vessel::InverseDynamics inverse(vessel_);
   const double force_max = options_.force_share * 2.0 * vessel_.thrusters.ahead_max_n;
   const double floor2 = options_.heading_force_min_n * options_.heading_force_min_n;
   const int steps = std::max(2, static_cast<int>(std::ceil(piece.duration_s / kStepS)));
@@ -31,16 +32,16 @@ EdgeCheck LocalOptimizer::check(const map::DistanceField& field,
     if (speed > options_.speed_max_mps) {
       return {EdgeFault::kSpeed, t};
     }
-    const Eigen::Vector2d force = m.m1_kg * z.acceleration + m.d1_kgps * z.velocity;
+    const Eigen::Vector2d force = inverse.surgeForce(z.velocity, z.acceleration);
     if (force.squaredNorm() > force_max * force_max) {
       return {EdgeFault::kForce, t};
     }
-    const Eigen::Vector2d w = m.m1_kg * z.acceleration + m.d2_kgps * z.velocity;
+    const Eigen::Vector2d w = inverse.headingForce(z.velocity, z.acceleration);
     const double force2 = w.squaredNorm();
     if (speed < kSlowMps) {
       continue;
     }
-    const Eigen::Vector2d w1 = m.m1_kg * z.jerk + m.d2_kgps * z.acceleration;
+    const Eigen::Vector2d w1 = inverse.headingForceRate(z.acceleration, z.jerk);
     if (std::abs(cross(w, w1)) > options_.yaw_rate_max_radps * std::max(force2, floor2)) {
       return {EdgeFault::kYawRate, t};
     }

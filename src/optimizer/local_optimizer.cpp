@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "otter_nav/trajectory/polynomial/block_tridiagonal.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -77,7 +78,7 @@ void LocalOptimizer::pullTowards(const map::DistanceField& field, const Knots& k
   const double need = options_.clearance_m + 0.5 * options_.clearance_margin_m +
                       kSquareCells * field.geometry().resolution_m;
   const double force = options_.force_share * 2.0 * vessel_.thrusters.ahead_max_n;
-  const vessel::PaperModel& m = vessel_.paper;
+  const vessel::InverseDynamics inverse(vessel_);
   const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
   States states;
   int stretch = -1;  // first point of the colliding stretch
@@ -107,7 +108,7 @@ void LocalOptimizer::pullTowards(const map::DistanceField& field, const Knots& k
       pull.target.col(1) = 0.95 * options_.speed_max_mps / speed * z.col(1);
       pull.weight[1] = options_.weight_dynamics * growth;
     }
-    const double asked = (m.m1_kg * z.col(2) + m.d1_kgps * z.col(1)).norm();
+    const double asked = inverse.surgeForce(z.col(1), z.col(2)).norm();
     if (asked > force) {
       pull.target.col(2) = z.col(2) * (force / asked);
       pull.weight[2] = options_.weight_dynamics * growth;

@@ -15,7 +15,7 @@ namespace otter_nav::planner {
 [[nodiscard]] double trajectoryCost(const trajectory::Trajectory& trajectory, double sigma);
 
 // Where a tree is rooted at an end at rest: the state after a straight launch along `direction`,
-// which is where the heading is defined (vessel/flatness.hpp), and the launch itself.
+// which is where the heading is defined (vessel/inverse_dynamics.hpp), and the launch itself.
 struct Launch {
   KinoState root;
   trajectory::Piece piece;

@@ -112,24 +112,4 @@ Spliced splice(const Trajectory& sailed, double from_s, double at_s, const Traje
   return {Trajectory(std::move(pieces)), start};
 }
 
-vessel::FlatPoint flatFromState(const vessel::State& state, const vessel::PaperModel& model,
-                                double force_max_n) {
-  const double psi = state[vessel::kPsi];
-  const Eigen::Vector2d ahead(std::cos(psi), std::sin(psi));
-  const Eigen::Vector2d port(-ahead.y(), ahead.x());
-  const double surge = state[vessel::kSurge];
-  const double sway = state[vessel::kSway];
-  vessel::FlatPoint z;
-  z.position = state.head<2>();
-  z.velocity = surge * ahead + sway * port;
-  // w = m1 z'' + d2 z' = force ahead: nothing but drag acts abeam. Its rate of turn is the yaw
-  // rate.
-  const double force = std::min(model.d2_kgps * surge, force_max_n);
-  z.acceleration =
-      ((force - model.d2_kgps * surge) * ahead - model.d2_kgps * sway * port) / model.m1_kg;
-  const Eigen::Vector2d force_rate = force * state[vessel::kYawRate] * port;
-  z.jerk = (force_rate - model.d2_kgps * z.acceleration) / model.m1_kg;
-  return z;
-}
-
 }  // namespace otter_nav::stopping

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "otter_nav/trajectory/trajectory.hpp"
-#include "otter_nav/vessel/flatness.hpp"
+#include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::stopping {
 

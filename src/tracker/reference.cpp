@@ -16,14 +16,6 @@ using vessel::kSurge;
 using vessel::kSway;
 using vessel::kYawRate;
 
-// The sway balance's slope over the heading, N per rad, is about the thrust ahead that the way asks
-// for. Below the least (at rest, coasting, braking, wind from astern as strong as the drag) the
-// position hardly says where the bow should point, and the trajectory's own heading is taken.
-// Under more than a light load that heading is only a wish: the plan finds its own from the
-// position, and more and more the flat one as the slope grows by kSteadySlopeN.
-constexpr double kLeastSlopeN = 10.0;
-constexpr double kSteadySlopeN = 30.0;
-constexpr double kLightLoadN = 5.0;
 constexpr double kSameHeadingRad = 0.5;
 constexpr double kSlowMps = 0.05;
 constexpr double kLeastWaitingSpeedMps = 0.3;
@@ -31,10 +23,6 @@ constexpr double kLeastWaitingSpeedMps = 0.3;
 // spent), and catches up by at most so many seconds a second.
 constexpr double kLeashLengths = 1.0;
 constexpr double kCatchUpRate = 0.5;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 }  // namespace
 
@@ -47,7 +35,7 @@ struct ReferenceSource::Course {
 };
 
 ReferenceSource::ReferenceSource(const Options& options, const vessel::Parameters& vessel)
-    : method_(options.method), vessel_(vessel) {}
+    : method_(options.method), vessel_(vessel), inverse_(vessel) {}
 
 void ReferenceSource::wait(double now_s, const Vector2d& position) {
   const vessel::FlatPoint z = flat(now_s);
@@ -126,7 +114,7 @@ ReferenceSource::Course ReferenceSource::course(double time_s) const {
   c.spins = std::isinf(sample.heading_force_n);
   const bool joining = joins_ && time_s - joining_start_s_ < joining_.duration_s;
   if (joining && c.flat.velocity.norm() > kSlowMps) {
-    const vessel::FlatState state = vessel::stateFromFlat(c.flat, vessel_.paper, c.flat.velocity);
+    const vessel::FlatState state = inverse_.state(c.flat, c.flat.velocity);
     c.psi_rad = state.state[kPsi];
     c.yaw_rate = state.state[kYawRate];
     c.spins = false;
@@ -134,60 +122,11 @@ ReferenceSource::Course ReferenceSource::course(double time_s) const {
   return c;
 }
 
-ReferenceSource::Heading ReferenceSource::heading(const Course& c, double psi_rad, double dt_s,
-                                                  const vessel::Disturbance& d) const {
-  const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
-  const Vector2d w = c.flat.velocity - d.current_mps;
-  double psi = unwrapNear(psi_rad, c.psi_rad);
-  const double before = psi;
-  if (c.spins) {
-    return {c.psi_rad, 1.0};
-  }
-  double slope = 0.0;
-  for (int iteration = 0; iteration < 3; ++iteration) {
-    const Vector2d e(std::cos(psi), std::sin(psi));
-    const double u = e.dot(w);
-    const double v = cross(e, w);
-    const double drag = m.sway_drag_kgps + m.sway_drag_quadratic_kgpm * std::abs(v);
-    const double drag_slope = m.sway_drag_kgps + 2.0 * m.sway_drag_quadratic_kgpm * std::abs(v);
-    const vessel::OutsideLoad load = vessel::outsideLoad(psi, m, d);
-    const double balance =
-        load.sway_n - drag * v - m.sway_inertia_kg * cross(e, c.flat.acceleration);
-    slope = drag_slope * u + m.sway_inertia_kg * e.dot(c.flat.acceleration) + load.sway_slope_n;
-    const double turning = (m.sway_centripetal_kg - m.sway_inertia_kg) * u + m.sway_from_yaw_kgmps;
-    if (slope < kLeastSlopeN || turning > 0.0) {
-      psi = c.psi_rad;
-      break;
-    }
-    psi -= (turning * (psi - before) / dt_s - balance) / (turning / dt_s - slope);
-  }
-  const vessel::OutsideLoad load = vessel::outsideLoad(psi, m, d);
-  const double calm = 2.0 - std::hypot(load.surge_n, load.sway_n) / kLightLoadN;
-  const double steady = (slope - kLeastSlopeN) / kSteadySlopeN;
-  return {psi, std::clamp(std::max(calm, steady), 0.0, 1.0)};
-}
-
-// Surge and sway from the heading, thrusts from the equations of motion.
-void ReferenceSource::setDynamics(const Course& c, double yaw_acceleration,
-                                  const vessel::Disturbance& d, vessel::State& x,
-                                  vessel::Thrusts& thrusts) const {
-  const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
-  const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
-  const double r = x[kYawRate];
-  const Vector2d w = c.flat.velocity - d.current_mps;
-  const double u = e.dot(w);
-  const double v = cross(e, w);
-  x[kSurge] = e.dot(c.flat.velocity);
-  x[kSway] = cross(e, c.flat.velocity);
-  const vessel::OutsideLoad load = vessel::outsideLoad(x[kPsi], m, d);
-  vessel::Tau tau;
-  tau.surge_n = m.surge_inertia_kg * (e.dot(c.flat.acceleration) + r * v) -
-                m.surge_centripetal_kg * v * r - load.surge_n +
-                (m.surge_drag_kgps + m.surge_drag_quadratic_kgpm * std::abs(u)) * u;
-  tau.yaw_nm = m.yaw_inertia_kgm2 * yaw_acceleration - load.yaw_nm + m.munk_kg * u * v +
-               m.yaw_from_sway_kgmps * v +
-               (m.yaw_drag_kgm2ps + m.yaw_drag_quadratic_kgm2 * std::abs(r)) * r;
-  thrusts = vessel::clampThrusts(vessel::thrustsFromTau(tau, vessel_.thrusters), vessel_.thrusters);
+vessel::SwayHeading ReferenceSource::heading(const Course& c, double psi_rad, double dt_s,
+                                             const vessel::Disturbance& disturbance) const {
+  return c.spins ? vessel::SwayHeading{c.psi_rad, 1.0}
+                 : vessel::swayHeading(vessel_, disturbance, c.flat.velocity, c.flat.acceleration,
+                                       psi_rad, c.psi_rad, dt_s);
 }
 
 void ReferenceSource::fillFlat(double start_s, double step_s, int stages,
@@ -203,7 +142,7 @@ void ReferenceSource::fillFlat(double start_s, double step_s, int stages,
   for (int k = 0; k <= stages; ++k) {
     if (k > 0) {
       courses[k] = course(start_s + k * step_s);
-      const Heading next = heading(courses[k], psi, step_s, disturbance);
+      const vessel::SwayHeading next = heading(courses[k], psi, step_s, disturbance);
       psi = unwrapNear(next.psi_rad, psi);
       reference.attitude[k] = next.trust;
     }
@@ -223,10 +162,14 @@ void ReferenceSource::fillFlat(double start_s, double step_s, int stages,
              (k - centre) * step_s * acceleration;
     }
     reference.states[k][kYawRate] = rate;
-    vessel::Thrusts thrusts;
-    setDynamics(courses[k], acceleration, disturbance, reference.states[k], thrusts);
+    const vessel::FlatPoint& z = courses[k].flat;
+    const vessel::Demand demand = vessel::demandOf(vessel_.manoeuvring, disturbance, psiAt(k), rate,
+                                                   acceleration, z.velocity, z.acceleration);
+    reference.states[k][kSurge] = demand.surge_mps;
+    reference.states[k][kSway] = demand.sway_mps;
     if (k < stages) {
-      reference.thrusts[k] = thrusts;
+      reference.thrusts[k] = vessel::clampThrusts(
+          vessel::thrustsFromTau(demand.tau, vessel_.thrusters), vessel_.thrusters);
     }
   }
 }

@@ -1,18 +1,13 @@
 // What the vessel should do along the horizon: states and thrusts that follow the trajectory's
 // position exactly with the tracker's own model, the disturbance estimate included.
 //
-// The trajectory gives z(t) and its derivatives. Surge, sway and thrusts follow from them and the
-// heading algebraically. The heading follows from the sway equation, in which no thrust acts: with
-// w = z' - c the velocity through the water and D = (sway_centripetal - sway_inertia) e.w +
-// sway_from_yaw,
-//   D psi' = n.f - Y(n.w) - sway_inertia n.z''             (e, n: ahead and to port)
-// The paper's model has D = 0, and the equation is its flatness (vessel/flatness.hpp). A hull with
-// more sway inertia than the turn feels has D < 0: the heading then relaxes to that solution, and
-// implicit Euler steps follow it whatever D is.
+// The trajectory gives z(t) and its derivatives; the heading, the other states and the thrusts
+// follow by the manoeuvring model's inverse dynamics (vessel/inverse_dynamics.hpp).
 #pragma once
 
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "tracker/ocp/problem.hpp"
 
@@ -44,22 +39,16 @@ class ReferenceSource {
  private:
   struct Course;
   [[nodiscard]] Course course(double time_s) const;
-  // The heading a step of `dt_s` after `psi_rad`, and how far it is to be trusted, 0 to 1.
-  struct Heading {
-    double psi_rad;
-    double trust;
-  };
-  [[nodiscard]] Heading heading(const Course& course, double psi_rad, double dt_s,
-                                const vessel::Disturbance& disturbance) const;
+  // The heading a step of `dt_s` after `psi_rad`.
+  [[nodiscard]] vessel::SwayHeading heading(const Course& course, double psi_rad, double dt_s,
+                                            const vessel::Disturbance& disturbance) const;
   void fillFlat(double start_s, double step_s, int stages, const vessel::Disturbance& disturbance,
                 OcpReference& reference);
   void fillPlain(double start_s, double step_s, int stages, OcpReference& reference) const;
-  void setDynamics(const Course& course, double yaw_acceleration,
-                   const vessel::Disturbance& disturbance, vessel::State& state,
-                   vessel::Thrusts& thrusts) const;
 
   Method method_;
   vessel::Parameters vessel_;
+  vessel::InverseDynamics inverse_;  // of the paper's model in still water
   const trajectory::Trajectory* trajectory_ = nullptr;
   double start_s_ = 0.0;
   double lag_s_ = 0.0;

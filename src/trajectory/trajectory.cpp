@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::trajectory {
@@ -27,31 +29,21 @@ Eigen::Vector2d aheadVector(const Piece& piece, double t, const vessel::FlatPoin
   return piece.flat(inside).velocity - current;
 }
 
-Sample sampleSpin(const Piece& piece, double t, const vessel::Parameters& vessel,
-                  const Eigen::Vector2d& current) {
-  Sample s;
-  s.flat = piece.flat(t);
+void sampleSpin(const Piece& piece, double t, const vessel::InverseDynamics& inverse, Sample& s) {
   const Eigen::Vector3d psi = piece.spinHeading(t);
   const Eigen::Vector2d e(std::cos(psi[0]), std::sin(psi[0]));
   const Eigen::Vector2d& v = s.flat.velocity;
-  const vessel::PaperModel& m = vessel.paper;
-  s.state << s.flat.position, wrapAngle(psi[0]), e.dot(v), e.x() * v.y() - e.y() * v.x(), psi[1];
-  s.tau.surge_n = m.m1_kg * e.dot(s.flat.acceleration) + m.d1_kgps * e.dot(v - current);
-  s.tau.yaw_nm = m.m2_kgm2 * psi[2] + m.d3_kgm2ps * psi[1];
+  s.state << s.flat.position, wrapAngle(psi[0]), e.dot(v), cross(e, v), psi[1];
+  s.tau = inverse.held(e, psi[1], psi[2], v, s.flat.acceleration).tau;
   s.heading_force_n = std::numeric_limits<double>::infinity();
-  return s;
 }
 
-Sample sampleSail(const Piece& piece, double t, const vessel::Parameters& vessel,
-                  const Eigen::Vector2d& current) {
-  Sample s;
-  s.flat = piece.flat(t);
-  const vessel::FlatState flat =
-      vessel::stateFromFlat(s.flat, vessel.paper, aheadVector(piece, t, s.flat, current), current);
+void sampleSail(const Piece& piece, double t, const vessel::InverseDynamics& inverse,
+                const Eigen::Vector2d& current, Sample& s) {
+  const vessel::FlatState flat = inverse.state(s.flat, aheadVector(piece, t, s.flat, current));
   s.state = flat.state;
   s.tau = flat.tau;
   s.heading_force_n = flat.heading_force_n;
-  return s;
 }
 
 }  // namespace
@@ -80,18 +72,24 @@ vessel::FlatPoint Trajectory::flat(double t_s) const {
 }
 
 Sample Trajectory::sample(double t_s, const vessel::Parameters& vessel,
-                          const Eigen::Vector2d& current_mps) const {
+                          const vessel::Disturbance& disturbance) const {
   const double t = std::clamp(t_s, 0.0, duration());
   const std::size_t i = pieceAt(t);
-  return sampleIn(i, t - starts_[i], vessel, current_mps);
+  return sampleIn(i, t - starts_[i], vessel, disturbance);
 }
 
 Sample Trajectory::sampleIn(std::size_t piece, double t_in_piece_s,
                             const vessel::Parameters& vessel,
-                            const Eigen::Vector2d& current_mps) const {
+                            const vessel::Disturbance& disturbance) const {
   const Piece& p = pieces_[piece];
-  Sample s = p.kind == PieceKind::kSpin ? sampleSpin(p, t_in_piece_s, vessel, current_mps)
-                                        : sampleSail(p, t_in_piece_s, vessel, current_mps);
+  const vessel::InverseDynamics inverse(vessel, disturbance);
+  Sample s;
+  s.flat = p.flat(t_in_piece_s);
+  if (p.kind == PieceKind::kSpin) {
+    sampleSpin(p, t_in_piece_s, inverse, s);
+  } else {
+    sampleSail(p, t_in_piece_s, inverse, disturbance.current_mps, s);
+  }
   s.t_s = starts_[piece] + t_in_piece_s;
   s.thrusts = vessel::thrustsFromTau(s.tau, vessel.thrusters);
   return s;

@@ -213,10 +213,9 @@ template <typename V, Directions A, typename T, typename = dual::IfNumber<T>>
   return x * (1.0 / c);
 }
 
-template <typename V, Directions A>
-[[nodiscard]] OTTER_NAV_INLINE Dual<V, A> sqrt(const Dual<V, A>& x) {
-  const V root = std::sqrt(x.value);
-  return dual::chain(root, 0.5 / root, x);
+template <typename V, Directions A, typename T, typename = dual::IfNumber<T>>
+[[nodiscard]] OTTER_NAV_INLINE bool operator<(const Dual<V, A>& x, const T& c) {
+  return x.value < c;
 }
 
 // |x| x, the law of quadratic drag, with its slope 2 |x|.

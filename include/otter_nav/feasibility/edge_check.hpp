@@ -5,6 +5,7 @@
 
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/trajectory/piece.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::feasibility {
@@ -27,9 +28,9 @@ class EdgeCheck {
   void setLimits(const EdgeLimits& limits) { limits_ = limits; }
   [[nodiscard]] const EdgeLimits& limits() const { return limits_; }
 
-  // Sail pieces only. The heading is taken along w = m1 z'' + d2 z', so a drifting hull's ends are
-  // tested where they are. Between instants tested, bow and stern may pass an obstacle by up to
-  // kHullSlack nearer than stated: what leaves the planner is verified exactly.
+  // Sail pieces only. The heading is taken along w (vessel/inverse_dynamics.hpp), so a drifting
+  // hull's ends are tested where they are. Between instants tested, bow and stern may pass an
+  // obstacle by up to kHullSlack nearer than stated: what leaves the planner is verified exactly.
   [[nodiscard]] EdgeFault check(const trajectory::Piece& piece) const;
   [[nodiscard]] bool isClear(const trajectory::Piece& piece) const;
   // Whether a state is within limits by itself, at rest or moving.
@@ -44,7 +45,7 @@ class EdgeCheck {
   [[nodiscard]] double slack(const Motion& motion) const;
 
   EdgeLimits limits_;
-  vessel::PaperModel model_;
+  vessel::InverseDynamics inverse_;
   double end_offset_m_;   // the hull as two discs: their centres from its centre
   double disc_radius_m_;  // and their radius
   double circumscribed_m_;

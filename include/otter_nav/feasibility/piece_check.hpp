@@ -7,6 +7,7 @@
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/trajectory/piece.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::feasibility {
@@ -66,6 +67,7 @@ class PieceCheck {
 
   const trajectory::Piece& piece_;
   const vessel::Parameters& vessel_;
+  vessel::InverseDynamics inverse_;
   const CheckOptions& options_;
   bool straight_ = false;
   Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();  // of a straight piece

@@ -9,8 +9,8 @@
 // form: the Hessian is block-tridiagonal, so a step costs time linear in the number of pieces.
 // Weights of constraints that still fail are raised from round to round; the result is verified.
 //
-// Ends at rest: there |w| vanishes (see vessel/flatness.hpp), so launch and arrival are manoeuvres
-// of their own (end_manoeuvre.hpp), and the spline between them is under way throughout.
+// Ends at rest: there |w| vanishes (see vessel/inverse_dynamics.hpp), so launch and arrival are
+// manoeuvres of their own (end_manoeuvre.hpp), and the spline between them is under way throughout.
 #pragma once
 
 #include <Eigen/Core>

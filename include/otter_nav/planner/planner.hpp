@@ -14,8 +14,8 @@
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/planner/options.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
-#include "otter_nav/vessel/flatness.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::planner {
 

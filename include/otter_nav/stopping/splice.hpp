@@ -2,7 +2,6 @@
 #pragma once
 
 #include "otter_nav/trajectory/trajectory.hpp"
-#include "otter_nav/vessel/flatness.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::stopping {
@@ -19,11 +18,5 @@ struct Spliced {
 // What is left of a trajectory from `at_s` on, exactly.
 [[nodiscard]] trajectory::Trajectory remainder(const trajectory::Trajectory& trajectory,
                                                double at_s);
-
-// The flat point of a vessel as it moves: velocity from the state, acceleration and jerk those of
-// a steady surge force and yaw rate (inverse of vessel/flatness.hpp). The force keeps the speed, or
-// is `force_max_n` where that takes more.
-[[nodiscard]] vessel::FlatPoint flatFromState(const vessel::State& state,
-                                              const vessel::PaperModel& model, double force_max_n);
 
 }  // namespace otter_nav::stopping

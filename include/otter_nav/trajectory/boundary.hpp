@@ -1,7 +1,7 @@
 // A state a trajectory begins or ends in.
 #pragma once
 
-#include "otter_nav/vessel/flatness.hpp"
+#include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::trajectory {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "otter_nav/vessel/flatness.hpp"
+#include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::trajectory {
 

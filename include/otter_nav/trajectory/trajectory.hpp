@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "otter_nav/trajectory/piece.hpp"
+#include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/types.hpp"
 
@@ -15,7 +16,7 @@ struct Sample {
   vessel::State state = vessel::State::Zero();  // psi wrapped to [-pi, pi]
   vessel::Tau tau;
   vessel::Thrusts thrusts = vessel::Thrusts::Zero();
-  double heading_force_n = 0.0;  // |w|, see vessel/flatness.hpp; infinite in a spin
+  double heading_force_n = 0.0;  // |D| of vessel/inverse_dynamics.hpp; infinite in a spin
 };
 
 class Trajectory {
@@ -36,11 +37,11 @@ class Trajectory {
   // is allocated. At rest the heading is the limit from within the piece.
   [[nodiscard]] vessel::FlatPoint flat(double t_s) const;
   [[nodiscard]] Sample sample(double t_s, const vessel::Parameters& vessel,
-                              const Eigen::Vector2d& current_mps = Eigen::Vector2d::Zero()) const;
+                              const vessel::Disturbance& disturbance = {}) const;
   // The same within one piece, `t_in_piece_s` from its start, not clamped: both sides of a joint.
   [[nodiscard]] Sample sampleIn(std::size_t piece, double t_in_piece_s,
                                 const vessel::Parameters& vessel,
-                                const Eigen::Vector2d& current_mps = Eigen::Vector2d::Zero()) const;
+                                const vessel::Disturbance& disturbance = {}) const;
 
  private:
   std::vector<Piece> pieces_;

@@ -26,6 +26,12 @@ inline double thrustMargin(const Thrusts& thrusts, const Thrusters& limits) {
                   limits.astern_max_n + thrusts.minCoeff());
 }
 
+// Of its limit ahead or astern: 1 is all a thruster has.
+inline double shareOfLimit(double thrust_n, const Thrusters& limits) {
+  return thrust_n >= 0.0 ? thrust_n / limits.ahead_max_n
+                         : -thrust_n / std::max(limits.astern_max_n, 1e-9);
+}
+
 inline Thrusts clampThrusts(const Thrusts& thrusts, const Thrusters& limits) {
   return thrusts.cwiseMin(limits.ahead_max_n).cwiseMax(-limits.astern_max_n);
 }

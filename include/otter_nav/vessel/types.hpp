@@ -28,4 +28,13 @@ struct Tau {
   double yaw_nm = 0.0;
 };
 
+// A point of a path: z and its first four derivatives, earth frame, SI.
+struct FlatPoint {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();
+  Eigen::Vector2d jerk = Eigen::Vector2d::Zero();
+  Eigen::Vector2d snap = Eigen::Vector2d::Zero();
+};
+
 }  // namespace otter_nav::vessel

@@ -139,7 +139,7 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
     ramp = {ahead_s, ahead_s + limits.surge_ramp_s, 0.0, most};
     end = ramp.to_s;
   }
-  const Glide glide(vessel.paper, turn ? &*turn : nullptr, {ramp});
+  const Glide glide(vessel, turn ? &*turn : nullptr, {ramp});
   const Placed placed(psi_rad, turn_rad >= 0.0);
   Manoeuvre manoeuvre;
   manoeuvre.duration_s = end;
@@ -177,7 +177,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   } else {
     ramps.push_back({kLongAgoS, kLongAgoS, -brake_n, -brake_n});
   }
-  Glide glide(vessel.paper, turn ? &*turn : nullptr, std::move(ramps));
+  Glide glide(vessel, turn ? &*turn : nullptr, std::move(ramps));
   BackwardGlide back(glide, end_s);
   back.reach(braked_s);
   // Full astern: v = (v_0 + F / d1) exp(-(t - t_0) d1 / m1) - F / d1, here backward.

@@ -33,31 +33,34 @@ Eigen::Vector4d Glide::heading(double t_s, double within_s) const {
   return turn_ == nullptr ? Eigen::Vector4d(Eigen::Vector4d::Zero()) : turn_->at(t_s, within_s);
 }
 
-Eigen::Vector2d Glide::acceleration(const Eigen::Vector2d& velocity, double t_s,
-                                    double within_s) const {
-  const double psi = heading(t_s, within_s)[0];
-  const Eigen::Vector2d bow(std::cos(psi), std::sin(psi));
-  const Eigen::Vector2d port(-bow.y(), bow.x());
-  return ((surge(t_s).force_n - model_.d1_kgps * bow.dot(velocity)) * bow -
-          model_.d2_kgps * port.dot(velocity) * port) /
-         model_.m1_kg;
+vessel::FlatPoint Glide::pushed(const Motion& motion, double t_s, double within_s) const {
+  const Eigen::Vector4d turned = heading(t_s, within_s);
+  const Surge force = surge(t_s);
+  vessel::FlatPoint z;
+  z.position = motion.position;
+  z.velocity = motion.velocity;
+  inverse_.push(turned[0], turned[1], force.force_n, force.slope_nps, z);
+  return z;
 }
 
 Glide::Motion Glide::integrate(const Motion& motion, double from_s, double to_s) const {
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to_s - from_s) / kStepS)));
   const double h = (to_s - from_s) / steps;
   const double within = 0.5 * (from_s + to_s);
+  const auto acceleration = [&](const Eigen::Vector2d& velocity, double t) -> Eigen::Vector2d {
+    return pushed({motion.position, velocity}, t, within).acceleration;
+  };
   Motion now = motion;
   for (int i = 0; i < steps; ++i) {
     const double t = from_s + h * i;
     const Eigen::Vector2d v1 = now.velocity;
-    const Eigen::Vector2d a1 = acceleration(v1, t, within);
+    const Eigen::Vector2d a1 = acceleration(v1, t);
     const Eigen::Vector2d v2 = v1 + 0.5 * h * a1;
-    const Eigen::Vector2d a2 = acceleration(v2, t + 0.5 * h, within);
+    const Eigen::Vector2d a2 = acceleration(v2, t + 0.5 * h);
     const Eigen::Vector2d v3 = v1 + 0.5 * h * a2;
-    const Eigen::Vector2d a3 = acceleration(v3, t + 0.5 * h, within);
+    const Eigen::Vector2d a3 = acceleration(v3, t + 0.5 * h);
     const Eigen::Vector2d v4 = v1 + h * a3;
-    const Eigen::Vector2d a4 = acceleration(v4, t + h, within);
+    const Eigen::Vector2d a4 = acceleration(v4, t + h);
     now.position += h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
     now.velocity += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
   }
@@ -65,25 +68,7 @@ Glide::Motion Glide::integrate(const Motion& motion, double from_s, double to_s)
 }
 
 vessel::FlatPoint Glide::flat(const Motion& motion, double t_s) const {
-  const Eigen::Vector4d turned = heading(t_s, t_s);
-  const double r = turned[1];
-  const Eigen::Vector2d bow(std::cos(turned[0]), std::sin(turned[0]));
-  const Eigen::Vector2d port(-bow.y(), bow.x());
-  const Surge force = surge(t_s);
-  const Eigen::Vector2d& v = motion.velocity;
-  vessel::FlatPoint z;
-  z.position = motion.position;
-  z.velocity = v;
-  z.acceleration = acceleration(v, t_s, t_s);
-  // The derivative of m1 z'' = tau_u e - d1 (e . z') e - d2 (p . z') p, with e' = r p, p' = -r e.
-  const double ahead = bow.dot(v);
-  const double aside = port.dot(v);
-  const double ahead1 = r * aside + bow.dot(z.acceleration);
-  const double aside1 = -r * ahead + port.dot(z.acceleration);
-  z.jerk = ((force.slope_nps - model_.d1_kgps * ahead1 + model_.d2_kgps * aside * r) * bow +
-            ((force.force_n - model_.d1_kgps * ahead) * r - model_.d2_kgps * aside1) * port) /
-           model_.m1_kg;
-  return z;
+  return pushed(motion, t_s, t_s);
 }
 
 std::vector<double> Glide::joints(double from_s, double to_s) const {

@@ -7,6 +7,7 @@
 
 #include "optimizer/ends/turn_profile.hpp"
 #include "otter_nav/trajectory/piece.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::optimizer {
@@ -27,8 +28,8 @@ class Glide {
   };
 
   // `turn` may be null: no turn. Ramps in order of time; before and between them the force is held.
-  Glide(const vessel::PaperModel& model, const TurnProfile* turn, std::vector<SurgeRamp> ramps)
-      : model_(model), turn_(turn), ramps_(std::move(ramps)) {}
+  Glide(const vessel::Parameters& vessel, const TurnProfile* turn, std::vector<SurgeRamp> ramps)
+      : inverse_(vessel), turn_(turn), ramps_(std::move(ramps)) {}
 
   void clearRamps() { ramps_.clear(); }
   void addFirst(const SurgeRamp& ramp) { ramps_.insert(ramps_.begin(), ramp); }
@@ -50,10 +51,9 @@ class Glide {
   [[nodiscard]] Surge surge(double t_s) const;
   // [psi, r, r', r'']
   [[nodiscard]] Eigen::Vector4d heading(double t_s, double within_s) const;
-  [[nodiscard]] Eigen::Vector2d acceleration(const Eigen::Vector2d& velocity, double t_s,
-                                             double within_s) const;
+  [[nodiscard]] vessel::FlatPoint pushed(const Motion& motion, double t_s, double within_s) const;
 
-  vessel::PaperModel model_;
+  vessel::InverseDynamics inverse_;
   const TurnProfile* turn_;
   std::vector<SurgeRamp> ramps_;
 };

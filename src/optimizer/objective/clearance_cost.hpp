@@ -33,7 +33,7 @@ class ClearanceCost : public Cost {
       return;
     }
     const Eigen::Vector2d w = point.dynamics.headingForce(z.col(1), z.col(2));
-    const Dynamics::Bow bow = point.dynamics.bow(w, w, point.force_floor_n);
+    const vessel::Bow bow = point.dynamics.bow(w, w, point.force_floor_n);
     for (const double offset : {-limits.hull_offset_m, limits.hull_offset_m}) {
       const map::DistanceField::Smooth end =
           targets.obstacles->smooth(p + offset * bow.ahead, point.time_s);

@@ -7,10 +7,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "optimizer/objective/flat_gradient.hpp"
 #include "optimizer/objective/spline.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/trajectory/polynomial/hermite.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 
 namespace otter_nav::optimizer {
 
@@ -80,7 +80,7 @@ class Point {
  public:
   // `unit` is the basis at `at` of the unit interval; `part` the point's part of the duration.
   Point(const trajectory::SepticBasis& unit, std::size_t index, double at, double part,
-        const Dynamics& motion, double floor_n, PieceModel& model)
+        const vessel::InverseDynamics& motion, double floor_n, PieceModel& model)
       : number(index),
         share(part),
         time_s(model.start_s + at * model.duration_s),
@@ -92,7 +92,7 @@ class Point {
   const std::size_t number;  // of the piece's quadrature points
   const double share;
   const double time_s;  // on the obstacles' clock
-  const Dynamics& dynamics;
+  const vessel::InverseDynamics& dynamics;
   const double force_floor_n;  // |w| below this is treated as this
   PieceModel& piece;
 
@@ -118,7 +118,7 @@ class Point {
     return path_;
   }
   // Thrusts and yaw rate, with gradients.
-  [[nodiscard]] const FlatGradient& demand() {
+  [[nodiscard]] const vessel::FlatGradient& demand() {
     if (!has_demand_) {
       vessel::FlatPoint flat;
       flat.velocity = path().col(1);
@@ -164,7 +164,7 @@ class Point {
   trajectory::ScaledBasis basis_;
   Rows slope_;  // of the path with respect to the duration
   Rows path_;
-  FlatGradient demand_;
+  vessel::FlatGradient demand_;
 };
 
 class Cost {

@@ -13,7 +13,7 @@ namespace otter_nav::optimizer {
 constexpr double kForceKnee = 0.3;   // exceeded by more than this share, it counts linearly
 constexpr double kMotionKnee = 1.0;  // of speed, m/s, and yaw rate, rad/s
 
-[[nodiscard]] inline Rows byDerivatives(const FlatRow& row, double scale) {
+[[nodiscard]] inline Rows byDerivatives(const vessel::FlatRow& row, double scale) {
   Rows rows;
   rows.col(0).setZero();
   rows.rightCols<4>() = scale * row;
@@ -26,7 +26,7 @@ class ThrustLimit : public Cost {
   explicit ThrustLimit(double force_scale_n) : inverse_(1.0 / force_scale_n) {}
 
   void add(const Targets& targets, Point& point) const override {
-    const FlatGradient& g = point.demand();
+    const vessel::FlatGradient& g = point.demand();
     const double weight = targets.weights.dynamics;
     for (const double side : {-1.0, 1.0}) {
       const double thrust = 0.5 * (g.surge_n + side * g.difference_n);
@@ -47,7 +47,7 @@ class ThrustLimit : public Cost {
 class YawRateLimit : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
-    const FlatGradient& g = point.demand();
+    const vessel::FlatGradient& g = point.demand();
     point.addHinge(targets.weights.dynamics,
                    std::abs(g.yaw_rate_radps) - targets.limits.yaw_rate_radps, kMotionKnee,
                    [&] { return byDerivatives(g.yaw_rate, g.yaw_rate_radps < 0.0 ? -1.0 : 1.0); });

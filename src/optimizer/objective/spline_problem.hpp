@@ -35,7 +35,7 @@ class SplineProblem {
 
   void addPiece(PieceModel& piece) const;
 
-  Dynamics dynamics_;
+  vessel::InverseDynamics dynamics_;
   double force_floor_n_;
   std::array<trajectory::SepticBasis, trajectory::kLobattoPoints> lobatto_;
   std::array<trajectory::SepticBasis, kBetweenPoints> between_;

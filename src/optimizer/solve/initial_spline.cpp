@@ -5,10 +5,12 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
 
+constexpr double kLeastForceN = 1e-6;  // above rounding
 constexpr double kSpacingM = 1.0;
 constexpr int kBandSteps = 60;
 constexpr double kSlowestMps = 0.8;
@@ -41,19 +43,21 @@ void appendArc(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
 
 }  // namespace
 
-// The steady speed in a turn: the bow leads the course by beta, so that the sway drag carries it
-// round; surge force and the moment d3 k v share the thrust.
+// The greatest steady speed in a turn for which the thrust suffices.
 double InitialSpline::speedIn(double curvature_per_m) const {
-  const vessel::PaperModel& m = vessel_.paper;
+  const vessel::InverseDynamics inverse(vessel_);
   const double force = 2.0 * vessel_.thrusters.ahead_max_n * options.force_share;
   double low = 0.0;
   double high = options.speed_max_mps;
   const double k = std::abs(curvature_per_m);
   for (int i = 0; i < 12; ++i) {
     const double v = 0.5 * (low + high);
-    const double beta = std::atan2(m.m1_kg * v * k, m.d2_kgps);
-    const double surge = m.d1_kgps * v * std::cos(beta) + m.m1_kg * v * v * k * std::sin(beta);
-    const double need = surge + m.d3_kgm2ps * k * v / vessel_.thrusters.lever_arm_m;
+    const Eigen::Vector2d velocity(v, 0.0);
+    const Eigen::Vector2d turning(0.0, v * v * k);
+    const Eigen::Vector2d w = inverse.headingForce(velocity, turning);
+    const vessel::Bow bow = inverse.bow(w, velocity, kLeastForceN);
+    const vessel::Tau tau = inverse.held(bow.ahead, k * v, 0.0, velocity, turning).tau;
+    const double need = tau.surge_n + tau.yaw_nm / vessel_.thrusters.lever_arm_m;
     (need < force ? low : high) = v;
   }
   return std::max(low, kSlowestMps);

@@ -8,8 +8,8 @@
 #include "optimizer/objective/spline.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/trajectory/polynomial/path_line.hpp"
-#include "otter_nav/vessel/flatness.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::optimizer {
 

@@ -140,26 +140,5 @@ TEST(Splice, KeepsTheSailedWayUpToTheJoint) {
   }
 }
 
-TEST(FlatFromState, GivesTheStateBack) {
-  const vessel::Parameters otter;
-  vessel::State state;
-  state << 3.0, -2.0, 0.7, 2.5, 0.3, 0.2;
-  const vessel::FlatPoint z = flatFromState(state, otter.paper, 100.0);
-  const vessel::FlatState back = vessel::stateFromFlat(z, otter.paper, z.velocity);
-  EXPECT_TRUE(back.state.isApprox(state, 1e-9)) << back.state.transpose();
-}
-
-TEST(FlatFromState, SlowsDownWhereTheForceIsTooSmallForTheSpeed) {
-  const vessel::Parameters otter;
-  vessel::State state;
-  state << 3.0, -2.0, 0.7, 4.0, 0.3, 0.2;
-  const vessel::FlatPoint z = flatFromState(state, otter.paper, 50.0);
-  const vessel::FlatState back = vessel::stateFromFlat(z, otter.paper, z.velocity);
-  EXPECT_TRUE(back.state.isApprox(state, 1e-9)) << back.state.transpose();
-  const Eigen::Vector2d force =
-      otter.paper.m1_kg * z.acceleration + otter.paper.d2_kgps * z.velocity;
-  EXPECT_NEAR(force.norm(), 50.0, 1e-9);
-}
-
 }  // namespace
 }  // namespace otter_nav::stopping

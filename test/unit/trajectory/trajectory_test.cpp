@@ -54,14 +54,14 @@ TEST(Sample, FlatInputsReproduceTheTrajectory) {
     const Trajectory trajectory = eightTrajectory();
     vessel::Disturbance water;
     water.current_mps = current;
-    vessel::State x = trajectory.sample(0.0, otter, current).state;
+    vessel::State x = trajectory.sample(0.0, otter, water).state;
     const double dt = 0.005;
     const auto derivative = [&](double t, const vessel::State& s) {
-      return vessel::stateDerivative(s, trajectory.sample(t, otter, current).thrusts, model,
+      return vessel::stateDerivative(s, trajectory.sample(t, otter, water).thrusts, model,
                                      otter.thrusters, water);
     };
     for (int k = 0; k < 10000; ++k) x = rk4Step(derivative, k * dt, x, dt);
-    const Sample end = trajectory.sample(50.0, otter, current);
+    const Sample end = trajectory.sample(50.0, otter, water);
     EXPECT_LT((x.head<2>() - end.state.head<2>()).norm(), 1e-3);
     EXPECT_LT(std::abs(wrapAngle(x[vessel::kPsi] - end.state[vessel::kPsi])), 1e-4);
   }

@@ -1,0 +1,309 @@
+#include "otter_nav/vessel/inverse_dynamics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/vessel/model.hpp"
+
+namespace otter_nav::vessel {
+namespace {
+
+using Eigen::Vector2d;
+
+// Shares of what all thrusters give ahead. Far above rounding, which where D passes through zero
+// would turn into a yaw acceleration, and far below what a turning path may have:
+constexpr double kSingularShare = 5e-4;
+// The sway balance's slope over the heading is about the thrust ahead that the path asks for. Below
+// the least the position hardly says where the bow should point. Under more than a light load the
+// heading found is only a wish, and trusted more and more as the slope grows to the steady one.
+constexpr double kLeastSlopeShare = 0.1;
+constexpr double kSteadySlopeShare = 0.3;
+constexpr double kLightLoadShare = 0.05;
+constexpr int kSwayIterations = 3;
+constexpr int kBowIterations = 6;
+constexpr double kLongestBowStepRad = 0.5;
+
+// Directions of dual numbers.
+enum Direction : int { kByW = 0, kByW1 = 2, kByW2 = 4, kByVelocity = 6 };  // x, then y
+enum Heading : int { kByPsi, kByYawRate };
+
+template <typename X, typename Y>
+struct Vector {
+  X x;
+  Y y;
+};
+template <typename X, typename Y>
+Vector(X, Y) -> Vector<X, Y>;
+
+Vector<double, double> plain(const Vector2d& v) {
+  return {v.x(), v.y()};
+}
+template <int D>
+auto seeded(const Vector2d& v) {
+  return Vector{variable<D>(v.x()), variable<D + 1>(v.y())};
+}
+template <typename A, typename B>
+OTTER_NAV_INLINE auto dot(const A& a, const B& b) {
+  return a.x * b.x + a.y * b.y;
+}
+template <typename A, typename B>
+OTTER_NAV_INLINE auto crossed(const A& a, const B& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+// r and r' of a hull along e with D = 1 / per_d and Y + Y'' = bend.
+template <typename Rate, typename Acceleration>
+struct Turning {
+  Rate yaw_rate;
+  Acceleration yaw_acceleration;
+};
+template <typename Rate, typename Acceleration>
+Turning(Rate, Acceleration) -> Turning<Rate, Acceleration>;
+
+template <typename E, typename PerD, typename W1, typename W2, typename Bend>
+OTTER_NAV_INLINE auto turning(const E& e, const PerD& per_d, const W1& w1, const W2& w2,
+                              const Bend& bend) {
+  const auto r = crossed(e, w1) * per_d;
+  return Turning{r, (crossed(e, w2) - r * (2.0 * dot(e, w1) + r * bend)) * per_d};
+}
+
+template <typename Rate, typename Acceleration>
+OTTER_NAV_INLINE auto yawMoment(const PaperModel& m, const Rate& r, const Acceleration& r1) {
+  return m.m2_kgm2 * r1 + m.d3_kgm2ps * r;
+}
+
+// What the equations of motion leave for the thrusters, and abeam for nobody.
+template <typename Cosine, typename Sine, typename Rate>
+auto thrustDemand(const ManoeuvringModel& m, const Disturbance& d, const Cosine& c, const Sine& s,
+                  const Rate& r, double yaw_acceleration, const Vector2d& velocity,
+                  const Vector2d& acceleration) {
+  const Vector2d through = velocity - d.current_mps;
+  const auto u = aheadPart(c, s, through.x(), through.y());
+  const auto v = portPart(c, s, through.x(), through.y());
+  const auto water = waterForce(m, u, v, r);
+  const auto outside = outsideForce(c, s, m, d);
+  // u' - r c_v = e . z'' + r v, v' + r c_u = n . z'' - r u.
+  return Body{m.surge_inertia_kg * (aheadPart(c, s, acceleration.x(), acceleration.y()) + r * v) -
+                  water.surge - outside.surge,
+              m.sway_inertia_kg * (portPart(c, s, acceleration.x(), acceleration.y()) - r * u) -
+                  water.sway - outside.sway,
+              m.yaw_inertia_kgm2 * yaw_acceleration - water.yaw - outside.yaw};
+}
+
+}  // namespace
+
+// X, Y, N on a heading and their derivatives by it: dual numbers of dual numbers hold the higher.
+struct InverseDynamics::Air {
+  double x = 0.0, x1 = 0.0;
+  double y = 0.0, y1 = 0.0, y2 = 0.0, y3 = 0.0;
+  double n = 0.0, n1 = 0.0;
+};
+
+InverseDynamics::InverseDynamics(const Parameters& vessel, const Disturbance& disturbance)
+    : model_(vessel.paper),
+      lever_m_(vessel.thrusters.lever_arm_m),
+      singular_n_(kSingularShare * 2.0 * vessel.thrusters.ahead_max_n),
+      windy_(vessel.manoeuvring.feelsWind() && !disturbance.wind_mps.isZero(0.0)),
+      wind_(vessel.manoeuvring),
+      disturbance_(disturbance),
+      surge_offset_n_(model_.d1_kgps * disturbance.current_mps + disturbance.force_n),
+      sway_offset_n_(model_.d2_kgps * disturbance.current_mps + disturbance.force_n) {}
+
+InverseDynamics::Air InverseDynamics::air(const Vector2d& bow) const {
+  Air air;
+  air.n = disturbance_.moment_nm;
+  if (!windy_) {
+    return air;
+  }
+  Disturbance wind = disturbance_;
+  wind.force_n.setZero();  // part of w
+  const Turned<0, double> once(bow.x(), bow.y());
+  const Turned<0, Dual<double, 1>> twice(once.cosine, once.sine);
+  const Turned<0, Dual<Dual<double, 1>, 1>> thrice(twice.cosine, twice.sine);
+  const auto load = outsideForce(thrice.cosine, thrice.sine, wind_, wind);
+  air.x = load.surge.value.value.value;
+  air.x1 = load.surge.slopes[0].value.value;
+  air.y = load.sway.value.value.value;
+  air.y1 = load.sway.slopes[0].value.value;
+  air.y2 = load.sway.slopes[0].slopes[0].value;
+  air.y3 = load.sway.slopes[0].slopes[0].slopes[0];
+  air.n = load.yaw.value.value.value;
+  air.n1 = load.yaw.slopes[0].value.value;
+  return air;
+}
+
+Bow InverseDynamics::bow(const Vector2d& w, const Vector2d& ahead, double floor_n) const {
+  const double side = w.dot(ahead) >= 0.0 ? 1.0 : -1.0;
+  const double norm = std::max(w.norm(), floor_n);
+  Bow bow{side / norm * w, side * norm};
+  if (!windy_) {
+    return bow;
+  }
+  double psi = std::atan2(bow.ahead.y(), bow.ahead.x());
+  for (int i = 0; i <= kBowIterations; ++i) {
+    bow.ahead = {std::cos(psi), std::sin(psi)};
+    const Air air = this->air(bow.ahead);
+    bow.firmness_n = side * std::max(side * (bow.ahead.dot(w) + air.y1), floor_n);
+    psi += std::clamp((cross(bow.ahead, w) - air.y) / bow.firmness_n, -kLongestBowStepRad,
+                      kLongestBowStepRad);
+  }
+  return bow;
+}
+
+HeldDemand InverseDynamics::held(const Vector2d& bow, double yaw_rate_radps,
+                                 double yaw_acceleration, const Vector2d& velocity,
+                                 const Vector2d& acceleration) const {
+  const Air air = this->air(bow);
+  return {{bow.dot(surgeForce(velocity, acceleration)) - air.x,
+           yawMoment(model_, yaw_rate_radps, yaw_acceleration) - air.n},
+          cross(bow, headingForce(velocity, acceleration)) - air.y};
+}
+
+Sailing InverseDynamics::sailing(const FlatPoint& z, const Vector2d& ahead, double floor_n) const {
+  Sailing s;
+  s.bow = bow(headingForce(z.velocity, z.acceleration), ahead, floor_n);
+  const Air air = this->air(s.bow.ahead);
+  const auto turn = turning(plain(s.bow.ahead), 1.0 / s.bow.firmness_n,
+                            plain(headingForceRate(z.acceleration, z.jerk)),
+                            plain(headingForceRate(z.jerk, z.snap)), air.y + air.y2);
+  s.yaw_rate_radps = turn.yaw_rate;
+  s.tau.surge_n = s.bow.ahead.dot(surgeForce(z.velocity, z.acceleration)) - air.x;
+  s.tau.yaw_nm = yawMoment(model_, turn.yaw_rate, turn.yaw_acceleration) - air.n;
+  return s;
+}
+
+FlatState InverseDynamics::state(const FlatPoint& z, const Vector2d& ahead) const {
+  Sailing s = sailing(z, ahead, 1e-9);
+  const double firmness = std::abs(s.bow.firmness_n);
+  double psi = std::atan2(s.bow.ahead.y(), s.bow.ahead.x());
+  if (firmness <= singular_n_) {
+    psi = std::atan2(ahead.y(), ahead.x());
+    s.yaw_rate_radps = 0.0;
+    s.tau = held({std::cos(psi), std::sin(psi)}, 0.0, 0.0, z.velocity, z.acceleration).tau;
+  }
+  const Vector2d e(std::cos(psi), std::sin(psi));
+  FlatState flat;
+  flat.state << z.position, psi, e.dot(z.velocity), cross(e, z.velocity), s.yaw_rate_radps;
+  flat.tau = s.tau;
+  flat.heading_force_n = firmness;
+  return flat;
+}
+
+FlatGradient InverseDynamics::gradient(const FlatPoint& z, double floor_n) const {
+  const Vector2d w = headingForce(z.velocity, z.acceleration);
+  const Bow b = bow(w, w, floor_n);
+  const Air air = this->air(b.ahead);
+  const double per_d = 1.0 / b.firmness_n;
+  const bool floored = b.firmness_n <= floor_n;
+  // d psi = n . dw / D, d D = (e + (Y + Y'') n / D) . dw. A floored D stands still, and e = w / D.
+  const Vector2d n = across(b.ahead);
+  const Vector2d psi_w = per_d * n;
+  const Vector2d d_w = floored ? Vector2d(0.0, 0.0) : Vector2d(b.ahead + (air.y + air.y2) * psi_w);
+  using ByW = Dual<double, 0b11U << kByW>;
+  const auto dual = [](double value, const Vector2d& by_w) {
+    ByW x(value);
+    x.slopes[0] = by_w.x();
+    x.slopes[1] = by_w.y();
+    return x;
+  };
+  const auto byHeading = [&](double value, double by_psi) { return dual(value, by_psi * psi_w); };
+  const Vector2d ex_w = floored ? Vector2d(per_d, 0.0) : Vector2d(n.x() * psi_w);
+  const Vector2d ey_w = floored ? Vector2d(0.0, per_d) : Vector2d(n.y() * psi_w);
+  const Vector e{dual(b.ahead.x(), ex_w), dual(b.ahead.y(), ey_w)};
+  const auto turn = turning(
+      e, dual(per_d, -per_d * per_d * d_w), seeded<kByW1>(headingForceRate(z.acceleration, z.jerk)),
+      seeded<kByW2>(headingForceRate(z.jerk, z.snap)), byHeading(air.y + air.y2, air.y1 + air.y3));
+  // m1 z'' + d1 (z' - c) - F = w + (d1 - d2) (z' - c)
+  const auto w_dual = seeded<kByW>(w);
+  const auto through = seeded<kByVelocity>(z.velocity - disturbance_.current_mps);
+  const auto surge = dot(e, w_dual) + (model_.d1_kgps - model_.d2_kgps) * dot(e, through) -
+                     byHeading(air.x, air.x1);
+  const auto difference =
+      (yawMoment(model_, turn.yaw_rate, turn.yaw_acceleration) - byHeading(air.n, air.n1)) *
+      (1.0 / lever_m_);
+  const auto row = [&](const auto& x) {
+    FlatRow r = byPath({slope<kByW>(x), slope<kByW + 1>(x)}, {slope<kByW1>(x), slope<kByW1 + 1>(x)},
+                       {slope<kByW2>(x), slope<kByW2 + 1>(x)});
+    r.col(0) += Vector2d(slope<kByVelocity>(x), slope<kByVelocity + 1>(x));
+    return r;
+  };
+  FlatGradient g;
+  g.heading_force_n = b.firmness_n;
+  g.yaw_rate_radps = turn.yaw_rate.value;
+  g.surge_n = surge.value;
+  g.difference_n = difference.value;
+  g.yaw_rate = row(turn.yaw_rate);
+  g.surge = row(surge);
+  g.difference = row(difference);
+  return g;
+}
+
+void InverseDynamics::push(double psi_rad, double yaw_rate_radps, double surge_n,
+                           double surge_rate_nps, FlatPoint& z) const {
+  // w = (tau_u + (d2 - d1) e . (z' - c) + X) e + Y n
+  const Vector2d e(std::cos(psi_rad), std::sin(psi_rad));
+  const Vector2d n = across(e);
+  const Air air = this->air(e);
+  const Vector2d through = z.velocity - disturbance_.current_mps;
+  const double extra = model_.d2_kgps - model_.d1_kgps;
+  const double ahead = surge_n + extra * e.dot(through) + air.x;
+  z.acceleration = accelerationFrom(ahead * e + air.y * n, z.velocity);
+  const double r = yaw_rate_radps;
+  const double ahead_rate =
+      surge_rate_nps + extra * (r * n.dot(through) + e.dot(z.acceleration)) + r * air.x1;
+  z.jerk = jerkFrom((ahead_rate - r * air.y) * e + r * (ahead + air.y1) * n, z.acceleration);
+}
+
+FlatPoint InverseDynamics::fromState(const State& x, double force_max_n) const {
+  const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
+  const Vector2d n = across(e);
+  FlatPoint z;
+  z.position = x.head<2>();
+  z.velocity = x[kSurge] * e + x[kSway] * n;
+  const double through = e.dot(z.velocity - disturbance_.current_mps);
+  const double force = std::min(model_.d2_kgps * through, force_max_n);
+  const Air air = this->air(e);
+  z.acceleration = accelerationFrom(force * e + air.y * n, z.velocity);
+  z.jerk = jerkFrom(x[kYawRate] * ((force + air.y1) * n - air.y * e), z.acceleration);
+  return z;
+}
+
+SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance,
+                        const Vector2d& velocity, const Vector2d& acceleration,
+                        double psi_before_rad, double psi_path_rad, double dt_s) {
+  const ManoeuvringModel& m = vessel.manoeuvring;
+  const double thrust_n = 2.0 * vessel.thrusters.ahead_max_n;
+  const double least_slope_n = kLeastSlopeShare * thrust_n;
+  double psi = unwrapNear(psi_before_rad, psi_path_rad);
+  const double before = psi;
+  double slope_n = 0.0;
+  for (int i = 0; i < kSwayIterations; ++i) {
+    const Turned<kByPsi, double> turned(std::cos(psi), std::sin(psi));
+    const auto lacking = thrustDemand(m, disturbance, turned.cosine, turned.sine,
+                                      variable<kByYawRate>(0.0), 0.0, velocity, acceleration)
+                             .sway;
+    slope_n = -slope<kByPsi>(lacking);
+    const double turns = slope<kByYawRate>(lacking);
+    if (slope_n < least_slope_n || turns > 0.0) {
+      psi = psi_path_rad;
+      break;
+    }
+    psi -= (turns * (psi - before) / dt_s + lacking.value) / (turns / dt_s - slope_n);
+  }
+  const OutsideLoad load = outsideLoad(psi, m, disturbance);
+  const double calm = 2.0 - std::hypot(load.surge_n, load.sway_n) / (kLightLoadShare * thrust_n);
+  const double steady = (slope_n - least_slope_n) / (kSteadySlopeShare * thrust_n);
+  return {psi, std::clamp(std::max(calm, steady), 0.0, 1.0)};
+}
+
+Demand demandOf(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad,
+                double yaw_rate_radps, double yaw_acceleration, const Vector2d& velocity,
+                const Vector2d& acceleration) {
+  const Vector2d e(std::cos(psi_rad), std::sin(psi_rad));
+  const auto demand = thrustDemand(model, disturbance, e.x(), e.y(), yaw_rate_radps,
+                                   yaw_acceleration, velocity, acceleration);
+  return {e.dot(velocity), cross(e, velocity), {demand.surge, demand.yaw}, demand.sway};
+}
+
+}  // namespace otter_nav::vessel
