@@ -146,24 +146,19 @@ Eigen::Matrix<double, 3, 2> Estimator::fromWind() const {
 
 // I + dt * Jacobian: over 10 ms the next order is below the noise.
 Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, double dt_s) const {
-  const vessel::StateJacobian a =
-      vessel::linearize(state_, thrusts, model_, thrusters_, disturbance_).state_jacobian;
+  const vessel::Linearization l =
+      vessel::linearize(state_, thrusts, model_, thrusters_, disturbance_);
   Eigen::Matrix2d body_from_earth;
   const double c = std::cos(state_[kPsi]);
   const double s = std::sin(state_[kPsi]);
   body_from_earth << c, s, -s, c;
 
   Covariance f = Covariance::Identity();
-  f.topLeftCorner<6, 6>() += dt_s * a;
+  f.topLeftCorner<6, 6>() += dt_s * l.state_jacobian;
   f.block<1, 2>(kSurge, kForce) = dt_s / model_.surge_inertia_kg * body_from_earth.row(0);
   f.block<1, 2>(kSway, kForce) = dt_s / model_.sway_inertia_kg * body_from_earth.row(1);
   f(kYawRate, kMoment) = dt_s / model_.yaw_inertia_kgm2;
-  // A current in the body frame takes from the relative velocities what it adds to the frame's
-  // turning.
-  Eigen::Matrix<double, 3, 2> from_current = -a.block<3, 2>(kSurge, kSurge);
-  from_current(0, 1) += state_[kYawRate];
-  from_current(1, 0) -= state_[kYawRate];
-  f.block<3, 2>(kSurge, kCurrent) = dt_s * from_current * body_from_earth;
+  f.block<3, 2>(kSurge, kCurrent) = dt_s * l.current_jacobian;
   f.block<3, 2>(kSurge, kWind) = dt_s * fromWind();
   const double w = kWaveRadps;
   f.block<3, 3>(kWave, kWaveRate).diagonal().setConstant(dt_s);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::tracker {
@@ -69,15 +70,10 @@ vessel::Thrusts StationKeeper::thrusts(double surge_n, double yaw_nm) const {
 }
 
 Vector2d StationKeeper::load(double psi_rad, const vessel::Disturbance& disturbance) const {
-  const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
+  const vessel::Demand at_rest = vessel::demandOf(vessel_.manoeuvring, disturbance, psi_rad, 0.0,
+                                                  0.0, Vector2d::Zero(), Vector2d::Zero());
   const Vector2d e(std::cos(psi_rad), std::sin(psi_rad));
-  const Vector2d n(-e.y(), e.x());
-  const double u = e.dot(disturbance.current_mps);
-  const double v = n.dot(disturbance.current_mps);
-  const vessel::OutsideLoad outside = vessel::outsideLoad(psi_rad, m, disturbance);
-  return outside.surge_n * e + outside.sway_n * n +
-         (m.surge_drag_kgps + m.surge_drag_quadratic_kgpm * std::abs(u)) * u * e +
-         (m.sway_drag_kgps + m.sway_drag_quadratic_kgpm * std::abs(v)) * v * n;
+  return -at_rest.tau.surge_n * e - at_rest.sway_n * Vector2d(-e.y(), e.x());
 }
 
 vessel::Thrusts StationKeeper::step(const vessel::State& state,

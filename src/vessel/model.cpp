@@ -7,21 +7,27 @@
 namespace otter_nav::vessel {
 namespace {
 
-// Places the law's numbers in a State; the same for values and slopes.
 template <typename Position, typename Acceleration>
 State stateOf(const Position& position, double r, const Acceleration& acceleration) {
   State dx;
-  dx << position.x, position.y, r, acceleration.surge, acceleration.sway, acceleration.yaw;
+  dx << valueOf(position.x), valueOf(position.y), r, valueOf(acceleration.surge),
+      valueOf(acceleration.sway), valueOf(acceleration.yaw);
   return dx;
 }
 
+// Directions beside the state's own.
+enum Direction : int { kByCurrentX = kStateSize, kByCurrentY };
+
+template <int Direction, typename Acceleration>
+Eigen::Vector3d slopes(const Acceleration& a) {
+  return {slope<Direction>(a.surge), slope<Direction>(a.sway), slope<Direction>(a.yaw)};
+}
 template <int Direction, typename Position, typename Acceleration>
-void setColumn(const Position& position, const Acceleration& acceleration, int column,
-               StateJacobian& jacobian) {
-  jacobian.col(column) =
-      stateOf(Plane<double>{slope<Direction>(position.x), slope<Direction>(position.y)}, 0.0,
-              Body{slope<Direction>(acceleration.surge), slope<Direction>(acceleration.sway),
-                   slope<Direction>(acceleration.yaw)});
+State column(const Position& position, const Acceleration& acceleration) {
+  State by;
+  by << slope<Direction>(position.x), slope<Direction>(position.y), 0.0,
+      slopes<Direction>(acceleration);
+  return by;
 }
 
 }  // namespace
@@ -54,27 +60,27 @@ Linearization linearize(const State& x, const Thrusts& thrusts, const Manoeuvrin
   const auto u = variable<kSurge>(x[kSurge]);
   const auto v = variable<kSway>(x[kSway]);
   const auto r = variable<kYawRate>(x[kYawRate]);
-  const Eigen::Vector2d& current = disturbance.current_mps;
+  const auto current_x = variable<kByCurrentX>(disturbance.current_mps.x());
+  const auto current_y = variable<kByCurrentY>(disturbance.current_mps.y());
   const Mobility mobility(model);
   const auto position = positionRate(psi.cosine, psi.sine, u, v);
   const auto acceleration = bodyAcceleration(
       model, mobility, outsideForce(psi.cosine, psi.sine, model, disturbance),
-      aheadPart(psi.cosine, psi.sine, current.x(), current.y()),
-      portPart(psi.cosine, psi.sine, current.x(), current.y()), u, v, r, tau.surge_n, tau.yaw_nm);
+      aheadPart(psi.cosine, psi.sine, current_x, current_y),
+      portPart(psi.cosine, psi.sine, current_x, current_y), u, v, r, tau.surge_n, tau.yaw_nm);
   Linearization l;
-  l.derivative =
-      stateOf(Plane<double>{position.x.value, position.y.value}, x[kYawRate],
-              Body{acceleration.surge.value, acceleration.sway.value, acceleration.yaw.value});
+  l.derivative = stateOf(position, x[kYawRate], acceleration);
   l.state_jacobian.setZero();
-  setColumn<kPsi>(position, acceleration, kPsi, l.state_jacobian);
-  setColumn<kSurge>(position, acceleration, kSurge, l.state_jacobian);
-  setColumn<kSway>(position, acceleration, kSway, l.state_jacobian);
-  setColumn<kYawRate>(position, acceleration, kYawRate, l.state_jacobian);
+  l.state_jacobian.col(kPsi) = column<kPsi>(position, acceleration);
+  l.state_jacobian.col(kSurge) = column<kSurge>(position, acceleration);
+  l.state_jacobian.col(kSway) = column<kSway>(position, acceleration);
+  l.state_jacobian.col(kYawRate) = column<kYawRate>(position, acceleration);
   l.state_jacobian(kPsi, kYawRate) = 1.0;
   l.input_jacobian.setZero();
   l.input_jacobian.row(kSurge).setConstant(mobility.surge);
   l.input_jacobian(kYawRate, kLeft) = -thrusters.lever_arm_m * mobility.yaw;
   l.input_jacobian(kYawRate, kRight) = thrusters.lever_arm_m * mobility.yaw;
+  l.current_jacobian << slopes<kByCurrentX>(acceleration), slopes<kByCurrentY>(acceleration);
   return l;
 }
 

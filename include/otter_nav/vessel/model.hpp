@@ -32,6 +32,7 @@ struct Linearization {
   State derivative;
   StateJacobian state_jacobian;
   InputJacobian input_jacobian;
+  Eigen::Matrix<double, 3, 2> current_jacobian;  // d (u', v', r') / d current, earth frame
 };
 [[nodiscard]] Linearization linearize(const State& state, const Thrusts& thrusts,
                                       const ManoeuvringModel& model, const Thrusters& thrusters,

@@ -84,6 +84,16 @@ TEST(Linearize, AgreesWithCentralDifferences) {
           (2.0 * kStep);
       EXPECT_LT((column - l.state_jacobian.col(j)).cwiseAbs().maxCoeff(), 2e-5) << "column " << j;
     }
+    for (int j = 0; j < 2; ++j) {
+      Disturbance up = d;
+      Disturbance down = d;
+      up.current_mps[j] += kStep;
+      down.current_mps[j] -= kStep;
+      const State column =
+          (stateDerivative(x, f, m, thrusters, up) - stateDerivative(x, f, m, thrusters, down)) /
+          (2.0 * kStep);
+      EXPECT_LT((column.tail<3>() - l.current_jacobian.col(j)).cwiseAbs().maxCoeff(), 2e-5);
+    }
     for (int j = 0; j < kInputSize; ++j) {
       Thrusts plus = f;
       plus[j] += 1.0;
