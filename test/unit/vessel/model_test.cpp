@@ -57,6 +57,42 @@ TEST(StateDerivative, DriftingWithTheCurrentIsAtRestInTheWater) {
   EXPECT_NEAR(dx[kSway], -x[kYawRate] * x[kSurge], 1e-12);
 }
 
+// Each term of docs/model.md, written out.
+TEST(StateDerivative, HasEveryTermOfTheManoeuvringModel) {
+  const ManoeuvringModel m = everyTermModel();
+  Disturbance d;
+  d.current_mps = {0.3, 0.1};
+  d.wind_mps = {2.0, -5.0};
+  d.force_n = {3.0, 7.0};
+  d.moment_nm = -2.0;
+  State x = State::Zero();
+  x.tail<3>() << 1.3, -0.4, -0.5;  // heading east: body and earth frame agree
+  const double u = 1.0;
+  const double v = -0.5;
+  const double r = -0.5;
+  const State dx = stateDerivative(x, {20.0, 35.0}, m, {}, d);
+  EXPECT_NEAR(dx[kX], 1.3, 1e-12);
+  EXPECT_NEAR(dx[kY], -0.4, 1e-12);
+  EXPECT_EQ(dx[kPsi], r);
+  EXPECT_NEAR(85.0 * (dx[kSurge] - r * 0.1),
+              170.0 * v * r - 70.0 * u - 3.0 * u * u + 55.0 + 3.0 + 0.4 * 4.0, 1e-9);
+  EXPECT_NEAR(190.0 * (dx[kSway] + r * 0.3),
+              -90.0 * u * r - 30.0 * v + 120.0 * v * v - 5.0 * r + 7.0 - 0.6 * 25.0, 1e-9);
+  EXPECT_NEAR(40.0 * dx[kYawRate],
+              -60.0 * u * v - 45.0 * r + 200.0 * r * r + 4.0 * v + 0.39 * 15.0 - 2.0 + 0.7 * 10.0,
+              1e-9);
+  x[kPsi] = 0.5 * M_PI;  // heading north: ahead is y, to port is -x
+  x[kSurge] = 1.1;
+  x[kSway] = -0.8;
+  const State north = stateDerivative(x, {20.0, 35.0}, m, {}, d);
+  EXPECT_NEAR(north[kX], 0.8, 1e-12);
+  EXPECT_NEAR(north[kY], 1.1, 1e-12);
+  EXPECT_NEAR(85.0 * (north[kSurge] - r * -0.3),
+              170.0 * v * r - 70.0 * u - 3.0 * u * u + 55.0 + 7.0 - 0.4 * 25.0, 1e-9);
+  EXPECT_NEAR(190.0 * (north[kSway] + r * 0.1),
+              -90.0 * u * r - 30.0 * v + 120.0 * v * v - 5.0 * r - 3.0 - 0.6 * 4.0, 1e-9);
+}
+
 TEST(Linearize, AgreesWithCentralDifferences) {
   const ManoeuvringModel m = everyTermModel();
   const Thrusters thrusters;

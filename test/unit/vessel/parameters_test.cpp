@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace otter_nav::vessel {
 namespace {
 
@@ -16,6 +18,49 @@ TEST(LoadParameters, ShippedVesselRoundTrips) {
   const auto again = readParameters({YAML::Load(toYaml(*loaded)), "text"});
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(toYaml(*again), toYaml(*loaded));
+}
+
+// Every number of the list is written and read into its own member.
+TEST(LoadParameters, EveryNumberRoundTrips) {
+  struct Numbers {
+    double next = 1.0;
+    std::vector<double> seen;
+    bool sets = true;
+    void take(double& value) {
+      value = sets ? next : value;
+      next += 0.125;
+      seen.push_back(value);
+    }
+    void operator()(const char*, std::string&, const char*) {}
+    void operator()(const char*, double& value, config::Range, const char*) { take(value); }
+    void optional(const char*, double& value, config::Range, const char*) { take(value); }
+    void group(const char*, PaperModel& g, const char*) { PaperModel::describe(g, *this); }
+    void group(const char*, Thrusters& g, const char*) { Thrusters::describe(g, *this); }
+    void group(const char*, Hull& g, const char*) { Hull::describe(g, *this); }
+    void optionalGroup(const char*, ManoeuvringModel& g, const char*) {
+      ManoeuvringModel::describe(g, *this);
+    }
+  };
+  Parameters written;
+  Numbers set;
+  Parameters::describe(written, set);
+  ASSERT_EQ(set.seen.size(), 1U + 5U + 17U + 4U + 2U);
+  auto read = readParameters({YAML::Load(toYaml(written)), "text"});
+  ASSERT_TRUE(read) << read.error().message;
+  Numbers again;
+  again.sets = false;
+  Parameters::describe(*read, again);
+  EXPECT_EQ(again.seen, set.seen);
+  EXPECT_EQ(read->manoeuvring.yaw_from_sway_kgmps, written.manoeuvring.yaw_from_sway_kgmps);
+}
+
+TEST(LoadParameters, WithoutManoeuvringModelThePapersIsUsed) {
+  YAML::Node node = YAML::Load(toYaml(Parameters{}));
+  node["paper_model"]["d2_kgps"] = 33.0;
+  node.remove("manoeuvring_model");
+  const auto read = readParameters({node, "text"});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->manoeuvring.sway_drag_kgps, 33.0);
 }
 
 TEST(WithThrustShare, LeavesEverythingButThrustAndSpeed) {
