@@ -20,6 +20,7 @@ constexpr double kSingularShare = 5e-4;
 constexpr double kLeastSlopeShare = 0.1;
 constexpr double kSteadySlopeShare = 0.3;
 constexpr double kLightLoadShare = 0.05;
+constexpr double kRoundingMps = 1e-9;  // of D over the sway inertia
 constexpr int kSwayIterations = 3;
 constexpr int kBowIterations = 6;
 constexpr double kLongestBowStepRad = 0.5;
@@ -285,7 +286,7 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
                              .sway;
     slope_n = -slope<kByPsi>(lacking);
     const double turns = slope<kByYawRate>(lacking);
-    if (slope_n < least_slope_n || turns > 0.0) {
+    if (slope_n < least_slope_n || turns > kRoundingMps * m.sway_inertia_kg) {
       psi = psi_path_rad;
       break;
     }

@@ -237,7 +237,7 @@ TEST(DemandOf, AgreesWithTheFlatMapOfThePaper) {
     EXPECT_NEAR(demand.sway_n, 0.0, 1e-9);
     EXPECT_NEAR(held.sway_n, 0.0, 1e-9);
     const SwayHeading heading = swayHeading(vessel, weather, z.velocity, z.acceleration,
-                                            flat.state[kPsi] + 0.05, flat.state[kPsi], 0.1);
+                                            flat.state[kPsi] + 0.05, flat.state[kPsi] + 0.1, 0.1);
     EXPECT_NEAR(heading.psi_rad, flat.state[kPsi], 1e-6);
   }
 }

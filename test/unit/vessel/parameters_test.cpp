@@ -32,6 +32,7 @@ TEST(LoadParameters, EveryNumberRoundTrips) {
       seen.push_back(value);
     }
     void operator()(const char*, std::string&, const char*) {}
+    void optionalText(const char*, std::string&, const std::vector<std::string>&, const char*) {}
     void operator()(const char*, double& value, config::Range, const char*) { take(value); }
     void optional(const char*, double& value, config::Range, const char*) { take(value); }
     void group(const char*, PaperModel& g, const char*) { PaperModel::describe(g, *this); }
