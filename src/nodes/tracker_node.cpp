@@ -27,12 +27,9 @@ Level levelOf(const tracker::Command& command) {
 
 Result<TrackerNodeOptions> readNodeOptions(config::Section& section) {
   TrackerNodeOptions options;
-  section.read("vessel", options.vessel);
-  section.read("odometry_frame", options.odometry_frame,
-               std::vector<std::string>{ros_bridge::kOdomFrame, kMapFrame});
-  section.read("lockstep", options.lockstep);
-  section.read("speed", options.speed, {0.0, 1000.0});
-  section.read("status_rate_hz", options.status_rate_hz, {0.1, 100.0});
+  if (const Status status = config::readFields(section, options); !status) {
+    return failure(status.error().message);
+  }
   if (!options.lockstep && options.speed <= 0.0) {
     return failure(section.where() +
                    ": parameter 'speed' = 0 is outside its allowed range (0, 1000] when 'lockstep' "

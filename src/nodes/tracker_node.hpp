@@ -18,16 +18,9 @@
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
+#include "tracker_node_options.hpp"
 
 namespace otter_nav::nodes {
-
-struct TrackerNodeOptions {
-  std::string vessel;          // a name of config/vessels, or a file
-  std::string odometry_frame;  // odom or map; both coincide (docs/frames.md)
-  bool lockstep = true;        // each odometry is a control step; else a loop of its own
-  double speed = 1.0;          // of simulated time over real time; 0: unknown, in lockstep only
-  double status_rate_hz = 10.0;
-};
 
 class TrackerNode {
  public:

@@ -23,7 +23,7 @@ constexpr double kSurgeDamping = 0.845;
 constexpr double kYawRadps = 1.508;
 constexpr double kYawDamping = 1.206;
 constexpr double kThrustShare = 0.8;  // of the limits; the rest is for what comes of a sudden
-constexpr double kYawShare = 0.6;     // of that for turning, so that some is left for the way ahead
+constexpr double kYawShare = 0.6;     // of that for turning, so that some is left for the surge
 constexpr double kSideLoad = 0.15;    // abeam, of both thrusters' force ahead: lighter, the heading
                                       // may be held again
 constexpr double kHeldRad = 0.17;

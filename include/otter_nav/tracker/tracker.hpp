@@ -39,7 +39,7 @@ struct Command {
   vessel::State reference = vessel::State::Zero();  // at the stamp
   double tracking_error_m = 0.0;                    // of the estimate
   double time_left_s = 0.0;                         // of the trajectory
-  bool at_goal = false;                             // within the arrival tolerances
+  bool at_goal = false;                             // holds the spot with its heading
   vessel::Disturbance disturbance;                  // the estimate
   // What it pushes with on the present heading, wind included: earth frame, and yaw moment.
   Eigen::Vector2d outside_force_n = Eigen::Vector2d::Zero();

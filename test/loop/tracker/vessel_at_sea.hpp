@@ -32,8 +32,9 @@ class VesselAtSea {
   // `odometry` is called with each message before the tracker gets it; false drops it.
   using Tamper = std::function<bool(double& stamp_s, vessel::State& state)>;
 
-  explicit VesselAtSea(const std::string& disturbance, double latency_s = 0.0) {
-    const auto vessel = vessel::loadParameters(kSource + "/config/vessels/otter_gazebo.yaml");
+  explicit VesselAtSea(const std::string& disturbance, double latency_s = 0.0,
+                       const std::string& name = "otter_gazebo") {
+    const auto vessel = vessel::loadParameters(kSource + "/config/vessels/" + name + ".yaml");
     const auto options = loadOptions(kSource + "/config/tracker.yaml");
     auto plant = plant::loadOptions(*vessel, kSource + "/config/plant.yaml",
                                     kSource + "/config/disturbances/" + disturbance + ".yaml");

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "nodes/tracker_node_options.hpp"
+
 namespace otter_nav::tracker {
 namespace {
 
@@ -9,6 +11,13 @@ TEST(TrackerOptions, DefaultsAreWhatShips) {
   const auto shipped = loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml");
   ASSERT_TRUE(shipped) << shipped.error().message;
   EXPECT_EQ(config::toYaml(*shipped), config::toYaml(Options{}));
+}
+
+TEST(TrackerOptions, TheNodesDefaultsAreWhatShips) {
+  const auto shipped = config::load<nodes::TrackerNodeOptions>(std::string(OTTER_NAV_SOURCE_DIR) +
+                                                               "/config/tracker_node.yaml");
+  ASSERT_TRUE(shipped) << shipped.error().message;
+  EXPECT_EQ(config::toYaml(*shipped), config::toYaml(nodes::TrackerNodeOptions{}));
 }
 
 // A key that is unknown, missing or out of range is an error that names it.
