@@ -160,7 +160,7 @@ def _worst_missions(page, found, charts, pictures):
     """First what did not arrive, then by the largest error."""
     order = sorted(found, key=lambda entry: (entry[1].get("outcome") == "arrived",
                                              -entry[1].get("tracking_error_max_m", 0.0)))
-    drawn = []
+    drawn, titles = [], []
     for path, mission in order:
         if len(drawn) == _WORST:
             break
@@ -170,9 +170,10 @@ def _worst_missions(page, found, charts, pictures):
                  f"{mission.get('tracking_error_max_m', 0.0):.2f} m at most")
         drawn.append(pictures.track(run_of(mission, path), charts.get(mission.get("scenario")), title,
                                     compact=True))
+        titles.append(title)
     if drawn:
         page.section("Worst cases", "First those that did not arrive, then by their largest error.")
-        page.pictures(drawn)
+        page.pictures(drawn, titles)
     else:
         page.raw('<p class="note">No tracks were written (mission_benchmark --tracks), so there are '
                  "no pictures of the worst cases.</p>")
@@ -251,7 +252,7 @@ def _plans_by_scenario(page, cases):
 
 
 def _worst_plans(page, cases, charts, pictures, folder):
-    drawn = []
+    drawn, titles = [], []
     for path, case in sorted(cases, key=lambda entry: -entry[1]["total_ms"]):
         dump = case.get("dump") or ""
         places = [dump, os.path.join(os.path.dirname(path), dump),
@@ -261,12 +262,12 @@ def _worst_plans(page, cases, charts, pictures, folder):
             continue
         data = numpy.genfromtxt(place, delimiter=",", names=True)
         way = Table(t=data["t"], x=data["x"], y=data["y"], u=data["u"], v=data["v"])
-        drawn.append(pictures.planned_way(
-            way, charts.get(case["scenario"]), f"{case['scenario']}, mission {case['mission']}, "
-            f"{case['method']}, seed {case['seed']}: {case['total_ms']:.0f} ms"))
+        titles.append(f"{case['scenario']}, mission {case['mission']}, {case['method']}, seed "
+                      f"{case['seed']}: {case['total_ms']:.0f} ms")
+        drawn.append(pictures.planned_way(way, charts.get(case["scenario"]), titles[-1]))
     if drawn:
         page.section("Slowest plans")
-        page.pictures(drawn)
+        page.pictures(drawn, titles)
 
 
 # ---- tracking ----------------------------------------------------------------------------------

@@ -32,14 +32,14 @@ table{border-collapse:collapse;width:100%;font-size:13.5px;font-variant-numeric:
 margin:8px 0}
 th,td{padding:4px 10px 4px 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--grid)}
 th{color:var(--muted);font-weight:600}
-td.number,th.number{text-align:right;white-space:nowrap}
-td.long{overflow-wrap:anywhere}
+td.number,th.number{text-align:right}td.number{white-space:nowrap}
+th{vertical-align:bottom;line-height:1.25}td.long{overflow-wrap:break-word}
 tr{break-inside:avoid}
 pre{white-space:pre-wrap;font-size:12.5px}
 @media (max-width:480px){.pair{grid-template-columns:1fr}}
 @media print{:root{color-scheme:light;LIGHT}@page{margin:14mm}body{font-size:11pt}
-main{max-width:none;padding:0}h2{break-after:avoid;margin-top:18px}
-figure svg{max-height:225mm}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
+main{max-width:none;padding:0}h2,h2+.note{break-after:avoid}h2{margin-top:14px}
+.scroll{overflow:visible}figure svg{max-height:150mm}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 """
 
 
@@ -55,6 +55,8 @@ def number(value, digits=3):
         return escape(value)
     if isinstance(value, int) and not isinstance(value, bool):
         return str(value)
+    if 0.0 < abs(value) < 2.0 * 10.0**-digits:
+        digits += 2
     return f"{value:.{digits}f}"
 
 
@@ -88,9 +90,11 @@ class Page:
             words = f"<figcaption>{escape(caption)}</figcaption>" if caption else ""
             self.raw(f"<figure>{svg}{words}</figure>")
 
-    def pictures(self, svgs):
-        """Side by side."""
-        shown = [f"<figure>{svg}</figure>" for svg in svgs if svg]
+    def pictures(self, svgs, captions=()):
+        """Side by side, each with its caption above it."""
+        words = list(captions) + [""] * (len(svgs) - len(captions))
+        shown = [f"<figure>{f'<figcaption>{escape(w)}</figcaption>' if w else ''}{svg}</figure>"
+                 for svg, w in zip(svgs, words) if svg]
         if shown:
             self.raw(f'<div class="pair">{"".join(shown)}</div>')
 

@@ -42,9 +42,10 @@ def _time_axes(run, height=_LOW, rows=1):
         for t in _replan_times(run):
             ax.axvline(t - start, color=COLOUR["third"], linewidth=0.8, linestyle=":", zorder=1)
         for t in contact_times(run):
-            ax.axvline(t - start, color=COLOUR["left"], linewidth=1.2, zorder=1)
+            ax.axvline(t - start, color=COLOUR["fg"], linewidth=2.0, zorder=1)
         for edge in (begin, end):
             ax.axvline(edge - start, color=COLOUR["muted"], linewidth=0.7, zorder=1)
+    figure.align_ylabels(axes)
     axes[-1].set_xlabel("time since the recording's first motion, s")
     return figure, axes, start
 
@@ -165,8 +166,6 @@ def track(run, scenario=None, title="", compact=False):
         _speed_bar(ax, levels)
         ax.legend(handles=names, loc="upper center", bbox_to_anchor=(0.5, -0.16 if compact else -0.09),
                   ncol=3 if compact else 5, handletextpad=0.5, columnspacing=1.2)
-        if title:
-            ax.set_title(title)
         return to_svg(figure, title or "Track on the chart, coloured by speed")
 
 
@@ -208,10 +207,10 @@ def errors(run):
     if not numpy.any(numpy.isfinite(error.distance)):
         return None
     with styled():
-        figure, axes, start = _time_axes(run, 4.0, 2)
+        figure, axes, start = _time_axes(run, 4.6, 2)
         for ax, name, label, colour in (
-                (axes[0], "along", "along the way, m\n(positive: ahead)", "right"),
-                (axes[1], "cross", "across the way, m\n(positive: to port)", "left")):
+                (axes[0], "along", "along, m\n(+ ahead)", "right"),
+                (axes[1], "cross", "across, m\n(+ to port)", "left")):
             t, value = thin(error.t - start, getattr(error, name))
             ax.axhline(0.0, color=COLOUR["muted"], linewidth=0.7)
             ax.plot(t, value, color=COLOUR[colour])
@@ -384,7 +383,8 @@ def histogram(values, label, title="", groups=None):
         ax.hist(list(groups.values()), bins=numpy.linspace(low, high, 21), stacked=True,
                 color=[colours[k % len(colours)] for k in range(len(groups))],
                 label=list(groups), edgecolor=COLOUR["page"], linewidth=0.6)
-        ax.yaxis.set_major_locator(MaxNLocator(integer=True))
+        ax.yaxis.set_major_locator(MaxNLocator(6, integer=True))
+        ax.xaxis.set_major_locator(MaxNLocator(6))
         ax.set_xlabel(label)
         ax.set_ylabel("number")
         ax.grid(axis="x", visible=False)
@@ -430,5 +430,4 @@ def planned_way(path, scenario, title):
         ax.set_xlabel("east, m")
         ax.set_ylabel("north, m")
         _speed_bar(ax, levels)
-        ax.set_title(title)
         return to_svg(figure, title)

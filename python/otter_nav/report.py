@@ -6,7 +6,7 @@ import sys
 
 from .bag import read_bag
 from .errors import RecordingError
-from .page import Page, number
+from .page import Page, escape, number
 from .result import read_result
 from .vessel import share_folder
 
@@ -38,9 +38,7 @@ def run_page(run, scenario=None, others=0):
         words.append(f"run {run.details['run']} of the bag")
     page.heading(title, ", ".join(words), run.outcome, run.outcome == "arrived")
     if run.reason:
-        page.raw("")
-        page.section("Why it did not arrive")
-        page.table(("reason",), [(run.reason,)])
+        page.raw(f"<p>{escape(run.reason)}</p>")
     page.figures([
         ("mean tracking error", number(figures["tracking_error_mean_m"]), "m"),
         ("largest tracking error", number(figures["tracking_error_max_m"]), "m"),
@@ -49,7 +47,7 @@ def run_page(run, scenario=None, others=0):
         ("mean speed", number(figures["speed_mean_mps"], 2), "m/s"),
         ("least clearance", number(figures["min_clearance_m"], 2), "m"),
         ("thrust, rms", number(figures["thrust_rms_n"], 1), "N"),
-        ("saturated", _percent(figures["thrust_saturated_share"]), "% of the time"),
+        ("thrusters saturated", _percent(figures["thrust_saturated_share"]), "%"),
         ("replans", number(figures["replans"]), ""),
         ("planning, median", number(figures["planning_ms_median"], 1), "ms"),
         ("control step, 99 %", number(figures["tracker_ms_p99"]), "ms"),
@@ -63,7 +61,8 @@ def run_page(run, scenario=None, others=0):
     page.section("Track")
     page.picture(pictures.track(run, scenario))
     page.section("Tracking error", "From the reference to the vessel, along and across the way. "
-                 "Dotted: a new trajectory. Thin lines: the window the figures are taken from.")
+                 "Dotted: a new trajectory. Thin lines: the window the figures are taken from. "
+                 "Thick: a contact.")
     page.picture(pictures.errors(run) or "")
     if not pictures_have_reference(run):
         page.raw("<p>No trajectory was recorded.</p>")
@@ -133,7 +132,6 @@ def _versions(page, run, scenario):
     rows.append(("hull", f"{v.length_m:g} m by {v.beam_m:g} m"))
     page.table(("", ""), rows)
     if run.details.get("parameters"):
-        from .page import escape
         page.raw(f"<pre>{escape(run.details['parameters'])}</pre>")
 
 

@@ -1,0 +1,80 @@
+"""Moving pictures of recordings."""
+import os
+import shutil
+import tempfile
+import unittest
+from unittest import mock
+
+import numpy
+import synthetic
+from PIL import Image
+
+from otter_nav.animation import Film, frame_times, main as animate
+from otter_nav.bag import read_bag
+
+
+class AnimationTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.bag = os.path.join(self.folder, "run.bag")
+        synthetic.write_bag(self.bag)
+
+    def make(self, name, *arguments):
+        out = os.path.join(self.folder, name)
+        return animate([*arguments, "--out", out]), out
+
+    def test_gif_of_a_bag(self):
+        code, out = self.make("run.gif", "--bag", self.bag, "--speed", "6", "--rate", "5",
+                              "--width", "400")
+        self.assertEqual(code, 0)
+        with Image.open(out) as film:
+            self.assertEqual(film.size[0], 400)
+            # 18 s, six times as fast, five frames a second, and the first.
+            self.assertEqual(film.n_frames, 16)
+            first = numpy.array(film.convert("RGB"), dtype=int)
+            film.seek(film.n_frames - 1)
+            last = numpy.array(film.convert("RGB"), dtype=int)
+        self.assertGreater(numpy.sum(numpy.abs(first - last).sum(axis=2) > 60), 300)
+
+    def test_hull_is_drawn_where_the_vessel_is(self):
+        run = read_bag(self.bag)[0]
+        film = Film(run, None, 500)
+        frame = numpy.array(film.frame(run.motion.t[-1]))
+        x, y = film.view(run.motion.x[-1], run.motion.y[-1])
+        self.assertEqual(tuple(frame[int(y), int(x)]), (255, 255, 255))
+
+    def test_frames_end_with_the_run(self):
+        run = read_bag(self.bag)[0]
+        times = frame_times(run, 4.0, 10.0)
+        self.assertAlmostEqual(times[1] - times[0], 0.4)
+        self.assertAlmostEqual(times[-1], run.motion.t[-1])
+
+    def test_gif_of_a_result(self):
+        result = synthetic.write_result(self.folder)
+        code, out = self.make("result.gif", "--result", result, "--width", "320")
+        self.assertEqual(code, 0)
+        self.assertGreater(os.path.getsize(out), 1000)
+
+    def test_film_needs_ffmpeg(self):
+        with mock.patch("otter_nav.animation.shutil.which", return_value=None):
+            code, out = self.make("run.mp4", "--bag", self.bag)
+        self.assertEqual(code, 1)
+        self.assertFalse(os.path.exists(out))
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_film(self):
+        code, out = self.make("run.mp4", "--bag", self.bag, "--width", "320")
+        self.assertEqual(code, 0)
+        self.assertGreater(os.path.getsize(out), 1000)
+
+    def test_refuses_what_makes_no_film(self):
+        for arguments in (["--speed", "0"], ["--speed", "0.001"], ["--rate", "0"], ["--width", "3"]):
+            code, out = self.make("run.gif", "--bag", self.bag, *arguments)
+            self.assertEqual(code, 1, arguments)
+        self.assertEqual(self.make("run.avi", "--bag", self.bag)[0], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
