@@ -130,10 +130,6 @@ class Film:
         self.font, self.small = _font(15), _font(12)
         self.error = run.error
         self.drawn = 0  # rows of the motion already in the background's trail
-        reference = run.reference
-        self._shown_trajectory = None
-        self.segment = reference.trajectory if "trajectory" in reference.columns else \
-            numpy.where(numpy.isfinite(reference.x), 0, -1)
 
     def frame(self, t):
         """The picture at time t; times must not fall."""
@@ -160,10 +156,10 @@ class Film:
 
     def _reference(self, draw, row):
         """What lies ahead on the trajectory in force."""
-        reference, number = self.run.reference, self.segment[row]
+        reference, number = self.run.reference, self.run.reference.part[row]
         if number < 0:
             return
-        if self.run.trajectories and number < len(self.run.trajectories):
+        if self.run.recorded_reference is None:
             trajectory = self.run.trajectories[number]
             if trajectory.empty:
                 return
@@ -174,7 +170,9 @@ class Film:
             points = self.view.points(ahead.x, ahead.y)
         else:
             step = max(1, len(reference) // 800)
-            points = self.view.points(reference.x[row::step], reference.y[row::step])
+            ahead = numpy.flatnonzero(reference.part == number)
+            ahead = ahead[ahead >= row][::step]
+            points = self.view.points(reference.x[ahead], reference.y[ahead])
         for begin in range(0, len(points) - 1, 2):
             draw.line(points[begin:begin + 2], fill=_INK, width=1)
 

@@ -51,6 +51,11 @@ def _time_axes(run, height=_LOW, rows=1):
 
 
 def _replan_times(run):
+    """Of a track alone: where its reference jumps to another trajectory."""
+    if run.recorded_reference is not None:
+        part = run.reference.part
+        return list(run.motion.t[1:][numpy.diff(part) > 0][1:] if part[0] < 0 else
+                    run.motion.t[1:][numpy.diff(part) > 0])
     return [t.start for t in run.trajectories[1:] if not t.empty]
 
 
@@ -119,6 +124,14 @@ def _coloured(ax, x, y, speed, levels, width):
                                      zorder=5))
 
 
+def _with_gaps(x, y, part, step):
+    """Thinned, with a gap where one trajectory ends and another begins."""
+    rows = numpy.arange(0, len(x), step)
+    ends = numpy.flatnonzero(numpy.diff(part[rows])) + 1
+    return (numpy.insert(x[rows].astype(float), ends, numpy.nan),
+            numpy.insert(y[rows].astype(float), ends, numpy.nan))
+
+
 def _speed_bar(ax, levels):
     # A patch a step: an image could not change its colours with the look.
     bar = ax.inset_axes([1.02, 0.0, 0.025, 1.0])
@@ -146,14 +159,15 @@ def track(run, scenario=None, title="", compact=False):
                    max(4.0, 3.0 * run.vessel.length_m))
         ratio = (box[3] - box[2]) / (box[1] - box[0])
         width = 5.2 if compact else _WIDE
-        height = float(numpy.clip((width - 1.4) * ratio, 2.4, 4.4 if compact else 8.2)) + 0.9
+        inside = float(numpy.clip((width - 1.4) * ratio, 2.2, 4.4 if compact else 8.2))
+        height = inside + (1.15 if compact else 0.9)
         figure, ax = pyplot.subplots(figsize=(width, height))
         ax.set_facecolor(COLOUR["water"])
         names = draw_waters(ax, scenario, run.chart, box)
         levels = speed_scale(float(numpy.nanmax(speed)))
         reference = run.reference
-        ax.plot(reference.x[::step], reference.y[::step], color=COLOUR["fg"], linewidth=0.9,
-                linestyle=(0, (4, 3)), zorder=4)
+        ax.plot(*_with_gaps(reference.x, reference.y, reference.part, step), color=COLOUR["fg"],
+                linewidth=0.9, linestyle=(0, (4, 3)), zorder=4)
         _coloured(ax, x, y, speed, levels, 2.2 if compact else 3.0)
         names.append(Line2D([], [], color=COLOUR["fg"], linewidth=0.9, linestyle=(0, (4, 3)),
                             label="reference"))
@@ -164,8 +178,8 @@ def track(run, scenario=None, title="", compact=False):
         ax.set_xlabel("east, m")
         ax.set_ylabel("north, m")
         _speed_bar(ax, levels)
-        ax.legend(handles=names, loc="upper center", bbox_to_anchor=(0.5, -0.16 if compact else -0.09),
-                  ncol=3 if compact else 5, handletextpad=0.5, columnspacing=1.2)
+        ax.legend(handles=names, loc="upper center", bbox_to_anchor=(0.5, -0.52 / inside),
+                  ncol=3 if compact else 8, handletextpad=0.5, columnspacing=1.2)
         return to_svg(figure, title or "Track on the chart, coloured by speed")
 
 
@@ -389,7 +403,7 @@ def histogram(values, label, title="", groups=None):
         ax.set_ylabel("number")
         ax.grid(axis="x", visible=False)
         if len(groups) > 1:
-            ax.legend(loc="upper right")
+            _legend(ax)
         if title:
             ax.set_title(title)
         return to_svg(figure, title or f"Histogram of {label}")

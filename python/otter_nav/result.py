@@ -6,8 +6,8 @@ import os
 import numpy
 
 from .errors import RecordingError
-from .run import Event, Run
-from .table import Table
+from .run import CONTACTS, Event, Run
+from .table import Table, table_of
 from .vessel import load_vessel
 
 _COLUMNS = ("t", "x", "y", "psi", "u", "v", "r", "f_left", "f_right", "x_ref", "y_ref", "psi_ref")
@@ -88,7 +88,8 @@ def _reference_of(track):
         moving = (speed > 0.05) & ~jumped
     course = numpy.where(moving, numpy.arctan2(vy, vx), psi)
     speed = numpy.where(jumped, numpy.nan, speed)
-    return Table(t=track.t, x=x, y=y, psi=psi, speed=speed, course=course)
+    part = numpy.where(numpy.isfinite(x), numpy.cumsum(numpy.r_[False, leaps]), -1)
+    return Table(t=track.t, x=x, y=y, psi=psi, speed=speed, course=course, part=part)
 
 
 def read_result(path, mission=0, vessel=None):
@@ -111,6 +112,10 @@ def run_of(mission, path, vessel=None):
     run = Run(vessel=model, source=str(path), truth=truth, recorded_reference=_reference_of(track),
               label={key: mission[key] for key in _LABELS if key in mission},
               stated={key: value for key, value in mission.items() if key not in _LABELS})
+    if mission.get("outcome") == "collided":
+        end = len(track) - 1
+        run.contacts = table_of(CONTACTS, [(track.t[end], 1.0, track.x[end], track.y[end],
+                                            numpy.hypot(track.u[end], track.v[end]))])
     run.details = {"result": os.path.basename(path), "track": os.path.basename(track_path)}
     begin = run.window[0]
     run.events = [Event(begin, "planner", "first trajectory begins"),

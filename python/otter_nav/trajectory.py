@@ -103,8 +103,8 @@ class Trajectory:
 def reference_at(trajectories, times, vessel):
     """The reference at `times`: on the latest trajectory that has begun by then.
 
-    Not a number where there is none, or where it is an order to stop. `trajectory` is its place in
-    the list, -1 for none.
+    Not a number where there is none, or where it is an order to stop. `part` is the trajectory's
+    place in the list, -1 for none.
     """
     times = numpy.asarray(times, dtype=float)
     chosen = numpy.full(len(times), -1)
@@ -118,7 +118,7 @@ def reference_at(trajectories, times, vessel):
             sample = trajectory.sample(times[mask], vessel)
             for name in names:
                 columns[name][mask] = getattr(sample, name)
-    return Table(t=times, **columns, trajectory=chosen)
+    return Table(t=times, **columns, part=chosen)
 
 
 def _derivatives(coefficients, t, highest):

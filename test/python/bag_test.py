@@ -59,7 +59,7 @@ class BagTest(unittest.TestCase):
         numpy.testing.assert_allclose(run.error.cross[sailing], synthetic.CROSS_M, atol=1e-6)
         before = run.error.t < synthetic.SAILS_S - 1e-6
         self.assertTrue(numpy.all(numpy.isnan(run.error.distance[before])))
-        self.assertTrue(numpy.all(run.reference.trajectory[run.error.t > 109.01] == 1))
+        self.assertTrue(numpy.all(run.reference.part[run.error.t > 109.01] == 1))
 
     def test_figures_are_of_the_window_from_first_trajectory_to_arrival(self):
         figures = self.read().figures()

@@ -64,7 +64,7 @@ class TrajectoryTest(unittest.TestCase):
         stop.x = stop.y = stop.heading = numpy.zeros((0, 8))
         reference = reference_at([first, second, stop], [-1.0, 2.0, 5.0, 7.0], VESSEL)
         numpy.testing.assert_allclose(reference.x, [numpy.nan, 2.0, 6.0, numpy.nan])
-        numpy.testing.assert_array_equal(reference.trajectory, [-1, 0, 1, 2])
+        numpy.testing.assert_array_equal(reference.part, [-1, 0, 1, 2])
 
 
 if __name__ == "__main__":
