@@ -49,9 +49,9 @@ ob::StateSpacePtr poseSpace(const map::DistanceField& field) {
   return space;
 }
 
-void setPose(ob::SE2StateSpace::StateType& state, const scenario::Berth& berth) {
-  state.setXY(berth.position.x(), berth.position.y());
-  state.setYaw(berth.psi_rad);
+void setPose(ob::SE2StateSpace::StateType& state, const vessel::Pose& pose) {
+  state.setXY(pose.position.x(), pose.position.y());
+  state.setYaw(pose.psi_rad);
 }
 
 ob::PlannerPtr ours(const ob::SpaceInformationPtr& space, const OmplProblem& problem,

@@ -10,25 +10,17 @@ PlanDesk::PlanDesk(const planner::Options& options, const vessel::Parameters& ve
 planner::Plan PlanDesk::plan(const PlanRequest& request, const map::DistanceField& field,
                              std::vector<Eigen::Vector2d> guide_path,
                              const planner::Termination& termination) {
-  auto found = planners_.find(request.thrust_share);
+  const double share = request.limits.thrust_share;
+  auto found = planners_.find(share);
   if (found == planners_.end()) {
-    planner::Planner planner(options_, vessel::withThrustShare(vessel_, request.thrust_share));
-    found = planners_.emplace(request.thrust_share, std::move(planner)).first;
+    planner::Planner planner(options_, vessel::withThrustShare(vessel_, share));
+    found = planners_.emplace(share, std::move(planner)).first;
   }
-  planner::Query query;
-  query.start = request.start;
-  query.start_psi_rad = request.start_psi_rad;
-  query.goal = request.goal.position;
-  query.goal_psi_rad = request.goal.psi_rad;
-  query.clearance_m = request.clearance_m;
-  query.seed = request.seed;
+  planner::Query query = request.query;
+  query.clearance_m = request.limits.clearance_m;
   query.warm_start = request.warm_start.empty() ? nullptr : &request.warm_start;
   query.guide_path = std::move(guide_path);
   return found->second.plan(field, query, termination);
-}
-
-PlanReply replyTo(const PlanRequest& request, const planner::Plan& plan) {
-  return {request.id, plan.outcome == planner::Outcome::kSolved, plan.reason, plan.trajectory};
 }
 
 }  // namespace otter_nav::mission

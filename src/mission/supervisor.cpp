@@ -1,176 +1,556 @@
 #include "otter_nav/mission/supervisor.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "goal_check.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/stopping/back_off.hpp"
+#include "otter_nav/stopping/braking.hpp"
+#include "otter_nav/stopping/splice.hpp"
+#include "plan_requests.hpp"
+#include "retry_budget.hpp"
+#include "text.hpp"
 
 namespace otter_nav::mission {
 namespace {
 
-std::string text(const Goal& goal) {
-  char buffer[128];
-  std::snprintf(buffer, sizeof(buffer), "goal (%.2f m, %.2f m, %.3f rad)", goal.position.x(),
-                goal.position.y(), goal.psi_rad);
-  return buffer;
+using feasibility::Obstacles;
+using trajectory::TimedTrajectory;
+using trajectory::Trajectory;
+
+double speedOf(const vessel::State& state) {
+  return state.segment<2>(vessel::kSurge).norm();
 }
 
-Status checkGoal(const Goal& goal, const map::DistanceField& field, double clearance_m) {
-  if (!goal.position.allFinite() || !std::isfinite(goal.psi_rad)) {
-    return failure(text(goal) + " is not finite");
-  }
-  const map::GridGeometry& map = field.geometry();
-  if (!map.contains(goal.position)) {
-    const Eigen::Vector2d far =
-        map.origin + map.resolution_m * Eigen::Vector2d(map.width, map.height);
-    char range[128];
-    std::snprintf(range, sizeof(range), " is outside the map, x in [%.2f, %.2f], y in [%.2f, %.2f]",
-                  map.origin.x(), far.x(), map.origin.y(), far.y());
-    return failure(text(goal) + range);
-  }
-  const double clearance = field.clearance(goal.position);
-  if (clearance <= 0.0) {
-    return failure(text(goal) + " is inside an obstacle");
-  }
-  if (clearance < clearance_m) {
-    char why[96];
-    std::snprintf(why, sizeof(why), " is %.2f m from an obstacle, at least %.2f m are needed",
-                  clearance, clearance_m);
-    return failure(text(goal) + why);
-  }
-  return {};
+bool atRest(const vessel::State& state) {
+  constexpr double kAtRestMps = 0.2;
+  constexpr double kAtRestRadps = 0.1;
+  return speedOf(state) < kAtRestMps && std::abs(state[vessel::kYawRate]) < kAtRestRadps;
 }
 
-bool moving(const Situation& situation) {
-  constexpr double kMovingMps = 0.3;
-  return situation.state.segment<2>(vessel::kSurge).norm() > kMovingMps;
+std::string conflictText(const stopping::Conflict& conflict) {
+  return text("only %.2f m clear at (%.1f m, %.1f m) on the way", conflict.clearance_m,
+              conflict.position.x(), conflict.position.y());
 }
+
+constexpr unsigned in(Phase phase) {
+  return 1U << static_cast<unsigned>(phase);
+}
+constexpr unsigned kAny = ~0U;
+constexpr unsigned kSailing = in(Phase::kSailing);
+constexpr unsigned kReplanning = in(Phase::kReplanning);
+constexpr unsigned kUnderWay = kSailing | kReplanning;
+constexpr unsigned kWaiting = in(Phase::kPlanning) | in(Phase::kStopped);
+constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBack);
+constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
+
+// What a decision is made on.
+struct Moment {
+  double now_s;
+  const Situation& situation;
+  const Obstacles& obstacles;
+};
+
+template <typename Decider>
+struct RuleOf {
+  unsigned phases;
+  bool (Decider::*when)(const Moment&);
+  Orders (Decider::*then)(const Moment&);
+  bool goes_on = false;
+};
 
 }  // namespace
 
-const char* name(Phase phase) {
-  switch (phase) {
-    case Phase::kIdle:
-      return "idle";
-    case Phase::kPlanning:
-      return "planning";
-    case Phase::kSailing:
-      return "sailing";
-    case Phase::kReplanning:
-      return "replanning";
-    case Phase::kStopping:
-      return "stopping";
-    case Phase::kStopped:
-      return "stopped";
-    case Phase::kBackingOff:
-      return "backing off";
-    case Phase::kArrived:
-      return "arrived";
-    case Phase::kFailed:
-      return "failed";
-  }
-  return "unknown";
-}
+class Supervisor::Impl {
+ public:
+  Impl(const SupervisorOptions& options, const vessel::Parameters& vessel, std::uint64_t seed)
+      : options_(options),
+        vessel_(vessel),
+        plans_(options, vessel, seed),
+        retries_(options.rounds_from_rest, options.stops_max) {}
 
-Supervisor::Supervisor(SupervisorOptions options, vessel::Parameters vessel, std::uint64_t seed)
-    : options_(std::move(options)),
-      vessel_(std::move(vessel)),
-      seed_(seed),
-      latency_s_(options_.planning_latency_s) {}
-
-Result<Orders> Supervisor::setGoal(double now_s, const Goal& goal, const Situation& situation,
-                                   const map::DistanceField& field) {
-  if (const Status status = checkGoal(goal, field, options_.margins.plan_clearances_m.back());
-      !status) {
-    return failure(status.error().message);
+  Result<Orders> setGoal(const Moment& m, const vessel::Pose& goal) {
+    if (const Status status = checkGoal(goal, m.obstacles, safety().narrowest()); !status) {
+      return failure(status.error().message);
+    }
+    goal_ = goal;
+    safety().newGoal();
+    safety().feel(m.situation.disturbance_n);
+    plans_.drop();
+    plans_.latency.onTime();
+    retries_.newGoal(m.now_s);
+    cancelled_ = false;
+    replans_ = 0;
+    return follow(kGoalRules, m);
   }
-  goal_ = goal;
-  disturbance_share_ = disturbanceShare(situation.disturbance_n, vessel_.thrusters);
-  pending_.reset();
-  after_stop_.reset();
-  rounds_ = 0;
-  replans_ = 0;
-  stops_ = 0;
-  times_left_behind_ = 0;
-  times_refused_ = 0;
-  not_before_s_ = now_s;
-  latency_s_ = options_.planning_latency_s;
-  if (phase_ == Phase::kSailing || phase_ == Phase::kReplanning) {
+
+  Orders cancel(const Moment& m) {
+    plans_.drop();
+    return follow(kCancelRules, m);
+  }
+
+  Orders update(const Moment& m) {
+    safety().feel(m.situation.disturbance_n);
+    if (plans_.overdue(m.now_s)) {
+      return planFailed(m, "no answer from the planner", plans_.take());
+    }
+    return follow(kRules, m);
+  }
+
+  Orders planFinished(const Moment& m, int id, const planner::Plan& plan) {
+    const std::optional<PlanRequests::Asked> asked = plans_.take(id);
+    if (!asked) {
+      return {};
+    }
+    if (plan.outcome != planner::Outcome::kSolved || plan.trajectory.empty()) {
+      return planFailed(m, plan.reason, *asked);
+    }
+    return asked->from == From::kRest ? takeFromRest(m, plan, *asked) : takeMoving(m, plan, *asked);
+  }
+
+ private:
+  friend class Supervisor;
+
+  // ---- The rules' conditions
+
+  bool always(const Moment& /*m*/) { return true; }
+  bool moves(const Moment& m) {
+    constexpr double kMovingMps = 0.3;
+    return speedOf(m.situation.state) > kMovingMps;
+  }
+  bool hasFault(const Moment& m) { return !faultOf(m).empty(); }
+  bool isCancelled(const Moment& /*m*/) { return cancelled_; }
+  bool mustWait(const Moment& m) { return plans_.waits() || retries_.pauses(m.now_s); }
+
+  // Or so near the edge that no plan starts there: it counts as occupied.
+  bool isOverTheEdge(const Moment& m) { return knowsPlace(m) && inside(m) < safety().narrowest(); }
+  // With its trajectory out of reach; as long as it follows that, it comes back by itself.
+  bool isLostOverTheEdge(const Moment& m) { return isFarOff(m) && inside(m) < 0.0; }
+
+  bool isAtTheEnd(const Moment& m) { return sailed_.left(m.now_s) <= 0.0; }
+  bool hasArrived(const Moment& m) {
+    constexpr double kArrivalSpeedMps = 0.25;
+    const vessel::State& x = m.situation.state;
+    return isAtTheEnd(m) && (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
+           std::abs(wrapAngle(x[vessel::kPsi] - goal_.psi_rad)) <= options_.arrival_heading_rad &&
+           speedOf(x) <= kArrivalSpeedMps;
+  }
+  // A trajectory that ends elsewhere belongs to a goal that was replaced: nothing to wait for.
+  bool settlesNoMore(const Moment& m) {
+    constexpr double kSettleS = 10.0;
+    constexpr double kElsewhereM = 0.5;
+    if (!isAtTheEnd(m)) {
+      return false;
+    }
+    const Trajectory& way = sailed_.trajectory;
+    return sailed_.left(m.now_s) <= -kSettleS ||
+           ((way.flat(way.duration()).position - goal_.position).norm() > kElsewhereM &&
+            atRest(m.situation.state));
+  }
+
+  // Less than what the plan was made with. Sensed outlines wander by about a cell: less than that
+  // is no ground for another plan.
+  bool isNarrow(const Moment& m) {
+    constexpr double kSlackM = 0.3;
+    conflict_ = firstBelow(m, std::max(safety().critical(), kept_.clearance_m - kSlackM));
+    return conflict_.found;
+  }
+  bool isClearAgain(const Moment& m) { return for_clearance_ && !isNarrow(m); }
+  // Waiting a little longer would leave no room to brake for what comes up soon.
+  bool mustBrake(const Moment& m) {
+    constexpr double kHorizonS = 8.0;
+    constexpr double kReserveS = 0.3;
+    conflict_ = firstBelow(m, safety().critical());
+    const double at = sailed_.elapsed(m.now_s);
+    return conflict_.found && conflict_.time_s - at < kHorizonS && !stop(m, at + kReserveS).clear;
+  }
+  bool isFarOff(const Moment& m) {
+    return m.situation.tracking_error_m > options_.tracking_error_max_m;
+  }
+  // At once the first time, then not for each gust again.
+  bool lacksThrust(const Moment& m) {
+    constexpr double kAgainS = 3.0;
+    return safety().countsOnTooMuch(kept_.thrust_share) &&
+           (replans_ == 0 || m.now_s - plan_time_s_ >= kAgainS);
+  }
+  bool mayImprove(const Moment& m) {
+    const double period = options_.improve_period_s;
+    return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
+  }
+
+  // What was free when it set off may not be any more: the water astern is the less known.
+  bool isBlocked(const Moment& m) {
+    const double at = sailed_.elapsed(m.now_s);
+    const auto clear =
+        phase_ == Phase::kBackingOff ? stopping::backOffIsClear : stopping::turnBackIsClear;
+    return at < sailed_.trajectory.duration() &&
+           !clear(sailed_.trajectory, at, m.obstacles, vessel_);
+  }
+  bool isStillMoving(const Moment& m) {
+    constexpr double kPatienceS = 15.0;
+    const bool rests = knowsPlace(m) && atRest(m.situation.state);
+    return (!sailed_.trajectory.empty() && !isAtTheEnd(m)) ||
+           (!rests && m.now_s - stop_time_s_ < kPatienceS);
+  }
+  bool isLost(const Moment& m) { return !knowsPlace(m); }
+
+  // ---- The rules' actions
+
+  Orders keepOn(const Moment& /*m*/) { return {}; }
+
+  Orders planFirst(const Moment& m) {
+    enter(Phase::kPlanning);
+    return isOverTheEdge(m) ? turnBack(m) : planFromRest(m);
+  }
+  Orders planForNewGoal(const Moment& m) {
     enter(Phase::kReplanning, "new goal");
     for_clearance_ = false;
-    return requestFromSailed(now_s, field);
+    return planFromSailed(m);
   }
-  if (phase_ == Phase::kStopping || phase_ == Phase::kBackingOff) {
-    return Orders{};
+  Orders planFromRest(const Moment& m) {
+    return {plans_.fromRest(m.now_s, m.situation.state, goal_, m.obstacles), {}, false};
   }
-  if (moving(situation)) {
-    return stopByItself(now_s, "under way without a plan");
+  // Nothing if the vessel is about to come to rest: what comes then is for the rules at the
+  // trajectory's end, or for the brake.
+  Orders planFromSailed(const Moment& m) {
+    return {plans_.fromSailed(m.now_s, sailed_, kept_.thrust_share, goal_, m.obstacles), {}, false};
   }
-  enter(Phase::kPlanning);
-  return requestFromRest(now_s, situation, field);
-}
+  Orders planFromFarOff(const Moment& m) {
+    safety().leftBehind();
+    return planFromVessel(m, "far off the trajectory");
+  }
+  Orders planWithLessThrust(const Moment& m) {
+    return planFromVessel(m, "wind and current take thrust that the plan counts on");
+  }
+  Orders planToImprove(const Moment& m) {
+    plan_time_s_ = m.now_s;
+    Orders orders = planFromSailed(m);
+    if (orders.plan) {
+      plans_.markAsImprovement();
+    }
+    return orders;
+  }
+  Orders planAnew(const Moment& m) {
+    plans_.drop();
+    const std::string why = text("not settled: %.2f m from the goal at the trajectory's end",
+                                 (m.situation.state.head<2>() - goal_.position).norm());
+    return rest(m, why, why);
+  }
 
-Orders Supervisor::cancel(double now_s, const Situation& situation,
-                          const map::DistanceField& field) {
-  pending_.reset();
-  if (phase_ == Phase::kSailing || phase_ == Phase::kReplanning) {
-    after_stop_ = Phase::kIdle;
-    return brake(now_s, field, "cancelled");
+  Orders arrive(const Moment& /*m*/) { return enter(Phase::kArrived); }
+  Orders lookForAnother(const Moment& /*m*/) {
+    for_clearance_ = true;
+    return enter(Phase::kReplanning, conflictText(conflict_));
   }
-  if (phase_ == Phase::kStopping || phase_ == Phase::kBackingOff) {
-    after_stop_ = Phase::kIdle;
+  Orders keepThePlan(const Moment& /*m*/) {
+    plans_.drop();
+    return enter(Phase::kSailing);
+  }
+
+  Orders brake(const Moment& m) { return brakeFor(m, conflictText(conflict_)); }
+  Orders brakeCancelled(const Moment& m) {
+    cancelled_ = true;
+    return brakeFor(m, "cancelled");
+  }
+  Orders stopCancelled(const Moment& m) {
+    cancelled_ = true;
+    return stopByItself(m, "cancelled");
+  }
+  Orders endAtRest(const Moment& /*m*/) {
+    cancelled_ = true;
     return {};
   }
-  if (moving(situation)) {
-    after_stop_ = Phase::kIdle;
-    return stopByItself(now_s, "cancelled");
+  Orders stopForFault(const Moment& m) { return stopByItself(m, faultOf(m)); }
+  Orders stopUnplanned(const Moment& m) { return stopByItself(m, "under way without a plan"); }
+  Orders stopOverTheEdge(const Moment& m) {
+    return stopByItself(m, "over the map's edge and far off the trajectory");
   }
-  enter(Phase::kIdle, "cancelled");
-  return {};
-}
-
-Orders Supervisor::update(double now_s, const Situation& situation,
-                          const map::DistanceField& field) {
-  disturbance_share_ = disturbanceShare(situation.disturbance_n, vessel_.thrusters);
-  if (pending_ && now_s - pending_->since_s > options_.planning_timeout_s) {
-    const Pending asked = std::move(*pending_);
-    pending_.reset();
-    return planFailed(now_s, "no answer from the planner", asked, situation, field);
+  Orders stopBlocked(const Moment& m) {
+    return stopByItself(m, std::string("something came up in the way while ") + name(phase_));
   }
-  switch (phase_) {
-    case Phase::kPlanning:
-    case Phase::kStopped:
-      return waitForPlan(now_s, situation, field);
-    case Phase::kSailing:
-    case Phase::kReplanning:
-      return watchTheWay(now_s, situation, field);
-    case Phase::kStopping:
-      return watchTheStop(now_s, situation);
-    case Phase::kBackingOff:
-      return watchBackingOff(now_s, situation, field);
-    case Phase::kIdle:
-    case Phase::kArrived:
-    case Phase::kFailed:
-      break;
+
+  Orders idle(const Moment& /*m*/) { return enter(Phase::kIdle, "cancelled"); }
+  Orders idleAfterStop(const Moment& /*m*/) {
+    cancelled_ = false;
+    return enter(Phase::kIdle, reason_);
   }
-  return {};
+  Orders giveUp(const Moment& /*m*/) { return enter(Phase::kFailed, reason_); }
+  Orders loseRound(const Moment& m) {
+    return retries_.roundLost(m.now_s) ? Orders{} : enter(Phase::kFailed, faultOf(m));
+  }
+  Orders restOnTheWay(const Moment& m) {
+    return rest(m, reason_, text("stopped %d times, the last: ", retries_.stops() + 1) + reason_);
+  }
+  // Outside the map there are no plans to be had: without a free place on this side of the edge
+  // the vessel holds, until wind or current bring it back or the map changes.
+  Orders turnBack(const Moment& m) {
+    if (std::optional<Trajectory> way =
+            stopping::turnBack(m.situation.state, m.obstacles, vessel_)) {
+      return manoeuvre(m, Phase::kTurningBack, std::move(*way), "over the map's edge");
+    }
+    if (inside(m) >= 0.0) {
+      return planFromRest(m);
+    }
+    retries_.pause(m.now_s);
+    return enter(phase_, "over the map's edge, and no free place to turn back to: holding");
+  }
+
+  // ---- The rules: the first whose phase and condition hold is followed; a rule that goes on lets
+  // those below it act too.
+
+  using Rule = RuleOf<Impl>;
+  static constexpr bool kGoesOn = true;
+
+  // A goal was accepted.
+  static constexpr Rule kGoalRules[] = {
+      {kUnderWay, &Impl::always, &Impl::planForNewGoal},
+      {kComingToRest, &Impl::always, &Impl::keepOn},
+      {kAny, &Impl::moves, &Impl::stopUnplanned},
+      {kAny, &Impl::always, &Impl::planFirst},
+  };
+  // The mission is given up.
+  static constexpr Rule kCancelRules[] = {
+      {kUnderWay, &Impl::always, &Impl::brakeCancelled},
+      {kComingToRest, &Impl::always, &Impl::endAtRest},
+      {kAny, &Impl::moves, &Impl::stopCancelled},
+      {kAny, &Impl::always, &Impl::idle},
+  };
+  // Several times a second.
+  static constexpr Rule kRules[] = {
+      {kWaiting, &Impl::mustWait, &Impl::keepOn},
+      {kWaiting, &Impl::hasFault, &Impl::loseRound},
+      {kWaiting, &Impl::isOverTheEdge, &Impl::turnBack},
+      {kWaiting, &Impl::always, &Impl::planFromRest},
+
+      {kUnderWay, &Impl::hasFault, &Impl::stopForFault},
+      {kUnderWay, &Impl::hasArrived, &Impl::arrive},
+      {kUnderWay, &Impl::settlesNoMore, &Impl::planAnew},
+      {kUnderWay, &Impl::isAtTheEnd, &Impl::keepOn},
+      {kUnderWay, &Impl::isLostOverTheEdge, &Impl::stopOverTheEdge},
+      {kSailing, &Impl::isNarrow, &Impl::lookForAnother, kGoesOn},
+      {kReplanning, &Impl::mustBrake, &Impl::brake},
+      {kReplanning, &Impl::isClearAgain, &Impl::keepThePlan, kGoesOn},
+      {kUnderWay, &Impl::mustWait, &Impl::keepOn},
+      {kUnderWay, &Impl::isFarOff, &Impl::planFromFarOff},
+      {kUnderWay, &Impl::lacksThrust, &Impl::planWithLessThrust},
+      {kReplanning, &Impl::always, &Impl::planFromSailed},
+      {kSailing, &Impl::mayImprove, &Impl::planToImprove},
+
+      {kManoeuvring, &Impl::hasFault, &Impl::stopForFault},
+      {kManoeuvring, &Impl::isBlocked, &Impl::stopBlocked},
+      {kComingToRest, &Impl::isStillMoving, &Impl::keepOn},
+      {kComingToRest, &Impl::isCancelled, &Impl::idleAfterStop},
+      {kComingToRest, &Impl::isLost, &Impl::giveUp},
+      {kComingToRest, &Impl::always, &Impl::restOnTheWay},
+  };
+
+  template <std::size_t Count>
+  Orders follow(const Rule (&rules)[Count], const Moment& m) {
+    for (const Rule& rule : rules) {
+      if ((rule.phases & in(phase_)) != 0 && (this->*rule.when)(m)) {
+        Orders orders = (this->*rule.then)(m);
+        if (!rule.goes_on) {
+          return orders;
+        }
+      }
+    }
+    return {};
+  }
+
+  // ---- What the rules are made of
+
+  Safety& safety() { return plans_.safety; }
+
+  bool knowsPlace(const Moment& m) {
+    return m.situation.state.allFinite() &&
+           m.now_s - m.situation.odometry_stamp_s <= options_.odometry_timeout_s;
+  }
+  double inside(const Moment& m) {
+    return stopping::insideMap(m.obstacles.field().geometry(), m.situation.state.head<2>());
+  }
+  std::string faultOf(const Moment& m) {
+    if (m.situation.tracker_fault) {
+      return "the tracker stops: " + m.situation.tracker_reason;
+    }
+    if (!m.situation.state.allFinite()) {
+      return "odometry is not finite";
+    }
+    return knowsPlace(m) ? "" : "no odometry";
+  }
+  stopping::Conflict firstBelow(const Moment& m, double clearance_m) {
+    return stopping::firstConflict(sailed_.trajectory, sailed_.elapsed(m.now_s), m.obstacles,
+                                   clearance_m);
+  }
+  stopping::Braking stop(const Moment& m, double at_s) {
+    return stopping::brakingTrajectory(sailed_.trajectory, at_s, m.obstacles, vessel_,
+                                       safety().narrowest());
+  }
+
+  Orders enter(Phase phase, std::string reason = {}) {
+    phase_ = phase;
+    reason_ = std::move(reason);
+    return {};
+  }
+  Orders sail(const Moment& m, TimedTrajectory plan, const feasibility::SafetyLimits& limits) {
+    sailed_ = std::move(plan);
+    kept_ = limits;
+    plan_time_s_ = m.now_s;
+    safety().planTaken();
+    enter(Phase::kSailing);
+    return {std::nullopt, sailed_, false};
+  }
+  // A way to rest, without a plan; an empty one is the tracker's to find.
+  Orders manoeuvre(const Moment& m, Phase phase, Trajectory way, std::string reason) {
+    plans_.drop();
+    stop_time_s_ = m.now_s;
+    enter(phase, std::move(reason));
+    if (way.empty()) {
+      sailed_ = {};
+      return {std::nullopt, std::nullopt, true};
+    }
+    sailed_ = {std::move(way), m.now_s};
+    return {std::nullopt, sailed_, false};
+  }
+  Orders stopByItself(const Moment& m, std::string reason) {
+    return manoeuvre(m, Phase::kStopping, {}, std::move(reason));
+  }
+  Orders brakeFor(const Moment& m, std::string reason) {
+    return manoeuvre(m, Phase::kStopping, stop(m, sailed_.elapsed(m.now_s)).trajectory,
+                     std::move(reason));
+  }
+  // Plans from rest come next, unless there were too many stops.
+  Orders rest(const Moment& m, const std::string& reason, const std::string& last) {
+    if (!retries_.stopped(m.now_s)) {
+      return enter(Phase::kFailed, last);
+    }
+    safety().tryWidest();
+    return enter(Phase::kStopped, reason);
+  }
+
+  Orders planFromVessel(const Moment& m, std::string why) {
+    enter(Phase::kReplanning, std::move(why));
+    for_clearance_ = false;
+    return {plans_.fromVessel(m.now_s, m.situation.state, goal_, m.obstacles), {}, false};
+  }
+  Orders takeFromRest(const Moment& m, const planner::Plan& plan,
+                      const PlanRequests::Asked& asked) {
+    constexpr double kDriftM = 0.7;
+    const Eigen::Vector2d& start = asked.request.query.start.position;
+    if ((m.situation.state.head<2>() - start).norm() > kDriftM) {
+      return planFromRest(m);
+    }
+    replans_ += phase_ == Phase::kStopped ? 1 : 0;
+    return sail(m, {plan.trajectory, m.now_s}, asked.request.limits);
+  }
+  Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
+    constexpr double kLateM = 0.3;
+    constexpr double kImproveShare = 0.05;  // of the time left, that an improvement saves
+    const double starts = asked.request.start_time_s;
+    const double late = m.now_s - starts;
+    const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position;
+    if (late > 0.0 && (plan.trajectory.flat(late).position - there).norm() > kLateM) {
+      plans_.latency.late(late);
+      return asked.improves ? Orders{} : planFromSailed(m);
+    }
+    if (asked.improves &&
+        late + plan.trajectory.duration() > (1.0 - kImproveShare) * sailed_.left(m.now_s)) {
+      return {};
+    }
+    ++replans_;
+    plans_.latency.onTime();
+    if (asked.from == From::kVessel) {
+      return sail(m, {plan.trajectory, starts}, asked.request.limits);
+    }
+    return sail(m, stopping::splice(sailed_, m.now_s, {plan.trajectory, starts}),
+                asked.request.limits);
+  }
+  Orders planFailed(const Moment& m, const std::string& why, const PlanRequests::Asked& asked) {
+    if (asked.improves) {
+      return {};
+    }
+    const bool more = safety().refused(asked.from == From::kVessel);
+    if (asked.from != From::kRest || more) {
+      return {};  // asked again at the next update, as long as there is room
+    }
+    if (!hasFault(m)) {
+      if (std::optional<Trajectory> way = stopping::backOff(m.situation.state, m.obstacles, vessel_,
+                                                            m.situation.disturbance_n)) {
+        return manoeuvre(m, Phase::kBackingOff, std::move(*way), "no room to turn: " + why);
+      }
+    }
+    if (retries_.roundLost(m.now_s)) {
+      return {};
+    }
+    return enter(Phase::kFailed,
+                 text("no plan after %d rounds: ", retries_.rounds()) + why +
+                     text(" (at %.2f m clearance)", asked.request.limits.clearance_m));
+  }
+
+  SupervisorOptions options_;
+  vessel::Parameters vessel_;
+
+  Phase phase_ = Phase::kIdle;
+  std::string reason_;
+  vessel::Pose goal_;
+  TimedTrajectory sailed_;
+  feasibility::SafetyLimits kept_;  // what the sailed trajectory was planned for
+  stopping::Conflict conflict_;     // what the last condition found on the way
+  double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for
+  double stop_time_s_ = 0.0;        // when the vessel began to come to rest
+  bool cancelled_ = false;          // the mission ends with the stop
+  bool for_clearance_ = false;      // replanning because of the clearance ahead, nothing else
+  int replans_ = 0;
+  PlanRequests plans_;
+  RetryBudget retries_;
+};
+
+const char* name(Phase phase) {
+  constexpr const char* kNames[] = {"idle",     "planning", "sailing",     "replanning",
+                                    "stopping", "stopped",  "backing off", "turning back",
+                                    "arrived",  "failed"};
+  return kNames[static_cast<std::size_t>(phase)];
 }
 
-bool Supervisor::arrived(const Situation& situation) const {
-  const vessel::State& x = situation.state;
-  return (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
-         std::abs(wrapAngle(x[vessel::kPsi] - goal_.psi_rad)) <= options_.arrival_heading_rad &&
-         x.segment<2>(vessel::kSurge).norm() <= options_.arrival_speed_mps;
-}
+Supervisor::Supervisor(const SupervisorOptions& options, const vessel::Parameters& vessel,
+                       std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(options, vessel, seed)) {}
+Supervisor::~Supervisor() = default;
+Supervisor::Supervisor(Supervisor&&) noexcept = default;
+Supervisor& Supervisor::operator=(Supervisor&&) noexcept = default;
 
-double Supervisor::timeLeft(double now_s) const {
-  return sailed_.trajectory.duration() - (now_s - sailed_.start_time_s);
+Result<Orders> Supervisor::setGoal(double now_s, const vessel::Pose& goal,
+                                   const Situation& situation, const Obstacles& obstacles) {
+  return impl_->setGoal({now_s, situation, obstacles}, goal);
 }
-
-void Supervisor::enter(Phase phase, std::string reason) {
-  phase_ = phase;
-  reason_ = std::move(reason);
+Orders Supervisor::cancel(double now_s, const Situation& situation, const Obstacles& obstacles) {
+  return impl_->cancel({now_s, situation, obstacles});
+}
+Orders Supervisor::update(double now_s, const Situation& situation, const Obstacles& obstacles) {
+  return impl_->update({now_s, situation, obstacles});
+}
+Orders Supervisor::planFinished(double now_s, int id, const planner::Plan& plan,
+                                const Situation& situation, const Obstacles& obstacles) {
+  return impl_->planFinished({now_s, situation, obstacles}, id, plan);
+}
+Phase Supervisor::phase() const {
+  return impl_->phase_;
+}
+const std::string& Supervisor::reason() const {
+  return impl_->reason_;
+}
+const vessel::Pose& Supervisor::goal() const {
+  return impl_->goal_;
+}
+const TimedTrajectory& Supervisor::sailed() const {
+  return impl_->sailed_;
+}
+int Supervisor::replans() const {
+  return impl_->replans_;
+}
+int Supervisor::stops() const {
+  return impl_->retries_.stops();
 }
 
 }  // namespace otter_nav::mission

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 
 namespace otter_nav::nodes {
@@ -56,9 +57,8 @@ void GoalServer::abortWaiting(const std::string& reason) {
 
 void GoalServer::take(Handle handle) {
   handle.setAccepted();
-  const Status taken =
-      ros_bridge::planarPose(handle.getGoal()->target_pose, ros_bridge::kMapFrame)
-          .and_then([&](const ros_bridge::PlanarPose& pose) { return on_goal_(pose); });
+  const Status taken = ros_bridge::planarPose(handle.getGoal()->target_pose, ros_bridge::kMapFrame)
+                           .and_then([&](const vessel::Pose& pose) { return on_goal_(pose); });
   if (!taken) {
     ROS_WARN_STREAM("Refused the goal: " << taken.error().message);
     handle.setAborted(Result(), taken.error().message);
@@ -96,7 +96,7 @@ void GoalServer::abort(const std::string& reason) {
   }
 }
 
-void GoalServer::feedback(const ros_bridge::PlanarPose& pose, const ros::Time& stamp) {
+void GoalServer::feedback(const vessel::Pose& pose, const ros::Time& stamp) {
   if (under_way_) {
     move_base_msgs::MoveBaseFeedback message;
     message.base_position.header.frame_id = ros_bridge::kMapFrame;

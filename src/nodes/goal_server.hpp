@@ -10,7 +10,7 @@
 #include <string>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/vessel/pose.hpp"
 
 namespace otter_nav::nodes {
 
@@ -19,7 +19,7 @@ namespace otter_nav::nodes {
 class GoalServer {
  public:
   // Takes the goal, or says why not.
-  using OnGoal = std::function<Status(const ros_bridge::PlanarPose&)>;
+  using OnGoal = std::function<Status(const vessel::Pose&)>;
   using OnCancel = std::function<void()>;
 
   GoalServer(ros::NodeHandle& node, OnGoal on_goal, OnCancel on_cancel);
@@ -27,7 +27,7 @@ class GoalServer {
   [[nodiscard]] bool active() const { return under_way_.has_value(); }
   void succeed(const std::string& text);
   void abort(const std::string& reason);
-  void feedback(const ros_bridge::PlanarPose& pose, const ros::Time& stamp);
+  void feedback(const vessel::Pose& pose, const ros::Time& stamp);
   // Looks again at a goal that came before the node was ready for it.
   void retryWaiting();
   // A goal that comes now waits until retryWaiting().

@@ -81,14 +81,14 @@ void MissionNode::onPlannerStatus(const PlannerStatus& message) {
     return;  // what comes after the end does not count
   }
   planner_ = message;
-  if (goal_sent_ && message.state != "idle") {
+  if (goal_sent_ && message.state != PlannerStatus::IDLE) {
     openGate();
     goOn();
   }
 }
 
 bool MissionNode::over() const {
-  return planner_.state == "arrived" || planner_.state == "failed";
+  return planner_.state == PlannerStatus::ARRIVED || planner_.state == PlannerStatus::FAILED;
 }
 
 // Goes on to the planner's last decision, once the trajectory it speaks of is known here; to the
@@ -187,10 +187,10 @@ void MissionNode::judge() {
     return;
   }
   const double time_s = last_state_->header.stamp.toSec() - first_time_s_;
-  if (planner_.state == "arrived") {
+  if (planner_.state == PlannerStatus::ARRIVED) {
     const std::string miss = missWhenArrived();
     finish(miss.empty() ? Outcome::kArrived : Outcome::kStopped, miss);
-  } else if (planner_.state == "failed") {
+  } else if (planner_.state == PlannerStatus::FAILED) {
     finish(Outcome::kStopped, planner_.reason);
   } else if (time_s > options_.timeout_s) {
     finish(Outcome::kTimeout, planner_.state + ": " + planner_.reason);

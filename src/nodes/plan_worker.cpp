@@ -13,19 +13,17 @@
 namespace otter_nav::nodes {
 namespace {
 
-// A result on its way into the node's thread.
+// A call on its way into the node's thread.
 class Delivery : public ros::CallbackInterface {
  public:
-  Delivery(PlanWorker::OnDone on_done, PlanDone done)
-      : on_done_(std::move(on_done)), done_(std::move(done)) {}
+  explicit Delivery(std::function<void()> deliver) : deliver_(std::move(deliver)) {}
   CallResult call() override {
-    on_done_(done_);
+    deliver_();
     return Success;
   }
 
  private:
-  PlanWorker::OnDone on_done_;
-  PlanDone done_;
+  std::function<void()> deliver_;
 };
 
 geometry_msgs::PoseStamped poseMessage(const Eigen::Vector2d& position, double psi_rad) {
@@ -52,10 +50,11 @@ PlanWorker::~PlanWorker() {
   thread_.join();
 }
 
-void PlanWorker::start(PlanTask task) {
+void PlanWorker::start(mission::PlanRequest request, const map::DistanceField& field,
+                       const ros::Time& map_stamp) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    next_ = std::move(task);
+    next_ = Task{std::move(request), field, map_stamp};
   }
   changed_.notify_all();
 }
@@ -67,14 +66,14 @@ void PlanWorker::run() {
     if (!running_) {
       return;
     }
-    const PlanTask task = std::move(*std::exchange(next_, std::nullopt));
+    Task task = std::move(*std::exchange(next_, std::nullopt));
     lock.unlock();
-    ros::getGlobalCallbackQueue()->addCallback(boost::make_shared<Delivery>(on_done_, plan(task)));
+    plan(task);
     lock.lock();
   }
 }
 
-PlanDone PlanWorker::plan(const PlanTask& task) {
+void PlanWorker::plan(Task& task) {
   const auto begin = std::chrono::steady_clock::now();
   planner::Termination termination;
   if (options_.budget_s) {
@@ -82,24 +81,24 @@ PlanDone PlanWorker::plan(const PlanTask& task) {
   } else {
     termination.max_iterations = options_.max_iterations;
   }
-  PlanDone done;
-  done.request = task.request;
-  done.plan = desk_.plan(task.request, task.field, guidePath(task), termination);
+  planner::Plan plan = desk_.plan(task.request, task.field, guidePath(task), termination);
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
-  done.wall_ms = taken.count();
-  return done;
+  ros::getGlobalCallbackQueue()->addCallback(
+      boost::make_shared<Delivery>([this, request = std::move(task.request), plan = std::move(plan),
+                                    ms = taken.count()] { on_done_(request, plan, ms); }));
 }
 
-std::vector<Eigen::Vector2d> PlanWorker::guidePath(const PlanTask& task) {
+std::vector<Eigen::Vector2d> PlanWorker::guidePath(const Task& task) {
   if (!options_.use_topology_node) {
     return {};
   }
   if (!topology_.isValid()) {
     topology_ = node_.serviceClient<FindGuidePath>("find_guide_path", true);
   }
+  const planner::Query& query = task.request.query;
   FindGuidePath call;
-  call.request.start = poseMessage(task.request.start.position, task.request.start_psi_rad);
-  call.request.goal = poseMessage(task.request.goal.position, task.request.goal.psi_rad);
+  call.request.start = poseMessage(query.start.position, query.start_psi_rad);
+  call.request.goal = poseMessage(query.goal, query.goal_psi_rad);
   call.request.map_stamp = task.map_stamp;
   if (!topology_.isValid() || !topology_.call(call)) {
     ROS_WARN_THROTTLE(10.0, "find_guide_path does not answer; the planner finds its own way");

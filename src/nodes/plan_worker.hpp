@@ -18,18 +18,6 @@
 
 namespace otter_nav::nodes {
 
-struct PlanTask {
-  mission::PlanRequest request;
-  map::DistanceField field;  // the worker's own copy
-  ros::Time map_stamp;
-};
-
-struct PlanDone {
-  mission::PlanRequest request;
-  planner::Plan plan;
-  double wall_ms = 0.0;
-};
-
 class PlanWorker {
  public:
   struct Options {
@@ -39,20 +27,28 @@ class PlanWorker {
     int max_iterations = 20000;
     bool use_topology_node = true;
   };
-  using OnDone = std::function<void(const PlanDone&)>;
+  // The request, its answer, and the wall time it took, ms.
+  using OnDone =
+      std::function<void(const mission::PlanRequest&, const planner::Plan&, double wall_ms)>;
 
   PlanWorker(const Options& options, const vessel::Parameters& vessel, OnDone on_done);
   ~PlanWorker();
   PlanWorker(const PlanWorker&) = delete;
   PlanWorker& operator=(const PlanWorker&) = delete;
 
-  // Replaces a task that has not begun.
-  void start(PlanTask task);
+  // Replaces a request that has not begun. The field is copied.
+  void start(mission::PlanRequest request, const map::DistanceField& field,
+             const ros::Time& map_stamp);
 
  private:
+  struct Task {
+    mission::PlanRequest request;
+    map::DistanceField field;
+    ros::Time map_stamp;
+  };
   void run();
-  [[nodiscard]] PlanDone plan(const PlanTask& task);
-  [[nodiscard]] std::vector<Eigen::Vector2d> guidePath(const PlanTask& task);
+  void plan(Task& task);
+  [[nodiscard]] std::vector<Eigen::Vector2d> guidePath(const Task& task);
 
   Options options_;
   mission::PlanDesk desk_;
@@ -62,7 +58,7 @@ class PlanWorker {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<PlanTask> next_;
+  std::optional<Task> next_;
   bool running_ = true;
   std::thread thread_;
 };

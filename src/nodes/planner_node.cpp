@@ -15,7 +15,9 @@ using Level = ros_bridge::Diagnostics::Level;
 using mission::Phase;
 
 constexpr int kQueue = 100;
+constexpr double kDecisionPeriodS = 0.05;  // of wall time, when not in lockstep
 constexpr double kInputPeriodS = 0.5;
+constexpr double kInputPatienceS = 20.0;  // of wall time a goal waits for map and odometry
 
 PlanWorker::Options workerOptions(const PlannerNodeOptions& node, const planner::Options& planner) {
   PlanWorker::Options options;
@@ -40,10 +42,10 @@ PlannerNode::PlannerNode(const Setup& setup)
       publisher_(node_, setup.vessel),
       acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", kQueue)),
       goals_(
-          node_, [this](const ros_bridge::PlanarPose& goal) { return onGoal(goal); },
-          [this] { onCancel(); }),
+          node_, [this](const vessel::Pose& goal) { return onGoal(goal); }, [this] { onCancel(); }),
       worker_(workerOptions(setup.node, setup.planner), setup.vessel,
-              [this](const PlanDone& done) { onPlanDone(done); }) {
+              [this](const mission::PlanRequest& request, const planner::Plan& plan,
+                     double wall_ms) { onPlanDone(request, plan, wall_ms); }) {
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   map_subscriber_ = node_.subscribe("map", 1, &PlannerNode::onMap, this);
   update_subscriber_ =
@@ -52,7 +54,7 @@ PlannerNode::PlannerNode(const Setup& setup)
   tracker_subscriber_ =
       node_.subscribe("tracker_status", kQueue, &PlannerNode::onTrackerStatus, this, no_delay);
   if (!setup_.node.lockstep) {
-    decision_timer_ = node_.createWallTimer(ros::WallDuration(1.0 / setup_.node.decision_rate_hz),
+    decision_timer_ = node_.createWallTimer(ros::WallDuration(kDecisionPeriodS),
                                             [this](const ros::WallTimerEvent&) { decide(); });
   }
   input_timer_ = node_.createWallTimer(ros::WallDuration(kInputPeriodS),
@@ -130,9 +132,8 @@ void PlannerNode::decide() {
   settle();
 }
 
-Status PlannerNode::onGoal(const ros_bridge::PlanarPose& goal) {
-  Result<mission::Orders> orders = supervisor_.setGoal(
-      now_s_, mission::Goal{goal.position, goal.psi_rad}, situation(), map_.field());
+Status PlannerNode::onGoal(const vessel::Pose& goal) {
+  Result<mission::Orders> orders = supervisor_.setGoal(now_s_, goal, situation(), map_.field());
   if (!orders) {
     return failure(orders.error().message);
   }
@@ -146,21 +147,20 @@ void PlannerNode::onCancel() {
   settle();
 }
 
-void PlannerNode::onPlanDone(const PlanDone& done) {
-  publisher_.publishPlan(done);
-  const mission::PlanReply reply = mission::replyTo(done.request, done.plan);
-  if (!reply.solved) {
-    ROS_INFO_STREAM("No plan at clearance " << done.request.clearance_m
-                                            << " m: " << done.plan.reason);
+void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner::Plan& plan,
+                             double wall_ms) {
+  publisher_.publishPlan(plan, wall_ms);
+  if (plan.outcome != planner::Outcome::kSolved) {
+    ROS_INFO_STREAM("No plan at clearance " << request.limits.clearance_m << " m: " << plan.reason);
   }
-  if (plan_under_way_ == done.request.id) {
+  if (plan_under_way_ == request.id) {
     plan_under_way_ = 0;
   }
   if (!setup_.node.lockstep) {
     vessel_ = odometry_.latest();
     now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
   }
-  execute(supervisor_.planFinished(now_s_, reply, situation(), map_.field()));
+  execute(supervisor_.planFinished(now_s_, request.id, plan, situation(), map_.field()));
   settle();
   decideInTurn();
 }
@@ -168,7 +168,7 @@ void PlannerNode::onPlanDone(const PlanDone& done) {
 void PlannerNode::execute(const mission::Orders& orders) {
   if (orders.plan) {
     plan_under_way_ = orders.plan->id;
-    worker_.start({*orders.plan, map_.field(), map_.stamp()});
+    worker_.start(*orders.plan, map_.field(), map_.stamp());
   }
   if (orders.sail) {
     sent_id_ = publisher_.publish(*orders.sail, supervisor_.goal());
@@ -215,7 +215,7 @@ void PlannerNode::checkInputs() {
     waiting_since_ = ros::WallTime::now();
     return;
   }
-  const ros::WallDuration patience(setup_.node.input_timeout_s);
+  const ros::WallDuration patience(kInputPatienceS);
   if (ros::WallTime::now() - waiting_since_ > patience) {
     goals_.abortWaiting(!map_.ready()       ? "there is no map"
                         : odometry_.empty() ? "there is no odometry"
@@ -227,10 +227,9 @@ mission::Situation PlannerNode::situation() const {
   mission::Situation situation;
   situation.state = vessel_.state;
   situation.odometry_stamp_s = vessel_.stamp_s;
-  const mission::SailOrder& sailed = supervisor_.sailed();
+  const trajectory::TimedTrajectory& sailed = supervisor_.sailed();
   if (!sailed.trajectory.empty() && vessel_.stamp_s >= sailed.start_time_s) {
-    const vessel::FlatPoint reference =
-        sailed.trajectory.flat(vessel_.stamp_s - sailed.start_time_s);
+    const vessel::FlatPoint reference = sailed.trajectory.flat(sailed.elapsed(vessel_.stamp_s));
     situation.tracking_error_m = (reference.position - vessel_.state.head<2>()).norm();
   }
   situation.disturbance_n = tracker_.disturbance();

@@ -33,10 +33,9 @@ PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters ves
   status_.header.frame_id = kMapFrame;
 }
 
-std::uint32_t PlannerPublisher::publish(const mission::SailOrder& order,
-                                        const mission::Goal& goal) {
-  const ros_bridge::PlanarPose pose{goal.position, goal.psi_rad};
-  trajectory_.publish(ros_bridge::toMessage(order.trajectory, order.start_time_s, ++last_id_, pose,
+std::uint32_t PlannerPublisher::publish(const trajectory::TimedTrajectory& order,
+                                        const vessel::Pose& goal) {
+  trajectory_.publish(ros_bridge::toMessage(order.trajectory, order.start_time_s, ++last_id_, goal,
                                             kMapFrame, vessel_));
   path_.publish(
       ros_bridge::toPath(order.trajectory, order.start_time_s, kPathStepS, kMapFrame, vessel_));
@@ -44,14 +43,14 @@ std::uint32_t PlannerPublisher::publish(const mission::SailOrder& order,
   return last_id_;
 }
 
-std::uint32_t PlannerPublisher::publishStop(double now_s, const mission::Goal& goal) {
+std::uint32_t PlannerPublisher::publishStop(double now_s, const vessel::Pose& goal) {
   return publish({trajectory::Trajectory(), now_s}, goal);
 }
 
-void PlannerPublisher::publishPlan(const PlanDone& done) {
-  const planner::Figures& figures = done.plan.figures;
-  planning_ms_.push_back(done.wall_ms);
-  status_.outcome = planner::toString(done.plan.outcome);
+void PlannerPublisher::publishPlan(const planner::Plan& plan, double wall_ms) {
+  const planner::Figures& figures = plan.figures;
+  planning_ms_.push_back(wall_ms);
+  status_.outcome = planner::toString(plan.outcome);
   status_.plans += 1;
   status_.length = figures.length_m;
   status_.duration = figures.duration_s;
@@ -60,10 +59,10 @@ void PlannerPublisher::publishPlan(const PlanDone& done) {
   status_.samples = static_cast<std::uint32_t>(figures.samples);
   status_.nodes = static_cast<std::uint32_t>(figures.nodes);
   status_.first_solution_ms = figures.first_solution_ms;
-  status_.planning_ms = done.wall_ms;
+  status_.planning_ms = wall_ms;
   status_.planning_ms_median = scenario::quantile(planning_ms_, 0.5);
   status_.planning_ms_max = *std::max_element(planning_ms_.begin(), planning_ms_.end());
-  tree_markers_.publish(ros_bridge::treeMarkers(done.plan));
+  tree_markers_.publish(ros_bridge::treeMarkers(plan));
 }
 
 void PlannerPublisher::publishStatus(const mission::Supervisor& supervisor, double now_s,

@@ -10,7 +10,6 @@
 
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/vessel/parameters.hpp"
-#include "plan_worker.hpp"
 
 namespace otter_nav::nodes {
 
@@ -19,10 +18,10 @@ class PlannerPublisher {
   PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel);
 
   // Publishes the order under a new id and returns that.
-  std::uint32_t publish(const mission::SailOrder& order, const mission::Goal& goal);
+  std::uint32_t publish(const trajectory::TimedTrajectory& order, const vessel::Pose& goal);
   // Asks the tracker to stop by itself: an empty trajectory.
-  std::uint32_t publishStop(double now_s, const mission::Goal& goal);
-  void publishPlan(const PlanDone& done);
+  std::uint32_t publishStop(double now_s, const vessel::Pose& goal);
+  void publishPlan(const planner::Plan& plan, double wall_ms);
   void publishStatus(const mission::Supervisor& supervisor, double now_s,
                      std::uint32_t trajectory_id);
 

@@ -19,7 +19,7 @@ constexpr std::chrono::seconds kMapPatience{1};
 
 Result<topology::Pose> toPose(const geometry_msgs::PoseStamped& message, const char* what) {
   return ros_bridge::planarPose(message, ros_bridge::kMapFrame)
-      .map([](const ros_bridge::PlanarPose& pose) {
+      .map([](const vessel::Pose& pose) {
         return topology::Pose{pose.position, pose.psi_rad};
       })
       .map_error([&](const Error& error) { return Error{what + (": " + error.message)}; });

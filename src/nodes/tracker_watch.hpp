@@ -15,8 +15,9 @@ class TrackerWatch {
     accepted_id_ = status.accepted_id;
     refused_id_ = status.refused_id;
     refused_reason_ = status.refused_reason;
-    const bool gave_up =
-        status.state == "fault" || status.state == "stopping" || status.state == "stopped";
+    const bool gave_up = status.state == TrackerStatus::FAULT ||
+                         status.state == TrackerStatus::STOPPING ||
+                         status.state == TrackerStatus::STOPPED;
     faults_ = gave_up && status.trajectory_id == sailing_id_ ? faults_ + 1 : 0;
     reason_ = status.reason;
     disturbance_n_ = std::hypot(status.disturbance[0], status.disturbance[1]);

@@ -83,7 +83,7 @@ Eigen::Vector3d rollPitchYaw(const Eigen::Quaterniond& q) {
   return {roll, std::asin(sine), yaw};
 }
 
-Result<PlanarPose> planarPose(const geometry_msgs::Pose& pose) {
+Result<vessel::Pose> planarPose(const geometry_msgs::Pose& pose) {
   if (!std::isfinite(pose.position.x) || !std::isfinite(pose.position.y)) {
     return failure("position is not finite");
   }
@@ -91,10 +91,10 @@ Result<PlanarPose> planarPose(const geometry_msgs::Pose& pose) {
   if (!q) {
     return failure(q.error().message);
   }
-  return PlanarPose{{pose.position.x, pose.position.y}, rollPitchYaw(*q).z()};
+  return vessel::Pose{{pose.position.x, pose.position.y}, rollPitchYaw(*q).z()};
 }
 
-Result<PlanarPose> planarPose(const geometry_msgs::PoseStamped& pose, const std::string& frame) {
+Result<vessel::Pose> planarPose(const geometry_msgs::PoseStamped& pose, const std::string& frame) {
   if (pose.header.frame_id != frame) {
     return failure("frame_id is '" + pose.header.frame_id + "', expected '" + frame + "'");
   }
@@ -106,7 +106,7 @@ Result<OdometrySample> odometrySample(const nav_msgs::Odometry& message, const s
   if (const Status header = checkHeader(message, frame, child_frame); !header) {
     return failure(header.error().message);
   }
-  const Result<PlanarPose> pose = planarPose(message.pose.pose);
+  const Result<vessel::Pose> pose = planarPose(message.pose.pose);
   if (!pose) {
     return failure("pose: " + pose.error().message);
   }

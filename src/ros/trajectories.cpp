@@ -65,7 +65,7 @@ bool join(const Piece& before, const Piece& after) {
 }  // namespace
 
 Trajectory toMessage(const trajectory::Trajectory& trajectory, double start_s, std::uint32_t id,
-                     const PlanarPose& goal, const std::string& frame,
+                     const vessel::Pose& goal, const std::string& frame,
                      const vessel::Parameters& vessel) {
   Trajectory message;
   message.header.frame_id = frame;

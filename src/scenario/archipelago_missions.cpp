@@ -56,13 +56,13 @@ double rounded(double value, double unit) {
 }
 
 // As written to the file, so that what is checked is what is read back.
-Berth drawBerth(const map::GridGeometry& geometry, Random& random) {
-  Berth berth;
+vessel::Pose drawPose(const map::GridGeometry& geometry, Random& random) {
+  vessel::Pose pose;
   const double x = random.uniform(0.0, geometry.width * geometry.resolution_m);
   const double y = random.uniform(0.0, geometry.height * geometry.resolution_m);
-  berth.position = {rounded(geometry.origin.x() + x, 0.01), rounded(geometry.origin.y() + y, 0.01)};
-  berth.psi_rad = rounded(random.uniform(-kPi, kPi), 0.001);
-  return berth;
+  pose.position = {rounded(geometry.origin.x() + x, 0.01), rounded(geometry.origin.y() + y, 0.01)};
+  pose.psi_rad = rounded(random.uniform(-kPi, kPi), 0.001);
+  return pose;
 }
 
 class Chooser {
@@ -75,8 +75,8 @@ class Chooser {
 
   [[nodiscard]] Result<Mission> choose(const std::string& kind, double min_m, double max_m) {
     for (int k = 0; k < kDrawsPerMission; ++k) {
-      Mission mission{kind, drawBerth(field_.geometry(), random_),
-                      drawBerth(field_.geometry(), random_)};
+      Mission mission{kind, drawPose(field_.geometry(), random_),
+                      drawPose(field_.geometry(), random_)};
       const double apart = (mission.goal.position - mission.start.position).norm();
       if (apart >= min_m && apart <= max_m && sailable(mission)) {
         return mission;
@@ -88,16 +88,16 @@ class Chooser {
 
  private:
   [[nodiscard]] bool sailable(const Mission& mission) const {
-    return berthIsClear(mission.start) && berthIsClear(mission.goal) &&
+    return isClear(mission.start) && isClear(mission.goal) &&
            waterAt(mission.start) == waterAt(mission.goal) &&
            !map::segmentIsClear(field_, mission.start.position, mission.goal.position, 0.0);
   }
-  [[nodiscard]] bool berthIsClear(const Berth& berth) const {
-    return field_.geometry().contains(berth.position) &&
-           field_.clearance(berth.position) >= options_.clear_m;
+  [[nodiscard]] bool isClear(const vessel::Pose& pose) const {
+    return field_.geometry().contains(pose.position) &&
+           field_.clearance(pose.position) >= options_.clear_m;
   }
-  [[nodiscard]] int waterAt(const Berth& berth) const {
-    const Eigen::Vector2i cell = field_.geometry().cellAt(berth.position);
+  [[nodiscard]] int waterAt(const vessel::Pose& pose) const {
+    const Eigen::Vector2i cell = field_.geometry().cellAt(pose.position);
     return waters_[field_.geometry().index(cell.x(), cell.y())];
   }
 

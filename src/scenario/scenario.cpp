@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr double kFarthestM = 1e6;
 
-Berth readBerth(config::Section& section, const std::string& key) {
+vessel::Pose readPose(config::Section& section, const std::string& key) {
   std::vector<double> pose = {0.0, 0.0, 0.0};
   section.read(key, pose, 3, {-kFarthestM, kFarthestM});
   return {{pose[0], pose[1]}, pose[2]};
@@ -23,8 +23,8 @@ Result<Mission> readMission(const YAML::Node& node, const std::string& where) {
   config::Section section(node, where);
   Mission mission;
   section.read("kind", mission.kind, {"local", "cross"});
-  mission.start = readBerth(section, "start");
-  mission.goal = readBerth(section, "goal");
+  mission.start = readPose(section, "start");
+  mission.goal = readPose(section, "goal");
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);
   }

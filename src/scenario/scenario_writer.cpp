@@ -18,10 +18,10 @@ Status written(const std::ofstream& file, const fs::path& path) {
   return {};
 }
 
-std::string poseText(const Berth& berth) {
+std::string poseText(const vessel::Pose& pose) {
   char text[96];
-  std::snprintf(text, sizeof(text), "[%.2f, %.2f, %.3f]", berth.position.x(), berth.position.y(),
-                berth.psi_rad);
+  std::snprintf(text, sizeof(text), "[%.2f, %.2f, %.3f]", pose.position.x(), pose.position.y(),
+                pose.psi_rad);
   return text;
 }
 

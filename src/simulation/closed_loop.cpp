@@ -36,7 +36,7 @@ class ClosedLoop::Impl {
         desk_(options.planner, options.vessel),
         tracker_(options.tracker, options.vessel),
         supervisor_(options.supervisor, options.vessel, seed),
-        goal_{mission.goal.position, mission.goal.psi_rad} {
+        goal_(mission.goal) {
     plant_.placeAt(mission.start.position, mission.start.psi_rad);
   }
 
@@ -69,13 +69,17 @@ class ClosedLoop::Impl {
   mission::PlanDesk desk_;
   tracker::Tracker tracker_;
   mission::Supervisor supervisor_;
-  mission::Goal goal_;
+  vessel::Pose goal_;
   scenario::Recorder recorder_;
   tracker::Command command_;
   bool started_ = false;
   bool stop_ordered_ = false;
   // The answer to the last request, and when the vessel gets it.
-  std::optional<mission::PlanReply> reply_;
+  struct Reply {
+    int id = 0;
+    planner::Plan plan;
+  };
+  std::optional<Reply> reply_;
   double reply_time_s_ = 0.0;
   double last_record_s_ = -1e9;
   std::optional<scenario::Outcome> outcome_;
@@ -88,9 +92,9 @@ bool ClosedLoop::Impl::step() {
   }
   sense();
   if (reply_ && time() >= reply_time_s_) {
-    const mission::PlanReply reply = std::move(*reply_);
+    const Reply reply = std::move(*reply_);
     reply_.reset();
-    obey(supervisor_.planFinished(time(), reply, situation(), sensing_.field()));
+    obey(supervisor_.planFinished(time(), reply.id, reply.plan, situation(), sensing_.field()));
   }
   control();
   judge();
@@ -168,9 +172,9 @@ void ClosedLoop::Impl::obey(const mission::Orders& orders) {
     const Stopwatch watch;
     planner::Termination termination;
     termination.max_iterations = options_.planning_iterations;
-    const planner::Plan plan = desk_.plan(*orders.plan, sensing_.field(), {}, termination);
+    planner::Plan plan = desk_.plan(*orders.plan, sensing_.field(), {}, termination);
     recorder_.addPlanning(watch.milliseconds());
-    reply_ = mission::replyTo(*orders.plan, plan);
+    reply_ = Reply{orders.plan->id, std::move(plan)};
     // A little before the new trajectory begins, as in life.
     constexpr double kEarlyS = 0.05;
     reply_time_s_ = time() + options_.supervisor.planning_latency_s - kEarlyS;
@@ -199,7 +203,7 @@ scenario::MotionSample ClosedLoop::Impl::motion() const {
   sample.pitch_rad = truth.pitch_rad;
   sample.thrusts_n = truth.thrusts_n;
   sample.clearance_m = plant_.clearance();
-  const mission::SailOrder& sailed = supervisor_.sailed();
+  const trajectory::TimedTrajectory& sailed = supervisor_.sailed();
   if (!sailed.trajectory.empty()) {
     sample.reference =
         sailed.trajectory.sample(time() - sailed.start_time_s, options_.vessel).state.head<3>();
@@ -216,7 +220,7 @@ scenario::Progress ClosedLoop::Impl::progress() const {
   progress.tracking_error_m = command_.tracking_error_m;
   progress.state = mission::name(supervisor_.phase());
   progress.detail = supervisor_.reason();
-  const mission::SailOrder& sailed = supervisor_.sailed();
+  const trajectory::TimedTrajectory& sailed = supervisor_.sailed();
   progress.distance_left_m = sailed.trajectory.empty()
                                  ? (now.state.head<2>() - goal_.position).norm()
                                  : trajectory::length(stopping::remainder(

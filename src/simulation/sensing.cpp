@@ -33,9 +33,13 @@ Status Sensing::insert(const plant::Scan& scan, const plant::Odometry& odometry)
   scan_.range_min_m = scan.range_min_m;
   scan_.range_max_m = scan.range_max_m;
   scan_.ranges_m.assign(scan.ranges.begin(), scan.ranges.end());
-  const Result<map::CellRectangle> changed =
-      map_.insertScan(sensorPose(odometry, lidar_in_base_),
-                      {odometry.state.head<2>(), odometry.state[vessel::kPsi]}, scan_);
+  const map::SensorPose pose = sensorPose(odometry, lidar_in_base_);
+  if (!field_.geometry().contains(pose.position.head<2>())) {
+    ++skipped_;
+    return {};
+  }
+  const Result<map::CellRectangle> changed = map_.insertScan(
+      pose, {odometry.state.head<2>(), odometry.state[vessel::kPsi]}, scan_);
   if (!changed) {
     return failure(changed.error().message);
   }

@@ -3,37 +3,63 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 
 namespace otter_nav::stopping {
 namespace {
 
+using feasibility::Obstacles;
 using trajectory::Piece;
 using trajectory::Trajectory;
 
-// A mean speed of a walk and time to gather way: gentle, for the water behind is the less known.
-constexpr double kSpeedMps = 0.6;
-constexpr double kGatherS = 2.0;
+constexpr double kClearM = 0.1;     // of the outline, when it sets off
+constexpr double kTouchesM = 0.05;  // on the way: half of that
 
-Trajectory straight(const vessel::State& state, double way_m) {
-  const double psi = state[vessel::kPsi];
+// Straight along the heading, with a mean speed of a walk and time to gather way: gentle, for the
+// water there is the less known.
+Piece straight(const Eigen::Vector2d& start, double psi_rad, double ahead_m) {
+  constexpr double kSpeedMps = 0.6;
+  constexpr double kGatherS = 2.0;
   vessel::FlatPoint from;
-  from.position = state.head<2>();
+  from.position = start;
   vessel::FlatPoint to;
-  to.position = from.position + way_m * Eigen::Vector2d(std::cos(psi), std::sin(psi));
-  const double duration = kGatherS + std::abs(way_m) / kSpeedMps;
-  Piece piece = trajectory::hermitePiece(from, to, duration);
+  to.position = start + ahead_m * Eigen::Vector2d(std::cos(psi_rad), std::sin(psi_rad));
+  Piece piece = trajectory::hermitePiece(from, to, kGatherS + std::abs(ahead_m) / kSpeedMps);
   piece.kind = trajectory::PieceKind::kSpin;  // the heading is its own: astern it can't follow
   piece.heading.setZero();
-  piece.heading[0] = psi;
-  return Trajectory({piece});
+  piece.heading[0] = psi_rad;
+  return piece;
 }
 
-// Of the hull's outline, looked at in steps of a few centimeters; the verification's circles around
-// bow and stern are too wide for a place this tight.
-double outlineClearance(const Eigen::Vector2d& position, double psi_rad, const vessel::Hull& hull,
-                        const map::DistanceField& field) {
+Piece gentleSpin(const Eigen::Vector2d& position, double psi_rad, double turn_rad) {
+  constexpr double kRateRadps = 0.3;
+  constexpr double kGatherS = 2.0;
+  return trajectory::spinPiece(position, psi_rad, psi_rad + turn_rad,
+                               kGatherS + std::abs(turn_rad) / kRateRadps);
+}
+
+// What stands near a point of the outline; with `edge` the map's edge is an obstacle, and else only
+// what is nearer than it counts.
+double pointClearance(const Eigen::Vector2d& p, double time_s, const Obstacles& obstacles,
+                      bool edge) {
+  const double clearance = obstacles.clearance(p, time_s);
+  if (edge) {
+    return clearance;
+  }
+  constexpr double kTightCells = 0.15;  // of the field's bound
+  const map::GridGeometry& map = obstacles.field().geometry();
+  const bool edge_is_nearest = clearance >= insideMap(map, p) - kTightCells * map.resolution_m;
+  return edge_is_nearest ? std::numeric_limits<double>::infinity() : clearance;
+}
+
+// Looked at in steps of a few centimeters; the verification's circles around bow and stern are too
+// wide for a place this tight.
+double outlineClearance(const Eigen::Vector2d& position, double psi_rad, double time_s,
+                        const vessel::Hull& hull, const Obstacles& obstacles, bool edge) {
   constexpr int kSteps = 20;
   const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
   const Eigen::Vector2d port(-ahead.y(), ahead.x());
@@ -42,26 +68,70 @@ double outlineClearance(const Eigen::Vector2d& position, double psi_rad, const v
     const Eigen::Vector2d along = 0.5 * hull.length_m * k / kSteps * ahead;
     const Eigen::Vector2d across = 0.5 * hull.beam_m * k / kSteps * port;
     for (const double side : {-0.5, 0.5}) {
-      least = std::min({least, field.clearance(position + along + side * hull.beam_m * port),
-                        field.clearance(position + across + side * hull.length_m * ahead)});
+      const Eigen::Vector2d beside = position + along + side * hull.beam_m * port;
+      const Eigen::Vector2d before = position + across + side * hull.length_m * ahead;
+      least = std::min({least, pointClearance(beside, time_s, obstacles, edge),
+                        pointClearance(before, time_s, obstacles, edge)});
     }
   }
   return least;
 }
 
-}  // namespace
-
 bool outlineKeepsClear(const Trajectory& way, double from_s, const vessel::Parameters& vessel,
-                       const map::DistanceField& field, double least_m) {
+                       const Obstacles& obstacles, double least_m, bool edge) {
   constexpr double kStepS = 0.05;
-  const double psi = way.sample(from_s, vessel).state[vessel::kPsi];
   for (double t = from_s; t < way.duration() + kStepS; t += kStepS) {
-    const Eigen::Vector2d position = way.flat(std::min(t, way.duration())).position;
-    if (outlineClearance(position, psi, vessel.hull, field) < least_m) {
+    const double at = std::min(t, way.duration());
+    const vessel::State state = way.sample(at, vessel).state;
+    if (outlineClearance(state.head<2>(), state[vessel::kPsi], at, vessel.hull, obstacles, edge) <
+        least_m) {
       return false;
     }
   }
   return true;
+}
+
+bool canFollow(const Trajectory& way, const Obstacles& obstacles,
+               const vessel::Parameters& vessel) {
+  feasibility::CheckOptions check;
+  check.clearance_m = -1.0;  // seen to by the outline
+  check.check_hull = false;
+  check.speed_max_mps = vessel.top_speed_mps;
+  return feasibility::verify(way, obstacles.field(), vessel, check).ok;
+}
+
+// Places inside the map's edge with room to turn, the nearest first.
+std::vector<Eigen::Vector2d> placesInside(const Eigen::Vector2d& position,
+                                          const Obstacles& obstacles, const vessel::Hull& hull) {
+  constexpr int kLengths = 4;  // to all sides of the nearest
+  const double room = turningRoom(hull);
+  const map::GridGeometry& map = obstacles.field().geometry();
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(room + map.resolution_m);
+  const Eigen::Vector2d low = map.origin + margin;
+  const Eigen::Vector2d high =
+      map.origin + map.resolution_m * Eigen::Vector2d(map.width, map.height) - margin;
+  const Eigen::Vector2d nearest = position.cwiseMax(low).cwiseMin(high);
+  std::vector<Eigen::Vector2d> places;
+  for (int i = -kLengths; i <= kLengths; ++i) {
+    for (int j = -kLengths; j <= kLengths; ++j) {
+      const Eigen::Vector2d place = nearest + hull.length_m * Eigen::Vector2d(i, j);
+      if (obstacles.clearance(place, 0.0) >= room) {
+        places.push_back(place);
+      }
+    }
+  }
+  std::sort(places.begin(), places.end(), [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return (a - position).squaredNorm() < (b - position).squaredNorm();
+  });
+  return places;
+}
+
+}  // namespace
+
+double insideMap(const map::GridGeometry& map, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d low = p - map.origin;
+  const Eigen::Vector2d high = map.resolution_m * Eigen::Vector2d(map.width, map.height) - low;
+  return std::min(low.minCoeff(), high.minCoeff());
 }
 
 double turningRoom(const vessel::Hull& hull) {
@@ -69,29 +139,61 @@ double turningRoom(const vessel::Hull& hull) {
   return 0.5 * std::hypot(hull.length_m, hull.beam_m) + kMarginM;
 }
 
-std::optional<Trajectory> backOff(const vessel::State& state, const map::DistanceField& field,
+std::optional<Trajectory> backOff(const vessel::State& state, const Obstacles& obstacles,
                                   const vessel::Parameters& vessel, double disturbance_n) {
-  constexpr double kClearM = 0.1;
   const double drift_mps = disturbance_n / vessel.manoeuvring.sway_drag_kgps;
   const double room = turningRoom(vessel.hull);
-  if (field.clearance(state.head<2>()) >= room) {
+  if (obstacles.clearance(state.head<2>(), 0.0) >= room) {
     return std::nullopt;
   }
-  feasibility::CheckOptions check;
-  check.clearance_m = 0.0;
-  check.check_hull = false;
-  check.speed_max_mps = vessel.top_speed_mps;
   for (const double lengths : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0}) {
     for (const double side : {-1.0, 1.0}) {
-      Trajectory way = straight(state, side * lengths * vessel.hull.length_m);
-      if (field.clearance(way.flat(way.duration()).position) >= room &&
-          outlineKeepsClear(way, 0.0, vessel, field, kClearM + drift_mps * way.duration()) &&
-          feasibility::verify(way, field, vessel, check).ok) {
+      const Trajectory way(
+          {straight(state.head<2>(), state[vessel::kPsi], side * lengths * vessel.hull.length_m)});
+      const double end = way.duration();
+      if (obstacles.clearance(way.flat(end).position, end) >= room &&
+          outlineKeepsClear(way, 0.0, vessel, obstacles, kClearM + drift_mps * end, true) &&
+          canFollow(way, obstacles, vessel)) {
         return way;
       }
     }
   }
   return std::nullopt;
+}
+
+std::optional<Trajectory> turnBack(const vessel::State& state, const Obstacles& obstacles,
+                                   const vessel::Parameters& vessel) {
+  constexpr double kAlignedRad = 0.01;
+  const Eigen::Vector2d position = state.head<2>();
+  const double psi = state[vessel::kPsi];
+  for (const Eigen::Vector2d& place : placesInside(position, obstacles, vessel.hull)) {
+    const Eigen::Vector2d there = place - position;
+    const double bearing = wrapAngle(std::atan2(there.y(), there.x()) - psi);
+    const bool astern = std::abs(bearing) > 0.5 * kPi;
+    const double turn = astern ? wrapAngle(bearing + kPi) : bearing;
+    std::vector<Piece> pieces;
+    if (std::abs(turn) > kAlignedRad) {
+      pieces.push_back(gentleSpin(position, psi, turn));
+    }
+    pieces.push_back(straight(position, psi + (pieces.empty() ? 0.0 : turn),
+                              astern ? -there.norm() : there.norm()));
+    Trajectory way(std::move(pieces));
+    if (outlineKeepsClear(way, 0.0, vessel, obstacles, kClearM, false) &&
+        canFollow(way, obstacles, vessel)) {
+      return way;
+    }
+  }
+  return std::nullopt;
+}
+
+bool backOffIsClear(const Trajectory& way, double from_s, const Obstacles& obstacles,
+                    const vessel::Parameters& vessel) {
+  return outlineKeepsClear(way, from_s, vessel, obstacles, kTouchesM, true);
+}
+
+bool turnBackIsClear(const Trajectory& way, double from_s, const Obstacles& obstacles,
+                     const vessel::Parameters& vessel) {
+  return outlineKeepsClear(way, from_s, vessel, obstacles, kTouchesM, false);
 }
 
 }  // namespace otter_nav::stopping

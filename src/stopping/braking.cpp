@@ -60,24 +60,25 @@ Trajectory slowed(const Trajectory& sailed, double at_s, double duration_s) {
   return Trajectory(std::move(pieces));
 }
 
-double leastClearance(const Trajectory& trajectory, const map::DistanceField& field) {
+double leastClearance(const Trajectory& trajectory, const feasibility::Obstacles& obstacles) {
   constexpr double kStepS = 0.05;
   double least = std::numeric_limits<double>::infinity();
   const int steps = static_cast<int>(std::ceil(trajectory.duration() / kStepS));
   for (int k = 0; k <= steps; ++k) {
-    least = std::min(least, field.clearance(trajectory.flat(k * kStepS).position));
+    const double t = k * kStepS;
+    least = std::min(least, obstacles.clearance(trajectory.flat(t).position, t));
   }
   return least;
 }
 
 // Astern, a planned stop leaves part of the thrust to the tracker.
-bool keepsAsternShare(const Trajectory& trajectory, const vessel::Parameters& vessel,
-                      double share) {
+bool keepsAsternShare(const Trajectory& trajectory, const vessel::Parameters& vessel) {
+  constexpr double kShare = 0.9;
   constexpr double kStepS = 0.05;
   const int steps = static_cast<int>(std::ceil(trajectory.duration() / kStepS));
   for (int k = 0; k <= steps; ++k) {
     const double least = trajectory.sample(k * kStepS, vessel).thrusts.minCoeff();
-    if (least < -share * vessel.thrusters.astern_max_n) {
+    if (least < -kShare * vessel.thrusters.astern_max_n) {
       return false;
     }
   }
@@ -172,10 +173,11 @@ std::vector<Trajectory> candidates(const Trajectory& sailed, double at_s) {
 
 }  // namespace
 
-Braking brakingTrajectory(const Trajectory& sailed, double at_s, const map::DistanceField& field,
-                          const vessel::Parameters& vessel, const BrakingOptions& options) {
+Braking brakingTrajectory(const Trajectory& sailed, double at_s,
+                          const feasibility::Obstacles& obstacles, const vessel::Parameters& vessel,
+                          double clearance_m) {
   feasibility::CheckOptions check;
-  check.clearance_m = options.clearance_m;
+  check.clearance_m = clearance_m;
   check.thrust_share = kThrustTolerance;
   check.speed_max_mps = 2.0 * vessel.top_speed_mps;
   check.step_s = 0.02;
@@ -185,11 +187,11 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s, const map::Dist
     if (candidate.empty()) {
       continue;
     }
-    if (keepsAsternShare(candidate, vessel, options.thrust_share) &&
-        feasibility::verify(candidate, field, vessel, check).ok) {
-      return {std::move(candidate), true, options.clearance_m};
+    if (keepsAsternShare(candidate, vessel) &&
+        feasibility::verify(candidate, obstacles.field(), vessel, check).ok) {
+      return {std::move(candidate), true, clearance_m};
     }
-    const double clearance = leastClearance(candidate, field);
+    const double clearance = leastClearance(candidate, obstacles);
     if (clearance >= best.clearance_m) {  // of equals the harder stop
       best = {std::move(candidate), false, clearance};
     }

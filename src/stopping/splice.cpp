@@ -54,19 +54,19 @@ double speedBound(const Piece& piece) {
 
 }  // namespace
 
-Conflict firstConflict(const Trajectory& trajectory, double from_s, const map::DistanceField& field,
-                       double clearance_m) {
+Conflict firstConflict(const Trajectory& trajectory, double from_s,
+                       const feasibility::Obstacles& obstacles, double clearance_m) {
   constexpr double kLeastStepM = 0.05;
   if (trajectory.empty()) {
     return {};
   }
   for (std::size_t i = trajectory.pieceAt(from_s); i < trajectory.pieces().size(); ++i) {
     const Piece& piece = trajectory.pieces()[i];
-    const double bound = speedBound(piece);
+    const double bound = speedBound(piece) + obstacles.rateBound();
     double t = std::clamp(from_s - trajectory.startOf(i), 0.0, piece.duration_s);
     while (true) {
       const Eigen::Vector2d position = piece.flat(t).position;
-      const double clearance = field.clearance(position);
+      const double clearance = obstacles.clearance(position, trajectory.startOf(i) + t);
       if (clearance < clearance_m) {
         return {true, trajectory.startOf(i) + t, position, clearance};
       }
@@ -96,20 +96,24 @@ Trajectory remainder(const Trajectory& trajectory, double at_s) {
   return Trajectory(std::move(pieces));
 }
 
-Spliced splice(const Trajectory& sailed, double from_s, double at_s, const Trajectory& next) {
+trajectory::TimedTrajectory splice(const trajectory::TimedTrajectory& sailed, double now_s,
+                                   const trajectory::TimedTrajectory& next) {
   constexpr double kShortestS = 1e-6;
+  const Trajectory& old = sailed.trajectory;
+  const double joint = sailed.elapsed(next.start_time_s);
   std::vector<Piece> pieces;
-  const std::size_t first = sailed.pieceAt(from_s);
-  for (std::size_t i = first; i < sailed.pieces().size() && sailed.startOf(i) < at_s; ++i) {
-    Piece piece = sailed.pieces()[i];
-    piece.duration_s = std::min(piece.duration_s, at_s - sailed.startOf(i));
+  const std::size_t first = old.pieceAt(sailed.elapsed(now_s));
+  for (std::size_t i = first; i < old.pieces().size() && old.startOf(i) < joint; ++i) {
+    Piece piece = old.pieces()[i];
+    piece.duration_s = std::min(piece.duration_s, joint - old.startOf(i));
     if (piece.duration_s > kShortestS) {
       pieces.push_back(piece);
     }
   }
-  const double start = pieces.empty() ? at_s : sailed.startOf(first);
-  pieces.insert(pieces.end(), next.pieces().begin(), next.pieces().end());
-  return {Trajectory(std::move(pieces)), start};
+  const double start = pieces.empty() ? joint : old.startOf(first);
+  const std::vector<Piece>& later = next.trajectory.pieces();
+  pieces.insert(pieces.end(), later.begin(), later.end());
+  return {Trajectory(std::move(pieces)), sailed.start_time_s + start};
 }
 
 }  // namespace otter_nav::stopping

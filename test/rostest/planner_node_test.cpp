@@ -9,7 +9,10 @@
 
 #include <limits>
 #include <memory>
+#include <string>
+#include <utility>
 
+#include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/ros/trajectories.hpp"
 #include "support.hpp"
 
@@ -54,6 +57,24 @@ class PlannerNode : public testing::Test {
   Inbox<PlannerStatus> statuses_{node_, "planner_status"};
   Client client_{"move_base", false};
 };
+
+// The message's constants are the names that the mission gives its phases.
+TEST(PlannerStatusMessage, NamesThePhases) {
+  using mission::Phase;
+  const std::pair<Phase, std::string> all[] = {{Phase::kIdle, PlannerStatus::IDLE},
+                                               {Phase::kPlanning, PlannerStatus::PLANNING},
+                                               {Phase::kSailing, PlannerStatus::SAILING},
+                                               {Phase::kReplanning, PlannerStatus::REPLANNING},
+                                               {Phase::kStopping, PlannerStatus::STOPPING},
+                                               {Phase::kStopped, PlannerStatus::STOPPED},
+                                               {Phase::kBackingOff, PlannerStatus::BACKING_OFF},
+                                               {Phase::kTurningBack, PlannerStatus::TURNING_BACK},
+                                               {Phase::kArrived, PlannerStatus::ARRIVED},
+                                               {Phase::kFailed, PlannerStatus::FAILED}};
+  for (const auto& [phase, state] : all) {
+    EXPECT_EQ(mission::name(phase), state);
+  }
+}
 
 TEST_F(PlannerNode, AbortsBadGoalsWithTheirReason) {
   EXPECT_NE(abortReason(goal(0.0, 2.0)).find("obstacle"), std::string::npos);

@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "otter_nav/ros/trajectories.hpp"
+#include "otter_nav/tracker/tracker.hpp"
 #include "support.hpp"
 
 namespace otter_nav::rostest {
@@ -24,6 +27,18 @@ Trajectory straight(std::uint32_t id, const ros::Time& start) {
   const trajectory::Trajectory trajectory({trajectory::hermitePiece(from, to, 20.0)});
   return ros_bridge::toMessage(trajectory, start.toSec(), id, {{30.0, 0.0}, 0.0},
                                ros_bridge::kMapFrame, vessel::Parameters());
+}
+
+// The message's constants are the names that the tracker gives its modes.
+TEST(TrackerStatusMessage, NamesTheModes) {
+  using tracker::Mode;
+  const std::pair<Mode, std::string> all[] = {
+      {Mode::kIdle, TrackerStatus::IDLE},       {Mode::kTracking, TrackerStatus::TRACKING},
+      {Mode::kHolding, TrackerStatus::HOLDING}, {Mode::kStopping, TrackerStatus::STOPPING},
+      {Mode::kStopped, TrackerStatus::STOPPED}, {Mode::kFault, TrackerStatus::FAULT}};
+  for (const auto& [mode, state] : all) {
+    EXPECT_EQ(tracker::name(mode), state);
+  }
 }
 
 class TrackerNode : public testing::Test {
@@ -64,8 +79,9 @@ TEST_F(TrackerNode, CommandsEachHundredthOfASecond) {
 
 TEST_F(TrackerNode, SailsATrajectoryThenStopsWhenTheOdometryEnds) {
   trajectory_.publish(straight(7, ros::Time::now()));
-  ASSERT_TRUE(statuses_.waitFor(
-      [](const auto& status) { return status.state == "tracking" && status.trajectory_id == 7U; }));
+  ASSERT_TRUE(statuses_.waitFor([](const auto& status) {
+    return status.state == TrackerStatus::TRACKING && status.trajectory_id == 7U;
+  }));
   // The vessel does not move, so it is pushed ahead.
   ASSERT_TRUE(commands_.waitFor(
       [](const auto& command) { return command.left > 5.0 && command.right > 5.0; }));
@@ -85,7 +101,8 @@ TEST_F(TrackerNode, SailsATrajectoryThenStopsWhenTheOdometryEnds) {
   sending_ = false;
   statuses_.messages.clear();
   ASSERT_TRUE(statuses_.waitFor([](const auto& status) {
-    return (status.state == "stopping" || status.state == "fault") && !status.reason.empty();
+    return (status.state == TrackerStatus::STOPPING || status.state == TrackerStatus::FAULT) &&
+           !status.reason.empty();
   }));
   commands_.messages.clear();
   EXPECT_TRUE(commands_.waitFor(

@@ -29,7 +29,4 @@ class PlanDesk {
   std::map<double, planner::Planner> planners_;
 };
 
-// What the supervisor gets of a plan.
-[[nodiscard]] PlanReply replyTo(const PlanRequest& request, const planner::Plan& plan);
-
 }  // namespace otter_nav::mission

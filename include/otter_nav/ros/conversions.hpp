@@ -11,14 +11,10 @@
 #include <string>
 
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/vessel/pose.hpp"
 #include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::ros_bridge {
-
-struct PlanarPose {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // m
-  double psi_rad = 0.0;
-};
 
 // Whole nanoseconds, so that a time survives the way there and back.
 [[nodiscard]] ros::Time toRosTime(double time_s);
@@ -32,10 +28,10 @@ struct PlanarPose {
 [[nodiscard]] Eigen::Vector3d rollPitchYaw(const Eigen::Quaterniond& q);
 
 // A pose in the plane. An error names the field that is not finite or no rotation.
-[[nodiscard]] Result<PlanarPose> planarPose(const geometry_msgs::Pose& pose);
+[[nodiscard]] Result<vessel::Pose> planarPose(const geometry_msgs::Pose& pose);
 // The same, and the frame has to be `frame`.
-[[nodiscard]] Result<PlanarPose> planarPose(const geometry_msgs::PoseStamped& pose,
-                                            const std::string& frame);
+[[nodiscard]] Result<vessel::Pose> planarPose(const geometry_msgs::PoseStamped& pose,
+                                              const std::string& frame);
 
 // A vessel's odometry: pose in `frame`, twist in the body frame `child_frame`. Velocities are
 // turned from the rolling and pitching hull into the horizontal plane.

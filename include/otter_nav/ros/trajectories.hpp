@@ -10,12 +10,13 @@
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/pose.hpp"
 
 namespace otter_nav::ros_bridge {
 
 // `start_s`: when the trajectory begins.
 [[nodiscard]] Trajectory toMessage(const trajectory::Trajectory& trajectory, double start_s,
-                                   std::uint32_t id, const PlanarPose& goal,
+                                   std::uint32_t id, const vessel::Pose& goal,
                                    const std::string& frame, const vessel::Parameters& vessel);
 
 // An empty trajectory is valid: it asks for a controlled stop. An error names the field and piece:

@@ -12,19 +12,14 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
+#include "otter_nav/vessel/pose.hpp"
 
 namespace otter_nav::scenario {
 
-// A place to lie: map frame, ENU, m and rad.
-struct Berth {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double psi_rad = 0.0;
-};
-
 struct Mission {
   std::string kind = "local";  // or "cross"
-  Berth start;
-  Berth goal;
+  vessel::Pose start;
+  vessel::Pose goal;
 };
 
 struct Scenario {

@@ -1,13 +1,17 @@
-// Out of a tight place: a vessel that stopped close to something can't turn without touching it.
+// Out of tight places: a vessel that stopped close to something can't turn without touching it, and
+// none can plan from over the map's edge.
 #pragma once
 
 #include <optional>
 
-#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::stopping {
+
+// How far a point lies inside the map's edge, m; negative outside.
+[[nodiscard]] double insideMap(const map::GridGeometry& map, const Eigen::Vector2d& p);
 
 // Room to turn on the spot: the hull's corners, and some more, m from its centre.
 [[nodiscard]] double turningRoom(const vessel::Hull& hull);
@@ -17,14 +21,24 @@ namespace otter_nav::stopping {
 // outline keeps 0.1 m, and what `disturbance_n` could set it aside meanwhile. None if there is room
 // already, or no such place within a few lengths.
 [[nodiscard]] std::optional<trajectory::Trajectory> backOff(const vessel::State& state,
-                                                            const map::DistanceField& field,
+                                                            const feasibility::Obstacles& obstacles,
                                                             const vessel::Parameters& vessel,
                                                             double disturbance_n);
 
-// The hull's outline keeps `least_m` along the rest of such a way, from `from_s` (s from its start)
-// on; the heading is that at `from_s`.
-[[nodiscard]] bool outlineKeepsClear(const trajectory::Trajectory& way, double from_s,
-                                     const vessel::Parameters& vessel,
-                                     const map::DistanceField& field, double least_m);
+// From rest over the map's edge, or close to it, to the nearest place inside with room to turn: a
+// turn on the spot towards or away from it, whichever is less, then straight; rest to rest. Nothing
+// is known of the water outside; the edge itself stops nobody here. None without such a place near.
+[[nodiscard]] std::optional<trajectory::Trajectory> turnBack(
+    const vessel::State& state, const feasibility::Obstacles& obstacles,
+    const vessel::Parameters& vessel);
+
+// Whether the hull's outline touches nothing along the rest of such a manoeuvre, from `from_s` (s
+// from its start) on.
+[[nodiscard]] bool backOffIsClear(const trajectory::Trajectory& way, double from_s,
+                                  const feasibility::Obstacles& obstacles,
+                                  const vessel::Parameters& vessel);
+[[nodiscard]] bool turnBackIsClear(const trajectory::Trajectory& way, double from_s,
+                                   const feasibility::Obstacles& obstacles,
+                                   const vessel::Parameters& vessel);
 
 }  // namespace otter_nav::stopping

@@ -6,13 +6,11 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "otter_nav/vessel/pose.hpp"
+
 namespace otter_nav::topology {
 
-// Map frame, ENU; psi_rad counter-clockwise from east.
-struct Pose {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double psi_rad = 0.0;
-};
+using vessel::Pose;
 
 class DubinsCurve {
  public:

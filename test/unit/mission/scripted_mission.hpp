@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "mission/safety.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "waters.hpp"
 
@@ -16,12 +17,16 @@ class ScriptedMission {
         options(std::move(o)),
         supervisor(options, vessel::Parameters{}, 1) {}
 
+  // The clearance of the hull's centre at a level of the options' list.
+  [[nodiscard]] double clearance(std::size_t level) const {
+    return clearanceOf(vessel::Hull{}, options.side_clearances_m[level]);
+  }
   // What the vessel reports at `now_s`.
   [[nodiscard]] Situation situation() const {
     Situation s;
     s.odometry_stamp_s = now_s;
     s.state = rest;
-    const SailOrder& sailed = supervisor.sailed();
+    const trajectory::TimedTrajectory& sailed = supervisor.sailed();
     if (!sailed.trajectory.empty()) {
       s.state = sailed.trajectory.sample(now_s - sailed.start_time_s, vessel::Parameters{}).state;
       if (now_s - sailed.start_time_s > sailed.trajectory.duration()) {
@@ -38,10 +43,15 @@ class ScriptedMission {
     return supervisor.update(now_s, situation(), field);
   }
   Orders answer(const PlanRequest& request, const trajectory::Trajectory& trajectory) {
-    return supervisor.planFinished(now_s, {request.id, true, {}, trajectory}, situation(), field);
+    planner::Plan plan;
+    plan.outcome = planner::Outcome::kSolved;
+    plan.trajectory = trajectory;
+    return supervisor.planFinished(now_s, request.id, plan, situation(), field);
   }
   Orders refuse(const PlanRequest& request, const std::string& why) {
-    return supervisor.planFinished(now_s, {request.id, false, why, {}}, situation(), field);
+    planner::Plan plan;
+    plan.reason = why;
+    return supervisor.planFinished(now_s, request.id, plan, situation(), field);
   }
   // To x = 40 m, 80 m east, and `after_s` under way.
   void setOut(double after_s) {

@@ -9,7 +9,7 @@ namespace otter_nav::mission {
 namespace {
 
 // At a wall where no plan is found, until the supervisor backs off.
-std::optional<SailOrder> backOffFromTheWall(test::ScriptedMission& mission) {
+std::optional<trajectory::TimedTrajectory> backOffFromTheWall(test::ScriptedMission& mission) {
   mission.put({1.3, -10.0}, {2.0, 10.0});
   const auto orders = mission.goTo({-20.0, 0.0});
   Orders next = mission.refuse(orders.value().plan.value(), "the hull touches");
@@ -34,7 +34,7 @@ TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
   EXPECT_EQ(mission.supervisor.phase(), Phase::kStopped);
   const Orders next = mission.update(0.1);
   ASSERT_TRUE(next.plan);
-  EXPECT_GE(mission.field.clearance(next.plan->start.position),
+  EXPECT_GE(mission.field.clearance(next.plan->query.start.position),
             stopping::turningRoom(vessel::Parameters{}.hull));
 }
 

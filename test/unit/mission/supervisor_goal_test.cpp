@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "otter_nav/config/section.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "scripted_mission.hpp"
 
 namespace otter_nav::mission {
@@ -37,19 +37,19 @@ TEST(Goal, AsksForAPlanFromRestAtTheWidestClearance) {
   EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
   const PlanRequest& request = *orders->plan;
   EXPECT_FALSE(request.moving);
-  EXPECT_EQ(request.start.position, Eigen::Vector2d(-40.0, 3.0));
-  EXPECT_EQ(request.start.velocity, Eigen::Vector2d::Zero());
-  EXPECT_EQ(request.start_psi_rad, 0.5);
-  EXPECT_EQ(request.goal.psi_rad, 1.0);
-  EXPECT_EQ(request.clearance_m, mission.options.margins.plan_clearances_m.front());
+  EXPECT_EQ(request.query.start.position, Eigen::Vector2d(-40.0, 3.0));
+  EXPECT_EQ(request.query.start.velocity, Eigen::Vector2d::Zero());
+  EXPECT_EQ(request.query.start_psi_rad, 0.5);
+  EXPECT_EQ(request.query.goal_psi_rad, 1.0);
+  EXPECT_DOUBLE_EQ(request.limits.clearance_m, mission.clearance(0));
 }
 
-TEST(Goal, NarrowBerthsLowerTheClearance) {
+TEST(Goal, NarrowPlacesLowerTheClearance) {
   ScriptedMission mission;
   mission.put({41.5, -1.0}, {43.0, 1.0});
   const auto orders = mission.goTo({40.0, 0.0});
   ASSERT_TRUE(orders.has_value() && orders->plan);
-  EXPECT_EQ(orders->plan->clearance_m, mission.options.margins.plan_clearances_m[1]);
+  EXPECT_DOUBLE_EQ(orders->plan->limits.clearance_m, mission.clearance(1));
 }
 
 TEST(Goal, RefusalLeavesTheMissionUntouched) {
@@ -67,7 +67,7 @@ TEST(Goal, NewOneUnderWayIsPlannedInMotion) {
   ASSERT_TRUE(orders.has_value() && orders->plan);
   EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
   EXPECT_TRUE(orders->plan->moving);
-  EXPECT_NEAR(orders->plan->start.velocity.norm(), 4.0, 1e-6);
+  EXPECT_NEAR(orders->plan->query.start.velocity.norm(), 4.0, 1e-6);
   EXPECT_NEAR(orders->plan->start_time_s, mission.now_s + mission.options.planning_latency_s, 1e-9);
 }
 
@@ -78,17 +78,17 @@ TEST(Goal, PlansThatFailAreTriedNarrowerThenGivenUpWithTheReason) {
   std::vector<double> tried;
   for (int k = 0; k < 100 && mission.supervisor.phase() != Phase::kFailed; ++k) {
     if (request) {
-      tried.push_back(request->clearance_m);
+      tried.push_back(request->limits.clearance_m);
       (void)mission.refuse(*request, "no way at all");
     }
     request = mission.update(0.1).plan;
   }
   ASSERT_EQ(mission.supervisor.phase(), Phase::kFailed);
   EXPECT_NE(mission.supervisor.reason().find("no way at all"), std::string::npos);
-  const std::vector<double>& rungs = mission.options.margins.plan_clearances_m;
-  ASSERT_EQ(tried.size(), 3 * rungs.size());
+  const std::size_t levels = mission.options.side_clearances_m.size();
+  ASSERT_EQ(tried.size(), 3 * levels);
   for (std::size_t k = 0; k < tried.size(); ++k) {
-    EXPECT_EQ(tried[k], rungs[k % rungs.size()]);
+    EXPECT_DOUBLE_EQ(tried[k], mission.clearance(k % levels));
   }
 }
 
@@ -109,16 +109,17 @@ TEST(Goal, PlannerThatStaysSilentCountsAsFailed) {
   (void)mission.update(2.0);
   const Orders again = mission.update(0.1);
   ASSERT_TRUE(again.plan);
-  EXPECT_LT(again.plan->clearance_m, orders->plan->clearance_m);
+  EXPECT_LT(again.plan->limits.clearance_m, orders->plan->limits.clearance_m);
 }
 
 TEST(Options, ShippedFileLoads) {
   const std::string path = std::string(OTTER_NAV_SOURCE_DIR) + "/config/mission.yaml";
   const auto options = loadSupervisorOptions(path);
   ASSERT_TRUE(options.has_value()) << options.error().message;
+  EXPECT_EQ(config::toYaml(*options), config::toYaml(SupervisorOptions{}));
   const auto root = config::loadFile(path);
   YAML::Node broken = YAML::Clone((*root)["supervisor"]);
-  broken["plan_clearances_m"] = std::vector<double>{0.8, 0.9, 1.2, 1.6};
+  broken["side_clearances_m"] = std::vector<double>{0.3, 0.4, 0.7, 1.1};
   EXPECT_FALSE(readSupervisorOptions(config::Section(broken, "broken")).has_value());
 }
 

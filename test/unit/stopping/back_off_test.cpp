@@ -52,5 +52,47 @@ TEST(BackOff, StaysWhereTheWindWouldSetItAgainstTheWall) {
   EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), vessel::Parameters{}, 6.0));
 }
 
+// A hull twice as long needs more room to turn, and gets it.
+TEST(BackOff, GoesFurtherWithALongerHull) {
+  map::OccupancyGrid grid = test::openWater();
+  test::block(grid, {2.75, -10.0}, {3.5, 10.0});
+  const map::DistanceField field = test::fieldOf(grid);
+  vessel::Parameters wam_v;
+  wam_v.hull = {4.9, 2.44};
+  wam_v.thrusters.ahead_max_n = 1000.0;
+  wam_v.thrusters.astern_max_n = 400.0;
+  const auto way = backOff(restAt(0.0, 0.0, 0.0), field, wam_v, 0.0);
+  ASSERT_TRUE(way);
+  EXPECT_GE(field.clearance(way->flat(way->duration()).position), turningRoom(wam_v.hull));
+}
+
+TEST(TurnBack, ComesIntoTheMapWithRoomToTurn) {
+  const map::DistanceField field = test::fieldOf(test::openWater());  // to x = 50 m
+  const vessel::Parameters otter;
+  for (const double psi : {0.0, 0.7, 1.6, -2.5, 3.1}) {
+    const vessel::State start = restAt(51.0, 3.0, psi);
+    const auto way = turnBack(start, field, otter);
+    ASSERT_TRUE(way) << psi;
+    EXPECT_LT((way->sample(0.0, otter).state - start).norm(), 1e-9) << psi;
+    const vessel::State end = way->sample(way->duration(), otter).state;
+    EXPECT_GE(field.clearance(end.head<2>()), turningRoom(otter.hull)) << psi;
+    EXPECT_LT(end.tail<3>().norm(), 1e-9) << psi;
+    EXPECT_LT(std::abs(end.y() - 3.0), 1.0) << psi;  // the shortest way
+  }
+}
+
+TEST(TurnBack, GoesAroundWhatLiesInsideTheEdgeOrStays) {
+  map::OccupancyGrid grid = test::openWater();
+  test::block(grid, {44.0, 1.0}, {49.0, 5.0});
+  const map::DistanceField field = test::fieldOf(grid);
+  const vessel::Parameters otter;
+  const auto way = turnBack(restAt(51.0, 3.0, 0.0), field, otter);
+  ASSERT_TRUE(way);
+  EXPECT_TRUE(turnBackIsClear(*way, 0.0, field, otter));
+  EXPECT_GE(field.clearance(way->flat(way->duration()).position), turningRoom(otter.hull));
+  test::block(grid, {35.0, -49.9}, {49.5, 49.9});
+  EXPECT_FALSE(turnBack(restAt(51.0, 3.0, 0.0), test::fieldOf(grid), otter));
+}
+
 }  // namespace
 }  // namespace otter_nav::stopping

@@ -18,10 +18,11 @@ using test::openWater;
 using trajectory::Trajectory;
 
 constexpr double kSpeed = 4.3;
+constexpr double kClearanceM = 0.8;
 
 feasibility::CheckOptions limits() {
   feasibility::CheckOptions check;
-  check.clearance_m = BrakingOptions{}.clearance_m;
+  check.clearance_m = kClearanceM;
   check.thrust_share = 1.1;
   check.speed_max_mps = 10.0;
   return check;
@@ -44,7 +45,7 @@ void expectContinues(const Trajectory& sailed, double at_s, const Trajectory& st
 TEST(Braking, IsGentleWhereThereIsRoom) {
   const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
   const map::DistanceField field = fieldOf(openWater());
-  const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel::Parameters{}, {});
+  const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel::Parameters{}, kClearanceM);
   ASSERT_TRUE(stop.clear);
   EXPECT_GT(stop.trajectory.duration(), 10.0);
   expectRest(stop.trajectory);
@@ -57,7 +58,7 @@ TEST(Braking, IsHardInFrontOfAWall) {
   const Eigen::Vector2d here = sailed.flat(6.0).position;
   block(grid, {here.x() + 10.0, -10.0}, {here.x() + 11.0, 10.0});
   const map::DistanceField field = fieldOf(grid);
-  const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel::Parameters{}, {});
+  const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel::Parameters{}, kClearanceM);
   ASSERT_TRUE(stop.clear);
   EXPECT_LT(stop.trajectory.duration(), 4.0);
   EXPECT_LT(stop.trajectory.flat(100.0).position.x(), here.x() + 10.0 - 0.8);
@@ -71,7 +72,7 @@ TEST(Braking, StraightensOutOfACurve) {
   const Eigen::Vector2d ahead = sailed.flat(8.5).position;
   block(grid, ahead.array() - 1.0, ahead.array() + 1.0);
   const map::DistanceField field = fieldOf(grid);
-  const Braking stop = brakingTrajectory(sailed, 5.0, field, vessel::Parameters{}, {});
+  const Braking stop = brakingTrajectory(sailed, 5.0, field, vessel::Parameters{}, kClearanceM);
   ASSERT_TRUE(stop.clear);
   expectRest(stop.trajectory);
   expectContinues(sailed, 5.0, stop.trajectory);
@@ -84,7 +85,8 @@ TEST(Braking, DoesWhatItCanWhenNothingIsClear) {
   map::OccupancyGrid grid = openWater();
   const Eigen::Vector2d here = sailed.flat(6.0).position;
   block(grid, {here.x() + 2.5, -10.0}, {here.x() + 40.0, 10.0});
-  const Braking stop = brakingTrajectory(sailed, 6.0, fieldOf(grid), vessel::Parameters{}, {});
+  const Braking stop =
+      brakingTrajectory(sailed, 6.0, fieldOf(grid), vessel::Parameters{}, kClearanceM);
   EXPECT_FALSE(stop.clear);
   ASSERT_FALSE(stop.trajectory.empty());
   // The hardest stop goes least far.
@@ -97,7 +99,7 @@ TEST(Braking, EndsASpinInPlace) {
   pieces.insert(pieces.end(), way.pieces().begin(), way.pieces().end());
   const Trajectory sailed(std::move(pieces));
   const Braking stop =
-      brakingTrajectory(sailed, 1.0, fieldOf(openWater()), vessel::Parameters{}, {});
+      brakingTrajectory(sailed, 1.0, fieldOf(openWater()), vessel::Parameters{}, kClearanceM);
   ASSERT_EQ(stop.trajectory.pieces().size(), 1U);
   EXPECT_NEAR(stop.trajectory.duration(), 3.0, 1e-12);
   const trajectory::Sample a = stop.trajectory.sample(0.5, vessel::Parameters{});
@@ -131,11 +133,11 @@ TEST(Remainder, IsTheSameWay) {
 TEST(Splice, KeepsTheSailedWayUpToTheJoint) {
   const Trajectory sailed = circle(12.0, 3.0, 6.0);
   const Trajectory next = remainder(sailed, 3.5);
-  const Spliced spliced = splice(sailed, 2.4, 3.5, next);
-  EXPECT_NEAR(spliced.start_s, 2.0, 1e-12);
+  const trajectory::TimedTrajectory spliced = splice({sailed, 0.0}, 2.4, {next, 3.5});
+  EXPECT_NEAR(spliced.start_time_s, 2.0, 1e-12);
   EXPECT_NEAR(spliced.trajectory.duration(), 4.0, 1e-9);
   for (double t = 2.4; t < 6.0; t += 0.1) {
-    const Eigen::Vector2d there = spliced.trajectory.flat(t - spliced.start_s).position;
+    const Eigen::Vector2d there = spliced.trajectory.flat(spliced.elapsed(t)).position;
     EXPECT_LT((there - sailed.flat(t).position).norm(), 1e-9) << t;
   }
 }

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "otter_nav/trajectory/trajectory.hpp"
+
+namespace otter_nav::trajectory {
+
+// To be sailed as if begun at `start_time_s` on the caller's clock.
+struct TimedTrajectory {
+  Trajectory trajectory;
+  double start_time_s = 0.0;
+
+  [[nodiscard]] double elapsed(double now_s) const { return now_s - start_time_s; }
+  [[nodiscard]] double left(double now_s) const { return trajectory.duration() - elapsed(now_s); }
+};
+
+}  // namespace otter_nav::trajectory

@@ -1,0 +1,94 @@
+#include "plan_requests.hpp"
+
+#include <cmath>
+
+#include "otter_nav/stopping/splice.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+// From `at_s` on, the first time at which a new trajectory can begin: well under way, and with a
+// heading that follows from the path. A plan that starts at walking pace has a heading that hardly
+// counts and turns at once.
+std::optional<double> joiningTime(const trajectory::Trajectory& sailed, double at_s) {
+  constexpr double kStepS = 0.1;
+  constexpr double kLeastSpeedMps = 0.4;
+  const int steps = static_cast<int>(std::ceil((sailed.duration() - at_s) / kStepS));
+  for (int k = 0; k < steps; ++k) {
+    const double t = at_s + k * kStepS;
+    const trajectory::Piece& piece = sailed.pieces()[sailed.pieceAt(t)];
+    if (piece.kind != trajectory::PieceKind::kSpin &&
+        sailed.flat(t).velocity.norm() >= kLeastSpeedMps) {
+      return t;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+PlanRequests::PlanRequests(const SupervisorOptions& options, const vessel::Parameters& vessel,
+                           std::uint64_t seed)
+    : safety(options, vessel), latency(options.planning_latency_s), vessel_(vessel), seed_(seed) {}
+
+PlanRequest PlanRequests::fromRest(double now_s, const vessel::State& state,
+                                   const vessel::Pose& goal,
+                                   const feasibility::Obstacles& obstacles) {
+  PlanRequest request;
+  request.query.start.position = state.head<2>();
+  request.query.start_psi_rad = state[vessel::kPsi];
+  request.start_time_s = now_s;
+  return ask(now_s, std::move(request), goal, safety.freeThrustShare(), From::kRest, obstacles);
+}
+
+std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
+                                                    const trajectory::TimedTrajectory& sailed,
+                                                    double thrust_share, const vessel::Pose& goal,
+                                                    const feasibility::Obstacles& obstacles) {
+  const std::optional<double> at =
+      joiningTime(sailed.trajectory, now_s + latency.seconds() - sailed.start_time_s);
+  if (!at) {
+    return std::nullopt;
+  }
+  const trajectory::Sample sample = sailed.trajectory.sample(*at, vessel_);
+  PlanRequest request;
+  request.query.start = sample.flat;
+  request.query.start_psi_rad = sample.state[vessel::kPsi];
+  request.start_time_s = sailed.start_time_s + *at;
+  request.warm_start = stopping::remainder(sailed.trajectory, *at);
+  // The force it begins with is one of the plan being sailed.
+  return ask(now_s, std::move(request), goal, thrust_share, From::kSailed, obstacles);
+}
+
+PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
+                                     const vessel::Pose& goal,
+                                     const feasibility::Obstacles& obstacles) {
+  constexpr double kStartShare = 0.9;  // of the plan's thrust, at its beginning
+  const double share = safety.movingThrustShare();
+  PlanRequest request;
+  request.query.start = vessel::InverseDynamics(vessel_).fromState(
+      state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n);
+  request.query.start.position += latency.seconds() * request.query.start.velocity;
+  request.query.start_psi_rad = state[vessel::kPsi];
+  request.start_time_s = now_s + latency.seconds();
+  return ask(now_s, std::move(request), goal, share, From::kVessel, obstacles);
+}
+
+PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::Pose& goal,
+                              double thrust_share, From from,
+                              const feasibility::Obstacles& obstacles) {
+  const map::DistanceField& field = obstacles.field();
+  const double room =
+      std::min(field.clearance(request.query.start.position), field.clearance(goal.position));
+  request.id = next_id_++;
+  request.query.goal = goal.position;
+  request.query.goal_psi_rad = goal.psi_rad;
+  request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
+  request.limits = safety.limits(thrust_share, room);
+  request.moving = from != From::kRest;
+  asked_ = Asked{request, from, false, now_s};
+  return request;
+}
+
+}  // namespace otter_nav::mission

@@ -1,0 +1,83 @@
+// Plans asked for, from wherever the vessel is, with what they must keep to; and how long the
+// answers take.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "otter_nav/mission/supervisor.hpp"
+#include "safety.hpp"
+
+namespace otter_nav::mission {
+
+// Where a plan starts from.
+enum class From { kRest, kSailed, kVessel };
+
+// From a request to the start of its trajectory when the vessel moves: grows when answers come
+// late.
+class PlanningLatency {
+ public:
+  explicit PlanningLatency(double usual_s) : usual_s_(usual_s), now_s_(usual_s) {}
+  [[nodiscard]] double seconds() const { return now_s_; }
+  void onTime() { now_s_ = usual_s_; }
+  void late(double by_s) {
+    constexpr double kMaxS = 2.0;
+    now_s_ = std::min(kMaxS, 1.5 * now_s_ + by_s);
+  }
+
+ private:
+  double usual_s_;
+  double now_s_;
+};
+
+class PlanRequests {
+ public:
+  struct Asked {
+    PlanRequest request;
+    From from = From::kRest;
+    bool improves = false;  // asked for only to be faster
+    double since_s = 0.0;
+  };
+
+  PlanRequests(const SupervisorOptions& options, const vessel::Parameters& vessel,
+               std::uint64_t seed);
+
+  // Each replaces the request under way.
+  PlanRequest fromRest(double now_s, const vessel::State& state, const vessel::Pose& goal,
+                       const feasibility::Obstacles& obstacles);
+  // Nothing where the vessel is about to come to rest.
+  std::optional<PlanRequest> fromSailed(double now_s, const trajectory::TimedTrajectory& sailed,
+                                        double thrust_share, const vessel::Pose& goal,
+                                        const feasibility::Obstacles& obstacles);
+  PlanRequest fromVessel(double now_s, const vessel::State& state, const vessel::Pose& goal,
+                         const feasibility::Obstacles& obstacles);
+
+  [[nodiscard]] bool waits() const { return asked_.has_value(); }
+  [[nodiscard]] bool overdue(double now_s) const {
+    constexpr double kPatienceS = 5.0;
+    return asked_ && now_s - asked_->since_s > kPatienceS;
+  }
+  void markAsImprovement() { asked_->improves = true; }
+  void drop() { asked_.reset(); }
+  [[nodiscard]] Asked take() { return *std::exchange(asked_, std::nullopt); }
+  // Nothing if the answer is to a request that was replaced.
+  [[nodiscard]] std::optional<Asked> take(int id) {
+    return asked_ && asked_->request.id == id ? std::exchange(asked_, std::nullopt) : std::nullopt;
+  }
+
+  Safety safety;
+  PlanningLatency latency;
+
+ private:
+  PlanRequest ask(double now_s, PlanRequest request, const vessel::Pose& goal, double thrust_share,
+                  From from, const feasibility::Obstacles& obstacles);
+
+  vessel::Parameters vessel_;
+  std::uint64_t seed_;
+  std::optional<Asked> asked_;
+  int next_id_ = 1;
+};
+
+}  // namespace otter_nav::mission
