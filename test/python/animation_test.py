@@ -1,6 +1,5 @@
 """Moving pictures of recordings."""
 import os
-import shutil
 import tempfile
 import unittest
 from unittest import mock
@@ -63,11 +62,26 @@ class AnimationTest(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertFalse(os.path.exists(out))
 
-    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
-    def test_film(self):
-        code, out = self.make("run.mp4", "--bag", self.bag, "--width", "320")
+    def with_encoder(self, script):
+        """Runs with a program of that text in ffmpeg's place."""
+        path = os.path.join(self.folder, "ffmpeg")
+        with open(path, "w") as file:
+            file.write("#!/bin/sh\n" + script)
+        os.chmod(path, 0o755)
+        with mock.patch("otter_nav.animation.shutil.which", return_value=path):
+            return self.make("run.mp4", "--bag", self.bag, "--width", "320", "--rate", "2")
+
+    def test_film_is_every_frame_whole_to_ffmpeg(self):
+        code, out = self.with_encoder('for last; do :; done; cat > "$last"')
         self.assertEqual(code, 0)
-        self.assertGreater(os.path.getsize(out), 1000)
+        size = Film(read_bag(self.bag)[0], None, 320).background.size
+        frames = len(frame_times(read_bag(self.bag)[0], 8.0, 2.0))
+        self.assertEqual(os.path.getsize(out), frames * 3 * size[0] * size[1])
+        self.assertEqual([side % 2 for side in size], [0, 0])
+
+    def test_says_why_ffmpeg_failed(self):
+        code, _ = self.with_encoder("echo no such codec >&2; exit 3")
+        self.assertEqual(code, 1)
 
     def test_refuses_what_makes_no_film(self):
         for arguments in (["--speed", "0"], ["--speed", "0.001"], ["--rate", "0"], ["--width", "3"]):
