@@ -24,8 +24,8 @@ constexpr double kYawRadps = 1.508;
 constexpr double kYawDamping = 1.206;
 constexpr double kThrustShare = 0.8;  // of the limits; the rest is for what comes of a sudden
 constexpr double kYawShare = 0.6;     // of that for turning, so that some is left for the surge
-constexpr double kSideLoad = 0.15;    // abeam, of both thrusters' force ahead: lighter, the heading
-                                      // may be held again
+// Abeam, over length times beam, as wind and waves push; lighter, the heading may be held again.
+constexpr double kSideLoadNpm2 = 15.0 / 2.16;
 constexpr double kHeldRad = 0.17;
 
 // What `inertia` takes beside its own `drag`.
@@ -42,7 +42,7 @@ StationKeeper::StationKeeper(const HoldingOptions& options, const vessel::Parame
   surge_damping_kgps_ = damping(kSurgeDamping, kSurgeRadps, m.surge_inertia_kg, m.surge_drag_kgps);
   yaw_gain_nm_ = kYawRadps * kYawRadps * m.yaw_inertia_kgm2;
   yaw_damping_nms_ = damping(kYawDamping, kYawRadps, m.yaw_inertia_kgm2, m.yaw_drag_kgm2ps);
-  side_load_n_ = kSideLoad * 2.0 * vessel.thrusters.ahead_max_n;
+  side_load_n_ = kSideLoadNpm2 * vessel.hull.length_m * vessel.hull.beam_m;
 }
 
 bool StationKeeper::holds(const vessel::State& state) const {
