@@ -123,13 +123,10 @@ Result<Fit> fitPaper(const Identification& work, const Options& options) {
                    std::to_string(options.paper_speed_min_mps) + " to " +
                    std::to_string(options.paper_speed_max_mps) + " m/s");
   }
-  Result<ParameterSet> set = paperSet(work.guess.paper, options.paper_bounds);
-  if (!set) {
-    return failure(set.error().message);
-  }
-  const Problem problem(work.data, windows, *std::move(set), work.guess.thrusters, options.problem);
-  const vessel::PaperModel h =
-      regress(work.data, windows, work.guess.thrusters, 1.0, options.paper_bounds);
+  const PaperBounds bounds(work.guess.paper);
+  const Problem problem(work.data, windows, paperSet(work.guess.paper, bounds),
+                        work.guess.thrusters, options.problem);
+  const vessel::PaperModel h = regress(work.data, windows, work.guess.thrusters, 1.0, bounds);
   Eigen::VectorXd regressed = problem.startPoint();
   regressed.head<kPaperCount>() = coefficientsOf(h);
   const Eigen::VectorXd start = betterStart(problem, problem.startPoint(), regressed);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace otter_nav::identification {
 namespace {
@@ -10,6 +9,8 @@ namespace {
 // How far inertias, and anything else per its magnitude, may be off the guess.
 constexpr double kInertiaFactor = 4.0;
 constexpr double kOtherFactor = 10.0;
+// And the paper's five numbers, which have no priors.
+constexpr double kPaperFactor = 20.0;
 // Speeds at which a quadratic drag would equal the guess's linear one, and cross terms act.
 constexpr double kReferenceSpeed = 1.0;
 constexpr double kReferenceYawRate = 0.5;
@@ -44,7 +45,11 @@ vessel::ManoeuvringModel magnitudesOf(const vessel::ManoeuvringModel& guess) {
 
 }  // namespace
 
-Result<ParameterSet> paperSet(const vessel::PaperModel& guess, const PaperBounds& bounds) {
+PaperBounds::PaperBounds(const vessel::PaperModel& guess)
+    : lower(modelOf<vessel::PaperModel>(coefficientsOf(guess) / kPaperFactor)),
+      upper(modelOf<vessel::PaperModel>(coefficientsOf(guess) * kPaperFactor)) {}
+
+ParameterSet paperSet(const vessel::PaperModel& guess, const PaperBounds& bounds) {
   const auto values = coefficientsOf(guess);
   const auto lower = coefficientsOf(bounds.lower);
   const auto upper = coefficientsOf(bounds.upper);
@@ -52,15 +57,8 @@ Result<ParameterSet> paperSet(const vessel::PaperModel& guess, const PaperBounds
   ParameterSet set;
   set.map.resize(kCoefficientCount, kPaperCount);
   for (int i = 0; i < kPaperCount; ++i) {
-    const char* name = names[static_cast<std::size_t>(i)];
-    if (values[i] < lower[i] || values[i] > upper[i]) {
-      std::ostringstream out;
-      out << "the guess of " << name << " is " << values[i] << ", allowed is " << lower[i] << " to "
-          << upper[i];
-      return failure(out.str());
-    }
     Parameter parameter;
-    parameter.name = name;
+    parameter.name = names[static_cast<std::size_t>(i)];
     parameter.guess = values[i];
     parameter.lower = lower[i];
     parameter.upper = upper[i];

@@ -28,9 +28,14 @@ struct ParameterSet {
   CoefficientMap map;
 };
 
-// h = [m1, m2, d1, d2, d3]. A guess outside the bounds is an error.
-[[nodiscard]] Result<ParameterSet> paperSet(const vessel::PaperModel& guess,
-                                            const PaperBounds& bounds);
+// Bounds h_l <= h <= h_u of the paper's equation 8: so many times the guess, and its inverse.
+struct PaperBounds {
+  explicit PaperBounds(const vessel::PaperModel& guess);
+  vessel::PaperModel lower, upper;
+};
+
+// h = [m1, m2, d1, d2, d3].
+[[nodiscard]] ParameterSet paperSet(const vessel::PaperModel& guess, const PaperBounds& bounds);
 
 // The fourteen coefficients. Their bounds and priors are multiples of the guess's magnitudes
 // (docs/identification.md): no sway force is known in the data, so the scale of the sway equation

@@ -66,18 +66,11 @@ struct SolverOptions {
   double tolerance = 1e-6;  // on the scaled optimality error
 };
 
-// Bounds h_l <= h <= h_u of the paper's equation 8.
-struct PaperBounds {
-  vessel::PaperModel lower{5.0, 1.0, 1.0, 1.0, 1.0};
-  vessel::PaperModel upper{1000.0, 1000.0, 1000.0, 1000.0, 1000.0};
-};
-
 struct Options {
   DataOptions data;
   SplitOptions split;
   ProblemOptions problem;
   SolverOptions solver;
-  PaperBounds paper_bounds;
   // The paper's model is fitted to windows whose mean surge speed lies in this range: five numbers
   // can't hold the whole envelope of a real hull, so they are spent where it sails.
   double paper_speed_min_mps = -20.0;

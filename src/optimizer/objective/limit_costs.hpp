@@ -1,5 +1,5 @@
 // The vessel's limits (the paper's f_d) as penalties ld max(0, excess)^2, forces in shares of one
-// thruster's.
+// thruster's, astern of what it has astern.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,10 @@ constexpr double kMotionKnee = 1.0;  // of speed, m/s, and yaw rate, rad/s
 // Both thrusters, ahead and astern.
 class ThrustLimit : public Cost {
  public:
-  explicit ThrustLimit(double force_scale_n) : inverse_(1.0 / force_scale_n) {}
+  explicit ThrustLimit(const vessel::Thrusters& thrusters)
+      : inverse_ahead_(1.0 / thrusters.ahead_max_n),
+        inverse_astern_(1.0 /
+                        std::max(thrusters.astern_max_n, kLeastAstern * thrusters.ahead_max_n)) {}
 
   void add(const Targets& targets, Point& point) const override {
     const vessel::FlatGradient& g = point.demand();
@@ -33,15 +36,19 @@ class ThrustLimit : public Cost {
       for (const double sign : {1.0, -1.0}) {
         const double most =
             sign > 0.0 ? targets.limits.thrust_ahead_n : targets.limits.thrust_astern_n;
-        point.addHinge(weight, (sign * thrust - most) * inverse_, kForceKnee, [&] {
-          return byDerivatives(0.5 * (g.surge + side * g.difference), sign * inverse_);
+        const double inverse = sign > 0.0 ? inverse_ahead_ : inverse_astern_;
+        point.addHinge(weight, (sign * thrust - most) * inverse, kForceKnee, [&] {
+          return byDerivatives(0.5 * (g.surge + side * g.difference), sign * inverse);
         });
       }
     }
   }
 
  private:
-  double inverse_;
+  // A vessel without thrust astern still has a scale for wanting some.
+  static constexpr double kLeastAstern = 0.1;
+  double inverse_ahead_;
+  double inverse_astern_;
 };
 
 class YawRateLimit : public Cost {

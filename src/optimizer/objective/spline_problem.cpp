@@ -107,7 +107,7 @@ SplineProblem::SplineProblem(const vessel::Parameters& vessel)
   costs_.push_back(std::make_unique<SmoothnessCost>());
   costs_.push_back(std::make_unique<LengthCost>());
   costs_.push_back(std::make_unique<OriginalCost>());
-  costs_.push_back(std::make_unique<ThrustLimit>(force_n));
+  costs_.push_back(std::make_unique<ThrustLimit>(vessel.thrusters));
   costs_.push_back(std::make_unique<YawRateLimit>());
   costs_.push_back(std::make_unique<SpeedLimit>());
   costs_.push_back(std::make_unique<HeadingForceLimit>(force_n));
