@@ -55,7 +55,7 @@ def run_page(run, scenario=None, others=0):
     ])
     begin = run.motion.t[0]
     page.raw(f'<p class="note">Figures are taken from {figures["window_from_s"] - begin:.2f} s to '
-             f'{figures["window_to_s"] - begin:.2f} s: first trajectory to arrival or end. Errors are '
+             f'{figures["window_to_s"] - begin:.2f} s: first trajectory to its end. Errors are '
              f'of the {"true" if run.motion_is_true else "estimated"} position.</p>')
 
     page.section("Track")

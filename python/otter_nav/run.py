@@ -116,8 +116,9 @@ class Run:
 
     @property
     def window(self):
-        """(from, to) in s: the first trajectory's start to arrival, or to where the mission failed
-        or the recording ends. Without a trajectory, all of the motion."""
+        """(from, to) in s: the first trajectory's start to arrival, or to where the mission failed,
+        the hull touched something or the recording ends, as missions count themselves. Without a
+        trajectory, all of the motion."""
         motion = self.motion
         if not len(motion):
             return (numpy.nan, numpy.nan)
@@ -131,6 +132,7 @@ class Run:
             begin = max(begin, min(starts))
         over = [t for t, state, _ in self.planner_states
                 if state in ("arrived", "failed") and t >= begin]
+        over += [t for t, on in zip(self.contacts.t, self.contacts.in_contact) if on > 0 and t >= begin]
         return (float(begin), float(min([end] + over)))
 
     @property
@@ -188,7 +190,7 @@ class Run:
             "thrust_rms_n": float(numpy.sqrt(numpy.mean(squares))) if len(squares) else None,
             "thrust_saturated_share": _mean(self.saturated[acting].astype(float)),
             "min_clearance_m": self._min_clearance(until),
-            "contacts": int(numpy.sum(self.contacts.in_contact[self.contacts.t <= end + 1e-9] > 0)),
+            "contacts": int(numpy.sum(self.contacts.in_contact > 0)),
         }
         figures.update(self._planning_figures(end))
         # The mission's own figures were taken at every control step: they stand where known.

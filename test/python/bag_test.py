@@ -49,7 +49,7 @@ class BagTest(unittest.TestCase):
         self.assertEqual([t.id for t in run.trajectories], [1, 2])
         self.assertEqual([plan.planning_ms for plan in run.plans], [20.0, 40.0])
         self.assertEqual([state for _, state, _ in run.planner_states],
-                         ["planning", "tracking", "arrived"])
+                         ["planning", "sailing", "arrived"])
         self.assertEqual(len(run.contacts), 1)
 
     def test_error_is_along_and_to_port(self):
@@ -75,9 +75,14 @@ class BagTest(unittest.TestCase):
         self.assertEqual(figures["thrust_saturated_share"], 1.0)
         self.assertEqual(figures["replans"], 1)
         self.assertEqual(figures["planning_ms_max"], 40.0)
-        # The contact comes after arrival.
-        self.assertEqual(figures["contacts"], 0)
+        # It comes after arrival and changes nothing.
+        self.assertEqual(figures["contacts"], 1)
         self.assertAlmostEqual(figures["min_clearance_m"], 1.3, 2)
+
+    def test_a_mission_ends_where_the_hull_touches_something(self):
+        figures = self.read(contact=110.0).figures()
+        self.assertEqual(figures["outcome"], "collided")
+        self.assertAlmostEqual(figures["window_to_s"], 110.0)
 
     def test_any_namespace(self):
         run = self.read(prefix="/fleet/otter1")
@@ -110,7 +115,7 @@ class BagTest(unittest.TestCase):
         self.assertEqual(len(read_bag(self.path)), 2)
 
     def test_a_real_vessel_has_odometry_alone(self):
-        run = self.read(truth=False, contact=False)
+        run = self.read(truth=False, contact=None)
         self.assertFalse(run.motion_is_true)
         figures = run.figures()
         self.assertEqual(figures["position_source"], "odometry")

@@ -75,7 +75,7 @@ class ReportTest(unittest.TestCase):
             self.assertIn(heading, page.headings)
         self.assertGreaterEqual(page.pictures, 8)
         words = " ".join(page.text)
-        for word in ("0.500", "contact begins", "tracking → arrived", "speed, m/s", "saturated"):
+        for word in ("0.500", "contact begins", "sailing → arrived", "speed, m/s", "saturated"):
             self.assertIn(word, words)
         self.assertAlmostEqual(figures["tracking_error_mean_m"], 0.5, 6)
         self.assertAlmostEqual(figures["duration_s"], 16.0, 6)

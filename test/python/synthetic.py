@@ -63,7 +63,7 @@ def pose(t):
     return way * c - CROSS_M * s, way * s + CROSS_M * c
 
 
-def messages(offset_s=0.0, truth=True, contact=True):
+def messages(offset_s=0.0, truth=True, contact=ARRIVES_S + 0.5):
     """(name, message, stamp) of one run in the order of time."""
     found = []
 
@@ -84,14 +84,15 @@ def messages(offset_s=0.0, truth=True, contact=True):
         add("thruster_command", ThrusterCommand(left=LEFT_N, right=RIGHT_N), t)
     for t in numpy.arange(START_S, END_S, 0.1):
         sailing = t >= SAILS_S - 0.5
-        state = "arrived" if t >= ARRIVES_S - 1e-6 else "tracking" if sailing else "planning"
+        state = (PlannerStatus.ARRIVED if t >= ARRIVES_S - 1e-6 else
+                 PlannerStatus.SAILING if sailing else PlannerStatus.PLANNING)
         add("planner_status", PlannerStatus(
             state=state, plans=(1 if sailing else 0) + (1 if t >= 108.0 else 0),
             replans=1 if t >= 108.0 else 0, outcome="solved", length=32.0, duration=16.0,
             first_solution_ms=5.0, planning_ms=20.0 if t < 108.0 else 40.0, samples=100, nodes=40,
             cost=170.0, trajectory_id=1 if sailing else 0), t)
         add("tracker_status", TrackerStatus(
-            state="tracking" if sailing else "idle", solver_ms_median=0.05, solver_ms_p99=0.2,
+            state=TrackerStatus.TRACKING if sailing else TrackerStatus.IDLE, solver_ms_median=0.05, solver_ms_p99=0.2,
             cycles_on_time=0.99, disturbance=[3.0, -4.0, 0.5]), t)
         wind = Vector3Stamped()
         wind.vector.y = 3.0
@@ -101,7 +102,7 @@ def messages(offset_s=0.0, truth=True, contact=True):
                        (straight(2, 109.0 + offset_s, 16.0, 8.0), 108.5)):
         found.append(("trajectory", message, t + offset_s))
     if contact:
-        add("contact", ContactEvent(in_contact=True, speed=1.0), ARRIVES_S + 0.5)
+        add("contact", ContactEvent(in_contact=True, speed=1.0), contact)
     return sorted(found, key=lambda entry: entry[2])
 
 
