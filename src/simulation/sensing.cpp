@@ -35,11 +35,10 @@ Status Sensing::insert(const plant::Scan& scan, const plant::Odometry& odometry)
   scan_.ranges_m.assign(scan.ranges.begin(), scan.ranges.end());
   const map::SensorPose pose = sensorPose(odometry, lidar_in_base_);
   if (!field_.geometry().contains(pose.position.head<2>())) {
-    ++skipped_;
     return {};
   }
-  const Result<map::CellRectangle> changed = map_.insertScan(
-      pose, {odometry.state.head<2>(), odometry.state[vessel::kPsi]}, scan_);
+  const Result<map::CellRectangle> changed =
+      map_.insertScan(pose, {odometry.state.head<2>(), odometry.state[vessel::kPsi]}, scan_);
   if (!changed) {
     return failure(changed.error().message);
   }

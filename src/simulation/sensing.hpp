@@ -19,15 +19,12 @@ class Sensing {
   [[nodiscard]] Status insert(const plant::Scan& scan, const plant::Odometry& odometry);
 
   [[nodiscard]] const map::DistanceField& field() const { return field_; }
-  // Scans left out so far.
-  [[nodiscard]] int skipped() const { return skipped_; }
 
  private:
   map::OccupancyMap map_;
   map::DistanceField field_;
   Eigen::Vector3d lidar_in_base_;
   map::Scan scan_;
-  int skipped_ = 0;
 };
 
 }  // namespace otter_nav::simulation

@@ -59,6 +59,19 @@ TEST(ClosedLoop, StopsSafelyAndSaysWhyWhenTheGoalIsWalledOff) {
   EXPECT_LT(loop->motion().state.segment<2>(vessel::kSurge).norm(), 0.5);
 }
 
+// The chart ends at x = -30 m, the water goes on.
+TEST(ClosedLoop, ComesBackFromOverTheChartsEdge) {
+  const Waters waters{test::openWater(60.0), test::openWater(100.0)};
+  const scenario::Mission inwards = {"local", {{-32.0, 3.0}, 1.2}, {{20.0, 0.0}, 0.0}};
+  auto loop = ClosedLoop::create(options(), waters, inwards, 1);
+  ASSERT_TRUE(loop.has_value());
+  EXPECT_TRUE(loop->step());
+  EXPECT_EQ(loop->supervisor().phase(), mission::Phase::kTurningBack);
+  const scenario::MissionResult result = run(*loop, {}, 0.1, nullptr, {});
+  EXPECT_EQ(result.outcome, scenario::Outcome::kArrived) << result.reason;
+  EXPECT_LT(result.duration_s, 60.0);
+}
+
 TEST(ClosedLoop, IsTheSameEveryTime) {
   Waters waters{test::openWater(60.0), {}};
   test::block(waters.chart, {-4.0, -5.0}, {4.0, 5.0});
