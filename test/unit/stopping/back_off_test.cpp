@@ -81,6 +81,16 @@ TEST(TurnBack, ComesIntoTheMapWithRoomToTurn) {
   }
 }
 
+TEST(TurnBack, IsBlockedByWhatIsNearerThanTheEdge) {
+  map::OccupancyGrid grid = test::openWater();
+  const vessel::Parameters otter;
+  const auto way = turnBack(restAt(51.0, 3.0, 0.0), test::fieldOf(grid), otter);
+  ASSERT_TRUE(way);
+  EXPECT_TRUE(turnBackIsClear(*way, 0.0, test::fieldOf(grid), otter));
+  test::block(grid, {47.0, 2.5}, {47.9, 3.5});
+  EXPECT_FALSE(turnBackIsClear(*way, 0.0, test::fieldOf(grid), otter));
+}
+
 TEST(TurnBack, GoesAroundWhatLiesInsideTheEdgeOrStays) {
   map::OccupancyGrid grid = test::openWater();
   test::block(grid, {44.0, 1.0}, {49.0, 5.0});
