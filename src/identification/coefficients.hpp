@@ -46,9 +46,9 @@ template <typename Model>
       model, [&](const char*, double& value, const config::Range&) { values[i++] = value; });
   return values;
 }
+// What a file may leave out stays as it is in `model`.
 template <typename Model>
-[[nodiscard]] Model modelOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  Model model;
+[[nodiscard]] Model modelOf(const Eigen::Ref<const Eigen::VectorXd>& values, Model model = {}) {
   int i = 0;
   forEachCoefficient(
       model, [&](const char*, double& value, const config::Range&) { value = values[i++]; });

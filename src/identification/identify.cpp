@@ -162,13 +162,6 @@ vessel::PaperModel paperFrom(const Fit& fit) {
   return modelOf<vessel::PaperModel>(values);
 }
 
-// They are not estimated: the guess's stay.
-void keepWindLoads(const vessel::ManoeuvringModel& guess, vessel::ManoeuvringModel& model) {
-  model.wind_surge_kgpm = guess.wind_surge_kgpm;
-  model.wind_sway_kgpm = guess.wind_sway_kgpm;
-  model.wind_yaw_kg = guess.wind_yaw_kg;
-}
-
 Result<Identification> identifyWithLag(const Recording& recording, const vessel::Parameters& guess,
                                        const Options& options) {
   Result<DataSet> data = assemble(recording, options.data, guess.thrusters.lag_s);
@@ -205,7 +198,8 @@ Result<Identification> identifyWithLag(const Recording& recording, const vessel:
     work.manoeuvring = *std::move(manoeuvring);
     work.vessel.manoeuvring = work.manoeuvring.model.coefficients;
   }
-  keepWindLoads(guess.manoeuvring, work.vessel.manoeuvring);
+  // Wind loads are not estimated: the guess's stay.
+  work.vessel.manoeuvring = modelOf(coefficientsOf(work.vessel.manoeuvring), guess.manoeuvring);
   work.vessel.top_speed_mps = rounded(topSpeed(work.vessel.manoeuvring, guess.thrusters));
   return work;
 }

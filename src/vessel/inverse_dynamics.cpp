@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/model.hpp"
@@ -53,7 +54,8 @@ OTTER_NAV_INLINE auto crossed(const A& a, const B& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-// r and r' of a hull along e with D = 1 / per_d and Y + Y'' = bend.
+// r and r' of a hull along e with D = 1 / per_d and Y + Y'' = bend; in calm air that vanishes.
+struct Calm {};
 template <typename Rate, typename Acceleration>
 struct Turning {
   Rate yaw_rate;
@@ -66,12 +68,23 @@ template <typename E, typename PerD, typename W1, typename W2, typename Bend>
 OTTER_NAV_INLINE auto turning(const E& e, const PerD& per_d, const W1& w1, const W2& w2,
                               const Bend& bend) {
   const auto r = crossed(e, w1) * per_d;
-  return Turning{r, (crossed(e, w2) - r * (2.0 * dot(e, w1) + r * bend)) * per_d};
+  if constexpr (std::is_same_v<Bend, Calm>) {
+    return Turning{r, (crossed(e, w2) - r * (2.0 * dot(e, w1))) * per_d};
+  } else {
+    return Turning{r, (crossed(e, w2) - r * (2.0 * dot(e, w1) + r * bend)) * per_d};
+  }
 }
 
 template <typename Rate, typename Acceleration>
 OTTER_NAV_INLINE auto yawMoment(const PaperModel& m, const Rate& r, const Acceleration& r1) {
   return m.m2_kgm2 * r1 + m.d3_kgm2ps * r;
+}
+
+// Along w, on the side of `ahead`.
+Bow calmBow(const Vector2d& w, const Vector2d& ahead, double floor_n) {
+  const double side = w.dot(ahead) >= 0.0 ? 1.0 : -1.0;
+  const double norm = std::max(w.norm(), floor_n);
+  return {side / norm * w, side * norm};
 }
 
 // What the equations of motion leave for the thrusters, and abeam for nobody.
@@ -135,12 +148,11 @@ InverseDynamics::Air InverseDynamics::air(const Vector2d& bow) const {
 }
 
 Bow InverseDynamics::bow(const Vector2d& w, const Vector2d& ahead, double floor_n) const {
-  const double side = w.dot(ahead) >= 0.0 ? 1.0 : -1.0;
-  const double norm = std::max(w.norm(), floor_n);
-  Bow bow{side / norm * w, side * norm};
+  Bow bow = calmBow(w, ahead, floor_n);
   if (!windy_) {
     return bow;
   }
+  const double side = bow.firmness_n >= 0.0 ? 1.0 : -1.0;
   double psi = std::atan2(bow.ahead.y(), bow.ahead.x());
   for (int i = 0; i <= kBowIterations; ++i) {
     bow.ahead = {std::cos(psi), std::sin(psi)};
@@ -162,28 +174,37 @@ HeldDemand InverseDynamics::held(const Vector2d& bow, double yaw_rate_radps,
 }
 
 Sailing InverseDynamics::sailing(const FlatPoint& z, const Vector2d& ahead, double floor_n) const {
-  Sailing s;
-  s.bow = bow(headingForce(z.velocity, z.acceleration), ahead, floor_n);
-  const Air air = this->air(s.bow.ahead);
-  const auto turn = turning(plain(s.bow.ahead), 1.0 / s.bow.firmness_n,
-                            plain(headingForceRate(z.acceleration, z.jerk)),
-                            plain(headingForceRate(z.jerk, z.snap)), air.y + air.y2);
-  s.yaw_rate_radps = turn.yaw_rate;
-  s.tau.surge_n = s.bow.ahead.dot(surgeForce(z.velocity, z.acceleration)) - air.x;
-  s.tau.yaw_nm = yawMoment(model_, turn.yaw_rate, turn.yaw_acceleration) - air.n;
-  return s;
+  const Vector2d w = headingForce(z.velocity, z.acceleration);
+  const auto w1 = plain(headingForceRate(z.acceleration, z.jerk));
+  const auto w2 = plain(headingForceRate(z.jerk, z.snap));
+  const auto result = [&](const Bow& bow, const auto& turn, double x, double n) -> Sailing {
+    return {bow,
+            turn.yaw_rate,
+            {bow.ahead.dot(surgeForce(z.velocity, z.acceleration)) - x,
+             yawMoment(model_, turn.yaw_rate, turn.yaw_acceleration) - n}};
+  };
+  if (!windy_) {
+    const Bow b = calmBow(w, ahead, floor_n);
+    return result(b, turning(plain(b.ahead), 1.0 / b.firmness_n, w1, w2, Calm{}), 0.0,
+                  disturbance_.moment_nm);
+  }
+  const Bow b = bow(w, ahead, floor_n);
+  const Air air = this->air(b.ahead);
+  return result(b, turning(plain(b.ahead), 1.0 / b.firmness_n, w1, w2, air.y + air.y2), air.x,
+                air.n);
 }
 
 FlatState InverseDynamics::state(const FlatPoint& z, const Vector2d& ahead) const {
   Sailing s = sailing(z, ahead, 1e-9);
   const double firmness = std::abs(s.bow.firmness_n);
-  double psi = std::atan2(s.bow.ahead.y(), s.bow.ahead.x());
+  const Vector2d& e = s.bow.ahead;
+  double psi = std::atan2(e.y(), e.x());
   if (firmness <= singular_n_) {
     psi = std::atan2(ahead.y(), ahead.x());
+    s.bow.ahead = {std::cos(psi), std::sin(psi)};
     s.yaw_rate_radps = 0.0;
-    s.tau = held({std::cos(psi), std::sin(psi)}, 0.0, 0.0, z.velocity, z.acceleration).tau;
+    s.tau = held(e, 0.0, 0.0, z.velocity, z.acceleration).tau;
   }
-  const Vector2d e(std::cos(psi), std::sin(psi));
   FlatState flat;
   flat.state << z.position, psi, e.dot(z.velocity), cross(e, z.velocity), s.yaw_rate_radps;
   flat.tau = s.tau;
@@ -212,32 +233,36 @@ FlatGradient InverseDynamics::gradient(const FlatPoint& z, double floor_n) const
   const Vector2d ex_w = floored ? Vector2d(per_d, 0.0) : Vector2d(n.x() * psi_w);
   const Vector2d ey_w = floored ? Vector2d(0.0, per_d) : Vector2d(n.y() * psi_w);
   const Vector e{dual(b.ahead.x(), ex_w), dual(b.ahead.y(), ey_w)};
-  const auto turn = turning(
-      e, dual(per_d, -per_d * per_d * d_w), seeded<kByW1>(headingForceRate(z.acceleration, z.jerk)),
-      seeded<kByW2>(headingForceRate(z.jerk, z.snap)), byHeading(air.y + air.y2, air.y1 + air.y3));
+  const auto per_d_dual = dual(per_d, -per_d * per_d * d_w);
+  const auto w1 = seeded<kByW1>(headingForceRate(z.acceleration, z.jerk));
+  const auto w2 = seeded<kByW2>(headingForceRate(z.jerk, z.snap));
   // m1 z'' + d1 (z' - c) - F = w + (d1 - d2) (z' - c)
-  const auto w_dual = seeded<kByW>(w);
   const auto through = seeded<kByVelocity>(z.velocity - disturbance_.current_mps);
-  const auto surge = dot(e, w_dual) + (model_.d1_kgps - model_.d2_kgps) * dot(e, through) -
-                     byHeading(air.x, air.x1);
-  const auto difference =
-      (yawMoment(model_, turn.yaw_rate, turn.yaw_acceleration) - byHeading(air.n, air.n1)) *
-      (1.0 / lever_m_);
+  const auto surge = dot(e, seeded<kByW>(w)) + (model_.d1_kgps - model_.d2_kgps) * dot(e, through);
   const auto row = [&](const auto& x) {
     FlatRow r = byPath({slope<kByW>(x), slope<kByW + 1>(x)}, {slope<kByW1>(x), slope<kByW1 + 1>(x)},
                        {slope<kByW2>(x), slope<kByW2 + 1>(x)});
     r.col(0) += Vector2d(slope<kByVelocity>(x), slope<kByVelocity + 1>(x));
     return r;
   };
-  FlatGradient g;
-  g.heading_force_n = b.firmness_n;
-  g.yaw_rate_radps = turn.yaw_rate.value;
-  g.surge_n = surge.value;
-  g.difference_n = difference.value;
-  g.yaw_rate = row(turn.yaw_rate);
-  g.surge = row(surge);
-  g.difference = row(difference);
-  return g;
+  const auto result = [&](const auto& turn, const auto& surge_n, const auto& outside_nm) {
+    const auto difference =
+        (yawMoment(model_, turn.yaw_rate, turn.yaw_acceleration) - outside_nm) * (1.0 / lever_m_);
+    FlatGradient g;
+    g.heading_force_n = b.firmness_n;
+    g.yaw_rate_radps = turn.yaw_rate.value;
+    g.surge_n = surge_n.value;
+    g.difference_n = difference.value;
+    g.yaw_rate = row(turn.yaw_rate);
+    g.surge = row(surge_n);
+    g.difference = row(difference);
+    return g;
+  };
+  if (!windy_) {
+    return result(turning(e, per_d_dual, w1, w2, Calm{}), surge, air.n);
+  }
+  return result(turning(e, per_d_dual, w1, w2, byHeading(air.y + air.y2, air.y1 + air.y3)),
+                surge - byHeading(air.x, air.x1), byHeading(air.n, air.n1));
 }
 
 void InverseDynamics::push(double psi_rad, double yaw_rate_radps, double surge_n,
