@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
 
 namespace {
@@ -98,10 +99,12 @@ Result<scenario::MissionResult> sail(const Arguments& arguments,
     }
     track = std::move(*opened);
   }
-  scenario::ProgressLine line(std::cerr, isatty(STDERR_FILENO) != 0);
+  otter_nav::ProgressLine line(std::cerr, isatty(STDERR_FILENO) != 0);
   scenario::MissionResult result =
       simulation::run(*loop, label, options.record_period_s, track ? &*track : nullptr,
-                      [&](const scenario::Progress& progress) { line.show(progress); });
+                      [&](const scenario::Progress& progress) {
+                        line.show(scenario::progressText(progress), progress.state, progress.t_s);
+                      });
   line.finish();
   result.track = track_path;
   if (track) {

@@ -1,5 +1,7 @@
 // One step of the tracker's optimal control: preparation, feedback and total time of the real-time
 // iteration, or the whole solution by Ipopt.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -8,8 +10,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/config/share.hpp"
-#include "progress_bar.hpp"
 #include "tracker/ocp/rti_solver.hpp"
 #include "tracker/oracle/ipopt_solver.hpp"
 #include "tracking/nmpc_cases.hpp"
@@ -50,7 +52,7 @@ Times timeRti(NmpcCycles& cycles, int count, const vessel::Parameters& vessel) {
   cycles.fill(*reference);
   solver->initialize(*reference);
   Times times;
-  benchmark::ProgressBar bar;
+  ProgressLine bar(std::cerr, isatty(STDERR_FILENO) != 0);
   for (int i = 0; i < count; ++i) {
     cycles.fill(*reference);
     const double start = now();
@@ -76,7 +78,7 @@ Times timeIpopt(NmpcCycles& cycles, int count, const vessel::Parameters& vessel)
   auto reference = std::make_unique<tracker::OcpReference>();
   tracker::IpoptSolution last;
   Times times;
-  benchmark::ProgressBar bar;
+  ProgressLine bar(std::cerr, isatty(STDERR_FILENO) != 0);
   for (int i = 0; i < count; ++i) {
     cycles.fill(*reference);
     const double start = now();

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "otter_nav/base/statistics.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
@@ -27,15 +28,6 @@ double cpuSeconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  std::sort(values.begin(), values.end());
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-  return values[std::min(values.size() - 1, at)];
 }
 
 // Over the missions of one kind.

@@ -1,14 +1,16 @@
 // The paper's table I on a folder of scenarios: plans every mission with every method and seed,
 // prints the table, and writes the cases as JSON and the trajectories as CSV. Needs no ROS master.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
+#include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/config/share.hpp"
 #include "planner_cases.hpp"
 #include "planner_report.hpp"
-#include "progress_bar.hpp"
 
 namespace {
 
@@ -74,7 +76,7 @@ int main(int argc, char** argv) {
       return fail("--out: can't write " + out);
     }
   }
-  otter_nav::benchmark::ProgressBar bar;
+  otter_nav::ProgressLine bar(std::cerr, isatty(STDERR_FILENO) != 0);
   const auto outcome =
       otter_nav::benchmark::runCases(request, [&bar](int done, int all) { bar.show(done, all); });
   if (!outcome) {

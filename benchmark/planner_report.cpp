@@ -6,6 +6,8 @@
 #include <ostream>
 #include <vector>
 
+#include "otter_nav/base/statistics.hpp"
+
 namespace otter_nav::benchmark {
 namespace {
 
@@ -33,18 +35,12 @@ double mean(const Cases& cases, const Figure& figure) {
   return cases.empty() ? 0.0 : sum / static_cast<double>(cases.size());
 }
 
-// The value below which `share` of the cases lie (nearest rank).
-double quantile(const Cases& cases, double share, const Figure& figure) {
+double quantileOf(const Cases& cases, double share, const Figure& figure) {
   std::vector<double> values;
   for (const Case* c : cases) {
     values.push_back(figure(*c));
   }
-  if (values.empty()) {
-    return 0.0;
-  }
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-  return values[std::min(rank, values.size() - 1)];
+  return quantile(std::move(values), share);
 }
 
 double share(const Cases& cases, const std::function<bool(const Case&)>& holds) {
@@ -92,12 +88,12 @@ json summarise(const Cases& all, const Cases& solved) {
   s["success_rate_1s"] =
       share(all, [](const Case& c) { return c.success && totalMs(c) <= 1000.0; });
   s["way_found_rate"] = share(all, foundAWay);
-  s["first_solution_ms_median"] = quantile(found, 0.5, firstMs);
-  s["total_ms_median"] = quantile(all, 0.5, totalMs);
-  s["total_ms_p95"] = quantile(all, 0.95, totalMs);
+  s["first_solution_ms_median"] = quantileOf(found, 0.5, firstMs);
+  s["total_ms_median"] = quantileOf(all, 0.5, totalMs);
+  s["total_ms_p95"] = quantileOf(all, 0.95, totalMs);
   s["total_ms_mean"] = mean(all, totalMs);
   s["mean_speed_mps"] = mean(solved, speed);
-  s["length_ratio_median"] = quantile(withShortest(solved), 0.5, lengthRatio);
+  s["length_ratio_median"] = quantileOf(withShortest(solved), 0.5, lengthRatio);
   s["length_m_mean"] = mean(solved, [](const Case& c) { return c.figures.length_m; });
   s["duration_s_mean"] = mean(solved, [](const Case& c) { return c.figures.duration_s; });
   s["cost_mean"] = mean(solved, [](const Case& c) { return c.figures.cost; });
@@ -198,7 +194,7 @@ void printProfile(const Outcome& outcome, const std::string& kind, const std::st
   for (const auto& [name, figure] : parts) {
     char line[128];
     std::snprintf(line, sizeof(line), "    %-14s %8.3f %8.3f %8.3f\n", name,
-                  quantile(all, 0.5, figure), quantile(all, 0.95, figure), mean(all, figure));
+                  quantileOf(all, 0.5, figure), quantileOf(all, 0.95, figure), mean(all, figure));
     out << line;
   }
 }

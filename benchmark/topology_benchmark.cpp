@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "otter_nav/base/statistics.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/topology/guide_path.hpp"
@@ -83,11 +84,6 @@ Row measure(topology::GuidePathFinder& finder, const map::DistanceField& field, 
   }
   row.ratio = path.length_m / c.shortest_m;
   return row;
-}
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
 void summarise(const std::string& kind, const std::vector<Row>& rows) {

@@ -1,13 +1,15 @@
 // Closed loop of tracker and plant on a figure of eight, a spiral or a file's trajectory, printed
 // beside the paper's Table II.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/config/share.hpp"
-#include "progress_bar.hpp"
 #include "tracking/closed_loop.hpp"
 #include "tracking/paths.hpp"
 
@@ -161,7 +163,7 @@ int runOnce(const Arguments& a) {
     }
     dump.precision(9);
   }
-  benchmark::ProgressBar bar;
+  ProgressLine bar(std::cerr, isatty(STDERR_FILENO) != 0);
   const auto showProgress = [&](double share) { bar.show(static_cast<int>(100.0 * share), 100); };
   const auto figures = benchmark::run(*setup, a.dump.empty() ? nullptr : &dump,
                                       a.quiet ? std::function<void(double)>{} : showProgress);

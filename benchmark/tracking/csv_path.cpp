@@ -3,66 +3,26 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+
+#include "otter_nav/base/csv.hpp"
 
 namespace otter_nav::benchmark {
-namespace {
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    const auto first = cell.find_first_not_of(" \t\r\"");
-    const auto last = cell.find_last_not_of(" \t\r\"");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-  }
-  return cells;
-}
-
-int columnOf(const std::vector<std::string>& header, const std::string& name) {
-  const auto at = std::find(header.begin(), header.end(), name);
-  return at == header.end() ? -1 : static_cast<int>(at - header.begin());
-}
-
-bool parse(const std::vector<std::string>& cells, int column, double& value) {
-  if (column >= static_cast<int>(cells.size())) {
-    return false;
-  }
-  const std::string& text = cells[static_cast<std::size_t>(column)];
-  char* end = nullptr;
-  value = std::strtod(text.c_str(), &end);
-  return end != text.c_str() && *end == '\0' && std::isfinite(value);
-}
-
-}  // namespace
 
 Result<std::vector<TimedPoint>> readTimedPoints(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  if (!file || !std::getline(file, line)) {
-    return failure(path + ": cannot be read");
+  const Result<CsvTable> table = CsvTable::load(path);
+  if (!table) {
+    return failure(table.error().message);
   }
-  const std::vector<std::string> header = split(line);
-  const int columns[3] = {columnOf(header, "t"), columnOf(header, "x"), columnOf(header, "y")};
-  if (*std::min_element(columns, columns + 3) < 0) {
-    return failure(path + ": the header lacks one of the columns t, x, y");
+  const Result<Eigen::MatrixXd> rows = table->numbers({"t", "x", "y"});
+  if (!rows) {
+    return failure(rows.error().message);
   }
   std::vector<TimedPoint> points;
-  for (int row = 2; std::getline(file, line); ++row) {
-    if (line.empty() || line == "\r") {
-      continue;
+  for (Eigen::Index i = 0; i < rows->rows(); ++i) {
+    points.push_back({(*rows)(i, 0), {(*rows)(i, 1), (*rows)(i, 2)}});
+    if (i > 0 && (*rows)(i, 0) <= (*rows)(i - 1, 0)) {
+      return failure(table->where(i) + ": time does not grow");
     }
-    const std::vector<std::string> cells = split(line);
-    TimedPoint p{};
-    if (!parse(cells, columns[0], p.t_s) || !parse(cells, columns[1], p.position.x()) ||
-        !parse(cells, columns[2], p.position.y())) {
-      return failure(path + ", line " + std::to_string(row) + ": t, x and y must be numbers");
-    }
-    if (!points.empty() && p.t_s <= points.back().t_s) {
-      return failure(path + ", line " + std::to_string(row) + ": time does not grow");
-    }
-    points.push_back(p);
   }
   constexpr double kFastestMps = 20.0;
   for (std::size_t i = 1; i < points.size(); ++i) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <vector>
+
+#include "otter_nav/base/statistics.hpp"
 
 namespace otter_nav::benchmark {
 
@@ -12,15 +12,8 @@ struct Percentiles {
   double max = 0.0;
 };
 
-inline Percentiles percentiles(std::vector<double> values) {
-  if (values.empty()) {
-    return {};
-  }
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.5), at(0.99), at(1.0)};
+inline Percentiles percentiles(const std::vector<double>& values) {
+  return {quantile(values, 0.5), quantile(values, 0.99), quantile(values, 1.0)};
 }
 
 }  // namespace otter_nav::benchmark

@@ -84,6 +84,15 @@ set ylabel 'position error m (rms)'
 plot 'errors.dat' using 1:2 with linespoints title 'paper', '' using 1:3 with linespoints title 'manoeuvring', '' using 1:4 with linespoints title 'guess, paper', '' using 1:5 with linespoints title 'guess, manoeuvring'
 )";
 
+// In gnuplot's single quotes, where an apostrophe is written twice and nothing else is special.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    result += c == '\'' ? "''" : std::string(1, c);
+  }
+  return result + "'";
+}
+
 }  // namespace
 
 std::string seriesText(const Identification& r) {
@@ -103,7 +112,7 @@ std::string seriesText(const Identification& r) {
 }
 
 Status plot(const std::filesystem::path& folder) {
-  const std::string script = "cd '" + folder.string() + "'\n" + kScript;
+  const std::string script = "cd " + quoted(folder.string()) + "\n" + kScript;
   FILE* gnuplot = popen("gnuplot", "w");
   if (gnuplot == nullptr) {
     return failure("gnuplot cannot be started: the report has no plots");

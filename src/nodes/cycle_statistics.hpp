@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "otter_nav/base/statistics.hpp"
+
 namespace otter_nav::nodes {
 
 class CycleStatistics {
@@ -32,10 +34,9 @@ class CycleStatistics {
     if (size == 0) {
       return summary;
     }
-    std::vector<float> times = copy(solver_ms_, size);
-    std::sort(times.begin(), times.end());
-    summary.solver_ms_median = static_cast<double>(times[size / 2]);
-    summary.solver_ms_p99 = static_cast<double>(times[std::min(size - 1, size * 99 / 100)]);
+    const std::vector<float> times = copy(solver_ms_, size);
+    summary.solver_ms_median = quantile(times, 0.5);
+    summary.solver_ms_p99 = quantile(times, 0.99);
     const std::vector<float> lateness = copy(lateness_ms_, size);
     summary.lateness_ms_max =
         static_cast<double>(*std::max_element(lateness.begin(), lateness.end()));

@@ -7,6 +7,8 @@
 #include <iostream>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/config/fields.hpp"
+#include "otter_nav/config/share.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/trajectories.hpp"
@@ -19,6 +21,7 @@ using scenario::Outcome;
 constexpr int kQueue = 1000;
 constexpr double kTimerPeriodS = 0.1;
 constexpr double kShowPeriodS = 0.2;  // of wall time
+constexpr double kTrackPeriodS = 0.05;
 // What counts as arrived, of the true pose.
 constexpr double kArrivalDistanceM = 1.0;
 constexpr double kArrivalHeadingRad = 10.0 * kPi / 180.0;
@@ -29,19 +32,60 @@ vessel::State stateOf(const PlantState& message) {
   return state;
 }
 
+// The track lies beside the result.
+std::string trackPath(const std::string& result) {
+  const std::size_t dot = result.rfind('.');
+  const std::size_t slash = result.rfind('/');
+  const bool has_ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  return (has_ending ? result.substr(0, dot) : result) + ".csv";
+}
+
 }  // namespace
+
+Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section) {
+  Result<MissionNodeOptions> options = config::read<MissionNodeOptions>(std::move(section));
+  if (!options) {
+    return failure(options.error().message);
+  }
+  const Result<scenario::Scenario> scenario = scenario::loadScenario(options->scenario);
+  if (!scenario) {
+    return failure(scenario.error().message);
+  }
+  const Result<scenario::Mission> mission = scenario::missionOf(*scenario, options->mission);
+  if (!mission) {
+    return failure(mission.error().message);
+  }
+  const Result<vessel::Parameters> vessel =
+      config::vesselFile(options->vessel).and_then([](const std::string& path) {
+        return vessel::loadParameters(path);
+      });
+  if (!vessel) {
+    return failure(vessel.error().message);
+  }
+  std::optional<scenario::TrackWriter> track;
+  if (!options->result.empty()) {
+    Result<scenario::TrackWriter> opened = scenario::TrackWriter::open(trackPath(options->result));
+    if (!opened) {
+      return failure(opened.error().message);
+    }
+    track.emplace(std::move(*opened));
+  }
+  return std::unique_ptr<MissionNode>(
+      new MissionNode(*std::move(options), *scenario, *mission, *vessel, std::move(track)));
+}
 
 MissionNode::MissionNode(MissionNodeOptions options, const scenario::Scenario& scenario,
                          const scenario::Mission& mission, const vessel::Parameters& vessel,
                          std::optional<scenario::TrackWriter> track)
     : options_(std::move(options)),
+      label_{scenario.name, options_.mission, options_.vessel, options_.disturbance,
+             static_cast<std::uint64_t>(options_.seed)},
       mission_(mission),
       references_(vessel),
       progress_(std::cout, isatty(STDOUT_FILENO) != 0),
       track_(std::move(track)),
       last_sign_(ros::WallTime::now()),
       acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", 1, true)) {
-  options_.label.scenario = scenario.name;
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   state_subscriber_ = node_.subscribe("plant_state", kQueue, &MissionNode::onState, this, no_delay);
   trajectory_subscriber_ =
@@ -178,7 +222,7 @@ void MissionNode::record(const PlantState& state) {
   constexpr double kRounding = 1e-6;
   if (track_ && sample.t_s >= next_track_s_ - kRounding) {
     track_->write(sample);
-    next_track_s_ += 1.0 / options_.track_rate_hz;
+    next_track_s_ += kTrackPeriodS;
   }
 }
 
@@ -225,7 +269,7 @@ void MissionNode::show(const PlantState& state) {
   progress.tracking_error_m = reference ? (reference->head<2>() - position).norm() : 0.0;
   progress.state = planner_.state;
   progress.detail = planner_.reason;
-  progress_.show(progress);
+  progress_.show(scenario::progressText(progress), progress.state, progress.t_s);
 }
 
 void MissionNode::finish(Outcome outcome, const std::string& reason) {
@@ -235,12 +279,12 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
   finished_ = true;
   progress_.finish();
   scenario::MissionResult result =
-      recorder_.result(options_.label, outcome, reason, static_cast<int>(planner_.replans));
+      recorder_.result(label_, outcome, reason, static_cast<int>(planner_.replans));
   result.planning_ms_median = planner_.planning_ms_median;
   result.planning_ms_max = planner_.planning_ms_max;
   result.tracker_ms_p99 = tracker_.solver_ms_p99;
   if (track_) {
-    result.track = options_.track;
+    result.track = trackPath(options_.result);
     if (const Status status = track_->close(); !status) {
       std::cerr << status.error().message << '\n';
     }

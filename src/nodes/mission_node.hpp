@@ -16,6 +16,8 @@
 #include <optional>
 #include <string>
 
+#include "mission_node_options.hpp"
+#include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/scenario/recorder.hpp"
 #include "otter_nav/scenario/report.hpp"
@@ -23,15 +25,6 @@
 #include "reference_log.hpp"
 
 namespace otter_nav::nodes {
-
-struct MissionNodeOptions {
-  scenario::MissionLabel label;  // its scenario is the file here
-  std::string result;            // JSON file; empty: none is written
-  std::string track;             // the track's CSV, beside it
-  double timeout_s = 900.0;      // of simulated time
-  double silence_s = 60.0;       // of wall time without a sign of life, then it is an error
-  double track_rate_hz = 20.0;
-};
 
 class MissionNode {
  public:
@@ -66,11 +59,12 @@ class MissionNode {
   void finish(scenario::Outcome outcome, const std::string& reason);
 
   MissionNodeOptions options_;
+  scenario::MissionLabel label_;
   scenario::Mission mission_;
   ros::NodeHandle node_;
   ReferenceLog references_;
   scenario::Recorder recorder_;
-  scenario::ProgressLine progress_;
+  ProgressLine progress_;
   std::optional<scenario::TrackWriter> track_;
   std::deque<PlantState> states_;  // not recorded yet
   std::optional<PlantState> last_state_;

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "otter_nav/base/statistics.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/plan_markers.hpp"
 #include "otter_nav/ros/trajectories.hpp"
-#include "otter_nav/scenario/recorder.hpp"
 
 namespace otter_nav::nodes {
 namespace {
@@ -60,7 +60,7 @@ void PlannerPublisher::publishPlan(const planner::Plan& plan, double wall_ms) {
   status_.nodes = static_cast<std::uint32_t>(figures.nodes);
   status_.first_solution_ms = figures.first_solution_ms;
   status_.planning_ms = wall_ms;
-  status_.planning_ms_median = scenario::quantile(planning_ms_, 0.5);
+  status_.planning_ms_median = quantile(planning_ms_, 0.5);
   status_.planning_ms_max = *std::max_element(planning_ms_.begin(), planning_ms_.end());
   tree_markers_.publish(ros_bridge::treeMarkers(plan));
 }

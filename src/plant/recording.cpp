@@ -1,11 +1,8 @@
 #include <array>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <iomanip>
-#include <istream>
 #include <ostream>
 
+#include "otter_nav/base/csv.hpp"
 #include "otter_nav/plant/replay.hpp"
 
 namespace otter_nav::plant {
@@ -17,7 +14,6 @@ struct Column {
   int row;
 };
 constexpr int kTimeRow = -1;
-constexpr int kMotionColumns = 12;
 constexpr std::array<Column, 15> kColumns{{{"t", kTimeRow},
                                            {"u", kU},
                                            {"v", kV},
@@ -35,159 +31,69 @@ constexpr std::array<Column, 15> kColumns{{{"t", kTimeRow},
                                            {"n_right", kPropeller + 1}}};
 constexpr double kMaxGap = 100.0;
 
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlank = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string::npos) {
-    return "";
+// Time must grow, row by row.
+Status checkTime(const CsvTable& table, const Recording& recording) {
+  for (std::size_t i = 1; i < recording.rows.size(); ++i) {
+    const double before_s = recording.rows[i - 1].time_s;
+    const double gap_s = recording.rows[i].time_s - before_s;
+    if (gap_s <= 0.0 || gap_s > kMaxGap) {
+      return failure(table.where(static_cast<Eigen::Index>(i)) +
+                     ", column 't': " + std::to_string(recording.rows[i].time_s) + " s after " +
+                     std::to_string(before_s) + " s; time must grow, by at most " +
+                     std::to_string(kMaxGap) + " s a row");
+    }
   }
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+  return {};
 }
 
-std::vector<std::string> fieldsOf(const std::string& line) {
-  std::vector<std::string> fields;
-  std::size_t start = 0;
-  for (std::size_t comma = 0; comma != std::string::npos; start = comma + 1) {
-    comma = line.find(',', start);
-    fields.push_back(trimmed(line.substr(start, comma - start)));
+Result<Recording> recordingOf(const Result<CsvTable>& table) {
+  if (!table) {
+    return failure(table.error().message);
   }
-  return fields;
-}
-
-bool parse(const std::string& text, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value);
-}
-
-// Reads one file line by line, keeping what error messages need.
-class Reader {
- public:
-  Reader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
-
-  Result<Recording> read() {
-    if (Status status = readHeader(); !status) {
-      return failure(status.error().message);
-    }
-    std::string line;
-    while (nextLine(line)) {
-      if (Status status = readRow(line); !status) {
-        return failure(status.error().message);
-      }
-    }
-    if (recording_.rows.size() < 2) {
-      return failure(name_ + ": " + std::to_string(recording_.rows.size()) +
-                     " rows of data, at least 2 are needed");
-    }
-    return std::move(recording_);
+  // The motion's columns come all or none.
+  Recording recording;
+  for (const Column& column : kColumns) {
+    const bool motion = column.row >= 0 && column.row < kPropeller;
+    recording.has_motion = recording.has_motion || (motion && table->has(column.name));
   }
-
- private:
-  // Blank lines are skipped.
-  bool nextLine(std::string& line) {
-    while (std::getline(in_, line)) {
-      ++line_;
-      if (!trimmed(line).empty()) {
-        return true;
-      }
+  std::vector<std::string> names;
+  std::vector<int> rows;
+  for (const Column& column : kColumns) {
+    if (recording.has_motion || column.row == kTimeRow || column.row >= kPropeller) {
+      names.emplace_back(column.name);
+      rows.push_back(column.row);
     }
-    return false;
   }
-  [[nodiscard]] std::string here() const { return name_ + ", line " + std::to_string(line_); }
-
-  Status readHeader() {
-    std::string line;
-    if (!nextLine(line)) {
-      return failure(name_ + ": empty, expected a header with t, n_left and n_right");
-    }
-    header_ = fieldsOf(line);
-    int motion = 0;
-    std::string missing;
-    for (const Column& column : kColumns) {
-      const std::size_t place = columnIndex(column.name);
-      const bool found = place < header_.size();
-      places_.push_back(place);
-      if (column.row >= 0 && column.row < kPropeller) {
-        motion += found ? 1 : 0;
-        missing = found || !missing.empty() ? missing : column.name;
-      } else if (!found) {
-        return failure(here() + ": column '" + column.name + "' is missing");
-      }
-    }
-    if (motion != 0 && motion != kMotionColumns) {
-      return failure(here() + ": column '" + missing +
-                     "' is missing; the motion's twelve columns come all or none");
-    }
-    recording_.has_motion = motion == kMotionColumns;
-    return {};
+  const Result<Eigen::MatrixXd> values = table->numbers(names);
+  if (!values) {
+    return failure(values.error().message);
   }
-
-  [[nodiscard]] std::size_t columnIndex(const std::string& name) const {
-    std::size_t place = 0;
-    while (place < header_.size() && header_[place] != name) {
-      ++place;
-    }
-    return place;
-  }
-
-  Status readRow(const std::string& line) {
-    const std::vector<std::string> fields = fieldsOf(line);
-    if (fields.size() != header_.size()) {
-      return failure(here() + ": " + std::to_string(fields.size()) + " fields, the header has " +
-                     std::to_string(header_.size()));
-    }
+  for (Eigen::Index i = 0; i < values->rows(); ++i) {
     RecordedRow row;
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      if (places_[i] == header_.size()) {
-        continue;
-      }
-      double value = 0.0;
-      if (!parse(fields[places_[i]], value)) {
-        return failure(here() + ", column '" + kColumns[i].name + "': '" + fields[places_[i]] +
-                       "' is not a finite number");
-      }
-      (kColumns[i].row == kTimeRow ? row.time_s : row.state[kColumns[i].row]) = value;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      (rows[k] == kTimeRow ? row.time_s : row.state[rows[k]]) =
+          (*values)(i, static_cast<Eigen::Index>(k));
     }
-    if (Status status = checkTime(row.time_s); !status) {
-      return status;
-    }
-    recording_.rows.push_back(row);
-    return {};
+    recording.rows.push_back(row);
   }
-
-  [[nodiscard]] Status checkTime(double time_s) const {
-    if (recording_.rows.empty()) {
-      return {};
-    }
-    const double gap = time_s - recording_.rows.back().time_s;
-    if (gap <= 0.0 || gap > kMaxGap) {
-      return failure(here() + ", column 't': " + std::to_string(time_s) + " s after " +
-                     std::to_string(recording_.rows.back().time_s) +
-                     " s; time must grow, by at most " + std::to_string(kMaxGap) + " s a row");
-    }
-    return {};
+  if (const Status status = checkTime(*table, recording); !status) {
+    return failure(status.error().message);
   }
-
-  std::istream& in_;
-  std::string name_;
-  int line_ = 0;
-  std::vector<std::string> header_;
-  std::vector<std::size_t> places_;  // of kColumns in the header; its size where absent
-  Recording recording_;
-};
+  if (recording.rows.size() < 2) {
+    return failure(table->name() + ": " + std::to_string(recording.rows.size()) +
+                   " rows of data, at least 2 are needed");
+  }
+  return recording;
+}
 
 }  // namespace
 
 Result<Recording> readRecording(std::istream& in, const std::string& name) {
-  return Reader(in, name).read();
+  return recordingOf(CsvTable::read(in, name));
 }
 
 Result<Recording> readRecording(const std::string& path) {
-  std::ifstream in(path);
-  if (!in || in.peek() == std::ifstream::traits_type::eof()) {
-    return failure(path + ": cannot be read, or is empty");
-  }
-  return readRecording(in, path);
+  return recordingOf(CsvTable::load(path));
 }
 
 void writeRecording(std::ostream& out, const Recording& recording) {

@@ -6,7 +6,6 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
-#include "otter_nav/ros/marker_tools.hpp"
 
 namespace otter_nav::ros_bridge {
 namespace {
@@ -21,9 +20,42 @@ constexpr double kTrajectoryHeightM = 0.05;
 constexpr double kTrajectoryStepM = 0.5;
 constexpr int kCircleCorners = 24;
 
-Marker lineStrip(const std::string& name, int id, double width_m, const std_msgs::ColorRGBA& shade,
+std_msgs::ColorRGBA color(double red, double green, double blue, double alpha = 1.0) {
+  std_msgs::ColorRGBA value;
+  value.r = static_cast<float>(red);
+  value.g = static_cast<float>(green);
+  value.b = static_cast<float>(blue);
+  value.a = static_cast<float>(alpha);
+  return value;
+}
+
+// From blue (0) over green to red (1).
+std_msgs::ColorRGBA rainbow(double share) {
+  const double s = std::clamp(share, 0.0, 1.0);
+  const auto bump = [s](double centre) {
+    return std::clamp(1.5 - 4.0 * std::abs(s - centre), 0.0, 1.0);
+  };
+  return color(bump(0.8), bump(0.5), bump(0.2));
+}
+
+// In the map at its origin, for ever; `width_m` is the lines'.
+Marker marker(const std::string& name, int type, double width_m, const std_msgs::ColorRGBA& shade) {
+  Marker value;
+  value.header.frame_id = kMapFrame;
+  value.ns = name;
+  value.type = type;
+  value.action = Marker::ADD;
+  value.pose.orientation.w = 1.0;
+  value.scale.x = width_m;
+  value.scale.y = width_m;
+  value.scale.z = width_m;
+  value.color = shade;
+  return value;
+}
+
+Marker lineStrip(const std::string& name, double width_m, const std_msgs::ColorRGBA& shade,
                  const std::vector<geometry_msgs::Point>& points, double height_m) {
-  Marker line = marker(kMapFrame, name, id, Marker::LINE_STRIP, width_m, shade);
+  Marker line = marker(name, Marker::LINE_STRIP, width_m, shade);
   line.points = points;
   for (geometry_msgs::Point& point : line.points) {
     point.z = height_m;
@@ -48,11 +80,10 @@ void addCircle(const geometry_msgs::Point& centre, double radius_m, Marker& line
 MarkerArray guidePathMarkers(const GuidePath& path) {
   MarkerArray array;
   array.markers.push_back(
-      lineStrip("guide path", 0, 0.25, color(0.95, 0.75, 0.1, 0.9), path.points, kGuideHeightM));
+      lineStrip("guide path", 0.25, color(0.95, 0.75, 0.1, 0.9), path.points, kGuideHeightM));
   array.markers.push_back(
-      lineStrip("dubins", 0, 0.15, color(0.5, 0.5, 0.5, 0.7), path.dubins, kTreeHeightM));
-  Marker corridor =
-      marker(kMapFrame, "corridor", 0, Marker::LINE_LIST, 0.08, color(0.95, 0.75, 0.1, 0.35));
+      lineStrip("dubins", 0.15, color(0.5, 0.5, 0.5, 0.7), path.dubins, kTreeHeightM));
+  Marker corridor = marker("corridor", Marker::LINE_LIST, 0.08, color(0.95, 0.75, 0.1, 0.35));
   for (std::size_t i = 0; i < std::min(path.points.size(), path.corridor_radii.size()); ++i) {
     addCircle(path.points[i], path.corridor_radii[i], corridor);
   }
@@ -67,10 +98,8 @@ MarkerArray guidePathMarkers(const GuidePath& path) {
 
 MarkerArray treeMarkers(const planner::Plan& plan) {
   MarkerArray array;
-  Marker from_start =
-      marker(kMapFrame, "tree from start", 0, Marker::LINE_LIST, 0.1, color(0.2, 0.7, 1.0, 0.6));
-  Marker from_goal =
-      marker(kMapFrame, "tree from goal", 0, Marker::LINE_LIST, 0.1, color(1.0, 0.4, 0.8, 0.6));
+  Marker from_start = marker("tree from start", Marker::LINE_LIST, 0.1, color(0.2, 0.7, 1.0, 0.6));
+  Marker from_goal = marker("tree from goal", Marker::LINE_LIST, 0.1, color(1.0, 0.4, 0.8, 0.6));
   for (const planner::Plan::Branch& branch : plan.trees) {
     Marker& tree = branch.from_goal ? from_goal : from_start;
     for (std::size_t i = 1; i < branch.points.size(); ++i) {
@@ -90,7 +119,7 @@ MarkerArray treeMarkers(const planner::Plan& plan) {
 MarkerArray trajectoryMarkers(const trajectory::Trajectory& trajectory,
                               const vessel::Parameters& vessel) {
   MarkerArray array;
-  Marker ribbon = marker(kMapFrame, "trajectory", 0, Marker::LINE_STRIP, 0.3, color(1, 1, 1));
+  Marker ribbon = marker("trajectory", Marker::LINE_STRIP, 0.3, color(1, 1, 1));
   double t_s = 0.0;
   while (!trajectory.empty()) {
     const vessel::FlatPoint flat = trajectory.flat(t_s);

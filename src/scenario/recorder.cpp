@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "otter_nav/base/statistics.hpp"
+
 namespace otter_nav::scenario {
 
 const char* name(Outcome outcome) {
@@ -55,17 +57,6 @@ MissionResult Recorder::result(const MissionLabel& label, Outcome outcome, std::
   result.planning_ms_max = quantile(planning_ms_, 1.0);
   result.tracker_ms_p99 = quantile(tracking_ms_, 0.99);
   return result;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  const auto count = static_cast<double>(values.size());
-  const double rank = std::clamp(std::ceil(share * count), 1.0, count);
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
 }
 
 }  // namespace otter_nav::scenario

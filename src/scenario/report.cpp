@@ -85,34 +85,6 @@ std::string progressText(const Progress& progress) {
   return text + progress.state + (progress.detail.empty() ? "" : ": " + progress.detail);
 }
 
-ProgressLine::ProgressLine(std::ostream& out, bool terminal, double quiet_s)
-    : out_(out), terminal_(terminal), quiet_s_(quiet_s) {}
-
-void ProgressLine::show(const Progress& progress) {
-  std::string text = progressText(progress);
-  if (terminal_) {
-    const std::size_t width = text.size();
-    text.append(width_ > width ? width_ - width : 0, ' ');
-    width_ = width;
-    out_ << '\r' << text << std::flush;
-    return;
-  }
-  if (!shown_state_.empty() && progress.state == shown_state_ &&
-      progress.t_s - shown_s_ < quiet_s_) {
-    return;
-  }
-  shown_state_ = progress.state;
-  shown_s_ = progress.t_s;
-  out_ << text << '\n' << std::flush;
-}
-
-void ProgressLine::finish() {
-  if (terminal_ && width_ > 0) {
-    out_ << '\n' << std::flush;
-    width_ = 0;
-  }
-}
-
 std::string summaryText(const MissionResult& result) {
   const MissionLabel& label = result.label;
   const std::string head = label.scenario + " mission " + std::to_string(label.mission) + ", " +

@@ -1,10 +1,13 @@
 #include "otter_nav/scenario/scenario.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "otter_nav/config/section.hpp"
+#include "otter_nav/map/chart.hpp"
 
 namespace otter_nav::scenario {
 namespace {
@@ -38,6 +41,13 @@ Result<std::string> besideFile(const std::string& path, const std::string& key,
     return failure(path + ": " + key + " '" + file.string() + "' is not a file");
   }
   return file.string();
+}
+
+std::string poseText(const vessel::Pose& pose) {
+  char text[96];
+  std::snprintf(text, sizeof(text), "[%.2f, %.2f, %.3f]", pose.position.x(), pose.position.y(),
+                pose.psi_rad);
+  return text;
 }
 
 }  // namespace
@@ -88,6 +98,34 @@ Result<Mission> missionOf(const Scenario& scenario, int index) {
                    " does not exist, allowed range [0, " + std::to_string(count - 1) + "]");
   }
   return scenario.missions[static_cast<std::size_t>(index)];
+}
+
+Status saveScenario(const std::string& folder, const std::string& name,
+                    const map::OccupancyGrid& chart, const map::OccupancyGrid& world,
+                    const std::vector<Mission>& missions) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    return failure("can't make folder " + folder + ": " + error.message());
+  }
+  const std::string path = (fs::path(folder) / name).string();
+  for (const auto& [grid, ending] :
+       {std::pair(&chart, "_chart.yaml"), std::pair(&world, "_world.yaml")}) {
+    if (Status status = map::saveChart(*grid, path + ending); !status) {
+      return status;
+    }
+  }
+  std::ofstream file(path + ".yaml");
+  file << "chart: " << name << "_chart.yaml\nworld: " << name << "_world.yaml\nmissions:\n";
+  for (const Mission& mission : missions) {
+    file << "  - {kind: " << mission.kind << ", start: " << poseText(mission.start)
+         << ", goal: " << poseText(mission.goal) << "}\n";
+  }
+  file.close();
+  if (!file) {
+    return failure("can't write " + path + ".yaml");
+  }
+  return {};
 }
 
 }  // namespace otter_nav::scenario

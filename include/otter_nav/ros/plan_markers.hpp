@@ -10,7 +10,7 @@
 
 namespace otter_nav::ros_bridge {
 
-// The way, its points with the corridor's circles, and the Dubins curve.
+// The path, its points with the corridor's circles, and the Dubins curve.
 [[nodiscard]] visualization_msgs::MarkerArray guidePathMarkers(const GuidePath& path);
 // Both trees: from the start and from the goal, in two colours.
 [[nodiscard]] visualization_msgs::MarkerArray treeMarkers(const planner::Plan& plan);

@@ -73,7 +73,4 @@ class Recorder {
   std::vector<double> tracking_ms_;
 };
 
-// The value below which `share` (0 to 1) of the values lie (nearest rank); 0 of none.
-[[nodiscard]] double quantile(std::vector<double> values, double share);
-
 }  // namespace otter_nav::scenario

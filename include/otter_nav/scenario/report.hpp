@@ -2,7 +2,6 @@
 #pragma once
 
 #include <fstream>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -43,24 +42,6 @@ struct Progress {
   std::string detail;  // what there is to tell about the state; may be empty
 };
 [[nodiscard]] std::string progressText(const Progress& progress);
-
-// Shows progress: one line refreshed in place on a terminal; elsewhere a line each time the state
-// changes or `quiet_s` of the mission have passed.
-class ProgressLine {
- public:
-  ProgressLine(std::ostream& out, bool terminal, double quiet_s = 20.0);
-  void show(const Progress& progress);
-  // Ends the line on a terminal, so that what follows starts on its own.
-  void finish();
-
- private:
-  std::ostream& out_;
-  bool terminal_;
-  double quiet_s_;
-  double shown_s_ = 0.0;
-  std::string shown_state_;
-  std::size_t width_ = 0;
-};
 
 // A few lines for the end of a mission.
 [[nodiscard]] std::string summaryText(const MissionResult& result);

@@ -7,6 +7,11 @@
 namespace otter_nav::identification {
 namespace {
 
+Result<Recording> readCsv(std::istream& in, const std::string& name) {
+  const Result<CsvTable> table = CsvTable::read(in, name);
+  return table ? recordingOf(*table, name) : failure(table.error().message);
+}
+
 std::string errorOf(const std::string& text) {
   std::istringstream in(text);
   const Result<Recording> recording = readCsv(in, "run.csv");
@@ -42,16 +47,16 @@ TEST(Csv, TakesColumnsInAnyOrderAndIgnoresOthers) {
 
 TEST(Csv, NamesTheMissingColumn) {
   expectNames(errorOf("t,x,y,psi,u,v,f_left,f_right\n"), "column 'r' is missing");
-  expectNames(errorOf(""), "run.csv: the file is empty");
+  expectNames(errorOf(""), "run.csv: cannot be read, or is empty");
 }
 
 TEST(Csv, NamesRowAndColumnOfWhatIsNoNumber) {
   const std::string header = "t,x,y,psi,u,v,r,f_left,f_right\n";
   const std::string good = "0,0,0,0,0,0,0,1,1\n";
   const std::string message = errorOf(header + good + "0.1,0,0,zero,0,0,0,1,1\n");
-  expectNames(message, "row 3");
-  expectNames(message, "'psi' holds 'zero'");
-  expectNames(errorOf(header + good + "0.1,0,0,0,0,0,0,1\n"), "row 3: column 'f_right'");
+  expectNames(message, "line 3");
+  expectNames(message, "'psi': 'zero'");
+  expectNames(errorOf(header + good + "0.1,0,0,0,0,0,0,1\n"), "line 3: 8 fields");
 }
 
 TEST(Csv, NamesTheFileThatIsNotThere) {

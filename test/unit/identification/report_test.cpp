@@ -38,7 +38,8 @@ class Report : public ::testing::Test {
     auto result = identify(recording, guess, shippedOptions());
     ASSERT_TRUE(result) << result.error().message;
     result_ = *std::move(result);
-    folder_ = std::filesystem::path(::testing::TempDir()) / "otter_nav_identification_report";
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              "otter_nav_skipper's report";  // as paths may be
     std::filesystem::remove_all(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "otter_nav/base/progress_line.hpp"
+
 namespace otter_nav::scenario {
 namespace {
 
@@ -101,10 +103,10 @@ TEST(ProgressLine, IsOneRefreshedLineOnATerminal) {
   std::ostringstream out;
   ProgressLine line(out, true);
   Progress progress{1.0, 20.0, 3.0, 4.0, 0.1, "replanning", "something in the way"};
-  line.show(progress);
+  line.show(progressText(progress), progress.state, progress.t_s);
   progress.state = "sailing";
   progress.detail.clear();
-  line.show(progress);
+  line.show(progressText(progress), progress.state, progress.t_s);
   line.finish();
   const std::string text = out.str();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
@@ -118,12 +120,23 @@ TEST(ProgressLine, IsTerseElsewhere) {
   std::ostringstream out;
   ProgressLine line(out, false, 10.0);
   for (int k = 0; k <= 20; ++k) {
-    line.show({1.0 * k, 20.0, 3.0, 4.0, 0.1, k < 15 ? "sailing" : "arrived", ""});
+    line.show("3.0 m/s", k < 15 ? "sailing" : "arrived", k);
   }
   line.finish();
   const std::string text = out.str();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);  // at 0 s, 10 s and the change at 15 s
   EXPECT_EQ(text.find('\r'), std::string::npos);
+}
+
+TEST(ProgressLine, CountsInTenthsElsewhere) {
+  std::ostringstream out;
+  ProgressLine line(out, false);
+  for (int k = 1; k <= 40; ++k) {
+    line.show(k, 40);
+  }
+  const std::string text = out.str();
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 11);  // the first, and each tenth
+  EXPECT_EQ(text.substr(text.size() - 6), "40/40\n");
 }
 
 TEST(Summary, SaysWhatHappened) {

@@ -48,7 +48,7 @@ TEST(CsvPath, SaysWhatIsWrong) {
   };
   EXPECT_FALSE(readTimedPoints("/nowhere/path.csv"));
   refused("", "cannot be read");
-  refused("t,x\n0,0\n", "columns t, x, y");
+  refused("t,x\n0,0\n", "column 'y' is missing");
   refused(spoiled(5, "1.0,abc,1.0,0.5"), "line 7");
   refused(spoiled(5, "1.0,2.0m,1.0,0.5"), "line 7");
   refused(spoiled(5, "nan,0.0,1.0,0.5"), "line 7");

@@ -1,0 +1,70 @@
+// The shipped files against the structs that read them, and docs/parameters.md against both. After
+// a change of a parameter: OTTER_NAV_REFRESH=1 ctest --test-dir build -R unit_config_shipped
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "field_table.hpp"
+#include "nodes/mission_node_options.hpp"
+
+namespace otter_nav::config {
+namespace {
+
+const std::filesystem::path kSource = OTTER_NAV_SOURCE_DIR;
+
+// A file of config/ and the struct it is read into.
+struct Shipped {
+  std::string file;
+  Result<std::string> (*read)(const std::string& path);  // then written again
+  std::string defaults;
+  std::string table;
+};
+
+template <typename Options>
+Result<std::string> readAndWrite(const std::string& path) {
+  return load<Options>(path).map([](const Options& options) { return toYaml(options); });
+}
+
+template <typename Options>
+Shipped shipped(const std::string& file) {
+  FieldTable table;
+  Options::describe(Options{}, table);
+  return {file, readAndWrite<Options>, toYaml(Options{}), table.rows()};
+}
+
+std::vector<Shipped> allShipped() {
+  return {
+      shipped<nodes::MissionNodeOptions>("mission_node.yaml"),
+  };
+}
+
+TEST(ShippedConfig, IsWhatTheStructsDefaultTo) {
+  for (const Shipped& s : allShipped()) {
+    const Result<std::string> read = s.read((kSource / "config" / s.file).string());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, s.defaults) << s.file;
+  }
+}
+
+TEST(ShippedConfig, IsDocumented) {
+  std::string text =
+      "# Parameters\n\nWhat can be set, by file of `config/`; generated from the "
+      "structs that read them.\n";
+  for (const Shipped& s : allShipped()) {
+    text += "\n## " + s.file + "\n| key | default | range | effect |\n| --- | --- | --- | --- |\n" +
+            s.table;
+  }
+  const std::filesystem::path path = kSource / "docs" / "parameters.md";
+  if (std::getenv("OTTER_NAV_REFRESH") != nullptr) {
+    std::ofstream(path) << text;
+  }
+  std::ifstream file(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), text)
+      << "refresh it: OTTER_NAV_REFRESH=1 ctest -R unit_config_shipped";
+}
+
+}  // namespace
+}  // namespace otter_nav::config
