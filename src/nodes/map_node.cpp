@@ -1,5 +1,7 @@
 #include "map_node.hpp"
 
+#include "map_node_options.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/ros/conversions.hpp"
@@ -25,47 +27,40 @@ map::Scan toScan(const sensor_msgs::LaserScan& message) {
   return scan;
 }
 
-// The chart's file: as given, or the scenario's.
-Result<std::string> chartPath(const std::string& chart, const std::string& scenario_path) {
-  if (scenario_path.empty()) {
-    return chart;
-  }
-  return scenario::loadScenario(scenario_path).map([](const scenario::Scenario& scenario) {
-    return scenario.chart_path;
-  });
-}
-
 }  // namespace
 
 Result<std::unique_ptr<MapNode>> MapNode::create(config::Section section) {
-  std::string chart;
-  std::string scenario;
-  std::string vessel;
-  section.read("chart", chart);
-  section.read("scenario", scenario);
-  section.read("vessel", vessel);
+  MapNodeOptions node;
+  const Status fields = config::readFields(section, node);
   const Result<map::OccupancyMapOptions> options =
       map::readOccupancyMapOptions(section.child("map"));
-  if (const Status status = section.finish(); !status) {
-    return failure(status.error().message);
+  for (const Status& status : {section.finish(), fields}) {
+    if (!status) {
+      return failure(status.error().message);
+    }
   }
   if (!options) {
     return failure(options.error().message);
   }
-  if (chart.empty() == scenario.empty()) {
+  if (node.chart.empty() == node.scenario.empty()) {
     return failure(section.where() + ": give one of the parameters 'chart' and 'scenario'");
   }
   const Result<vessel::Parameters> own =
-      config::vesselFile(vessel).and_then(vessel::loadParameters);
+      config::vesselFile(node.vessel).and_then(vessel::loadParameters);
   if (!own) {
     return failure(section.where() + ": parameter 'vessel': " + own.error().message);
   }
-  return chartPath(chart, scenario)
-      .and_then([&](const std::string& path) { return map::loadMap(path, options->band); })
-      .map([&](map::OccupancyGrid grid) {
-        return std::unique_ptr<MapNode>(
-            new MapNode(map::OccupancyMap(std::move(grid), own->hull, *options)));
-      });
+  if (!node.scenario.empty()) {
+    const Result<scenario::Scenario> scenario = scenario::loadScenario(node.scenario);
+    if (!scenario) {
+      return failure(scenario.error().message);
+    }
+    node.chart = scenario->chart_path;
+  }
+  return map::loadMap(node.chart, options->band).map([&](map::OccupancyGrid grid) {
+    return std::unique_ptr<MapNode>(
+        new MapNode(map::OccupancyMap(std::move(grid), own->hull, *options)));
+  });
 }
 
 MapNode::MapNode(map::OccupancyMap map)

@@ -149,15 +149,14 @@ bool PlantNode::takeCommand() {
 
 bool PlantNode::waitPatiently(const std::function<bool()>& ready,
                               const std::function<std::string()>& what) {
-  const ros::WallTime give_up =
-      ros::WallTime::now() + ros::WallDuration(kLockstepTimeoutS);
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kLockstepTimeoutS);
   while (!ready()) {
     if (!ros::ok()) {
       return false;
     }
     if (ros::WallTime::now() > give_up) {
-      ROS_FATAL_STREAM("Lockstep: waited " << kLockstepTimeoutS << " s for " << what()
-                                           << " at " << now_.toSec() << " s");
+      ROS_FATAL_STREAM("Lockstep: waited " << kLockstepTimeoutS << " s for " << what() << " at "
+                                           << now_.toSec() << " s");
       exit_code_ = 1;
       ros::requestShutdown();
       return false;

@@ -1,5 +1,6 @@
 #include "plant_node_options.hpp"
 
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/scenario/scenario.hpp"
 

@@ -17,6 +17,10 @@ class FieldTable {
   void operator()(const char* key, const Number& value, Range range, const char* effect) {
     row(key, text(value), text(range), effect);
   }
+  template <typename Number>
+  void optional(const char* key, const Number& value, Range range, const char* effect) {
+    row(key, text(value), text(range), effect);
+  }
   void operator()(const char* key, const bool& value, const char* effect) {
     row(key, value ? "true" : "false", "true, false", effect);
   }
@@ -26,6 +30,14 @@ class FieldTable {
   void list(const char* key, const std::vector<double>& values, std::size_t /*size*/, Range range,
             const char* effect) {
     row(key, joined(values), text(range), effect);
+  }
+  template <typename Vector>
+  void vector(const char* key, const Vector& value, Range range, const char* effect) {
+    list(key, std::vector<double>(value.data(), value.data() + value.size()), 0, range, effect);
+  }
+  void optionalText(const char* key, const std::string& value,
+                    const std::vector<std::string>& allowed, const char* effect) {
+    row(key, value, joined(allowed), effect);
   }
   void texts(const char* key, const std::vector<std::string>& values, const char* effect) {
     row(key, joined(values), "texts", effect);
@@ -45,6 +57,18 @@ class FieldTable {
   void group(const char* key, const Group& options, const char* /*effect*/) {
     FieldTable table(prefix_ + key + '.');
     Group::describe(options, table);
+    text_ << table.rows();
+  }
+
+  template <typename Group>
+  void optionalGroup(const char* key, const Group& options, const char* effect) {
+    group(key, options, effect);
+  }
+  template <typename Group>
+  void groups(const char* key, const std::vector<Group>& /*list_of*/, const char* effect) {
+    FieldTable table(prefix_ + key + "[].");
+    Group::describe(Group{}, table);
+    row(key, "", "list", effect);
     text_ << table.rows();
   }
 

@@ -8,7 +8,13 @@
 #include <iterator>
 
 #include "field_table.hpp"
+#include "nodes/map_node_options.hpp"
 #include "nodes/mission_node_options.hpp"
+#include "nodes/plant_node_options.hpp"
+#include "otter_nav/identification/identify.hpp"
+#include "otter_nav/map/occupancy_map.hpp"
+#include "otter_nav/plant/options.hpp"
+#include "otter_nav/tracker/options.hpp"
 
 namespace otter_nav::config {
 namespace {
@@ -37,6 +43,12 @@ Shipped shipped(const std::string& file) {
 
 std::vector<Shipped> allShipped() {
   return {
+      shipped<map::OccupancyMapOptions>("map.yaml"),
+      shipped<tracker::Options>("tracker.yaml"),
+      shipped<plant::Options>("plant.yaml"),
+      shipped<identification::Options>("identification.yaml"),
+      shipped<nodes::MapNodeOptions>("map_node.yaml"),
+      shipped<nodes::PlantNodeOptions>("plant_node.yaml"),
       shipped<nodes::MissionNodeOptions>("mission_node.yaml"),
   };
 }
