@@ -67,7 +67,8 @@ class FieldTable {
   template <typename Group>
   void groups(const char* key, const std::vector<Group>& /*list_of*/, const char* effect) {
     FieldTable table(prefix_ + key + "[].");
-    Group::describe(Group{}, table);
+    const Group defaults;
+    Group::describe(defaults, table);
     row(key, "", "list", effect);
     text_ << table.rows();
   }

@@ -36,9 +36,10 @@ Result<std::string> readAndWrite(const std::string& path) {
 
 template <typename Options>
 Shipped shipped(const std::string& file) {
+  const Options defaults;
   FieldTable table;
-  Options::describe(Options{}, table);
-  return {file, readAndWrite<Options>, toYaml(Options{}), table.rows()};
+  Options::describe(defaults, table);
+  return {file, readAndWrite<Options>, toYaml(defaults), table.rows()};
 }
 
 std::vector<Shipped> allShipped() {
