@@ -259,8 +259,7 @@ def thrusts(run):
         for ax, side, label in ((axes[0], "left", "port thruster, N"),
                                 (axes[1], "right", "starboard thruster, N")):
             value = getattr(thrust, side)
-            full = (value >= limits[0] - 1e-3) | (value <= limits[1] + 1e-3)
-            for begin, end in stretches(thrust.t, full):
+            for begin, end in stretches(thrust.t, run.at_limit(value)):
                 ax.axvspan(begin - start, end - start, color=COLOUR["shade"], alpha=0.35,
                            linewidth=0, zorder=0)
             t, shown = thin(thrust.t - start, value)

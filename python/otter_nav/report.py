@@ -30,7 +30,7 @@ def run_page(run, scenario=None, others=0):
     title = (f"{name}, mission {label.get('mission', 0)}" if name else
              os.path.basename(run.source) or "Run")
     page = Page(title)
-    words = [f"vessel {label.get('vessel', run.vessel.name)}"]
+    words = [f"vessel {label.get('vessel', run.vessel.name)}" + run.details.get("vessel", "")]
     for key in ("disturbance", "seed"):
         if key in label:
             words.append(f"{key} {label[key]}")
@@ -54,9 +54,10 @@ def run_page(run, scenario=None, others=0):
         ("contacts", number(figures["contacts"]), ""),
     ])
     begin = run.motion.t[0]
-    page.raw(f'<p class="note">Figures are taken from {figures["window_from_s"] - begin:.2f} s to '
-             f'{figures["window_to_s"] - begin:.2f} s: first trajectory to its end. Errors are '
-             f'of the {"true" if run.motion_is_true else "estimated"} position.</p>')
+    page.raw(f'<p class="note">Figures are taken from {figures["window_from_s"] - begin:.2f} s, where '
+             f'the first trajectory begins, to {figures["window_to_s"] - begin:.2f} s, where the '
+             f'mission ends. Errors are of the {"true" if run.motion_is_true else "estimated"} '
+             f'position.</p>')
 
     page.section("Track")
     page.picture(pictures.track(run, scenario))
@@ -121,7 +122,7 @@ def _versions(page, run, scenario):
     page.section("Versions and parameters")
     rows = [("report made by", f"otter_nav {version() or 'of unknown version'}")]
     rows += [(key, value) for key, value in run.label.items()]
-    rows += [(key, value) for key, value in run.details.items() if key != "parameters"]
+    rows += [(key, value) for key, value in run.details.items() if key not in ("parameters", "vessel")]
     if scenario is not None:
         rows.append(("chart from", os.path.basename(scenario.path)))
     v = run.vessel
@@ -194,6 +195,8 @@ def load(options):
         if not 1 <= options.run <= len(runs):
             raise RecordingError(f"{options.bag}: holds {len(runs)} runs, none with number {options.run}")
         run, others = runs[options.run - 1], len(runs) - 1
+        if options.vessel is None:
+            run.details["vessel"] = " (assumed, see --vessel)"
         if others:
             print(f"{options.bag} holds {len(runs)} runs; this is number {options.run} (--run)",
                   file=sys.stderr)

@@ -109,10 +109,13 @@ class Run:
     @property
     def saturated(self):
         """Whether a thruster stands at its limit, for each row of `thrusts`."""
-        thrusts, slack = self.thrusts, 1e-3
-        return numpy.logical_or.reduce([
-            (side >= self.vessel.ahead_max_n - slack) | (side <= slack - self.vessel.astern_max_n)
-            for side in (thrusts.left, thrusts.right)])
+        return self.at_limit(self.thrusts.left) | self.at_limit(self.thrusts.right)
+
+    def at_limit(self, thrust):
+        """The tracker's solver stays a little inside the limits: within 0.5 % is at them."""
+        share = 0.995
+        return ((thrust >= share * self.vessel.ahead_max_n) |
+                (thrust <= -share * self.vessel.astern_max_n))
 
     @property
     def window(self):

@@ -6,6 +6,7 @@ import unittest
 import numpy
 import rosbag
 import synthetic
+from nav_msgs.msg import OccupancyGrid
 from std_msgs.msg import String
 
 from otter_nav.bag import read_bag
@@ -121,6 +122,24 @@ class BagTest(unittest.TestCase):
         self.assertEqual(figures["position_source"], "odometry")
         self.assertAlmostEqual(figures["tracking_error_mean_m"], 0.5, 6)
         self.assertIsNone(figures["min_clearance_m"])
+
+    def test_thrust_a_little_inside_its_limit_is_saturated(self):
+        run = self.read()
+        run.commands.left[:] = -49.9
+        self.assertTrue(numpy.all(run.saturated))
+        run.commands.left[:] = 49.0
+        self.assertFalse(numpy.any(run.saturated))
+
+    def test_chart_in_the_bag(self):
+        synthetic.write_bag(self.path)
+        grid = OccupancyGrid(data=[-1, 0, 100, 0, 0, 0])
+        grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 0.5
+        grid.info.origin.position.x = -10.0
+        with rosbag.Bag(self.path, "a") as bag:
+            bag.write("/map", grid, synthetic.stamp(synthetic.END_S))
+        chart = read_bag(self.path)[0].chart
+        self.assertEqual(chart.occupied.tolist(), [[False, False, True], [False, False, False]])
+        self.assertEqual(chart.extent, (-10.0, -8.5, 0.0, 1.0))
 
     def test_missing_empty_and_foreign_files(self):
         self.refused(os.path.join(self.folder, "none.bag"), "no such file")
