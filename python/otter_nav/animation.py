@@ -80,8 +80,7 @@ def _background(run, scenario, view):
     image.paste(Image.fromarray(pixels), (0, 0))
     draw = ImageDraw.Draw(image)
     step = _nice((view.east - view.west) / 5.0)
-    x, y = view(view.west + 0.04 * (view.east - view.west), view.south + 0.05 * (view.north - view.south))
-    x, y = float(x), float(y)
+    x, y = 0.04 * view.width, 0.95 * view.height
     draw.line([(x, y), (x + step * view.scale, y)], fill=_INK, width=3)
     draw.text((x, y - 18), f"{step:g} m", fill=_INK, font=_font(13))
     return image
@@ -199,20 +198,18 @@ class Film:
         draw.line([(0, top), (self.view.width, top)], fill=_MUTED, width=1)
         speed = float(numpy.hypot(motion.u[row], motion.v[row]))
         error = self.error.distance[row]
-        words = [f"t {t - motion.t[0]:5.1f} s", f"speed {speed:4.2f} m/s",
-                 "error –" if numpy.isnan(error) else f"error {error:5.3f} m"]
-        place = 14
-        for word in words:
-            draw.text((place, top + 10), word, fill=_INK, font=self.font)
-            place += int(draw.textlength(word, font=self.font)) + 24
-        draw.text((14, top + 36), _state_at(self.run, t), fill=_MUTED, font=self.small)
+        gap = "–" if numpy.isnan(error) else f"{error:.3f} m"
+        draw.text((14, top + 9), f"{t - motion.t[0]:.1f} s   {speed:.2f} m/s", fill=_INK,
+                  font=self.font)
+        draw.text((14, top + 36), f"error {gap}   {_state_at(self.run, t)}", fill=_MUTED,
+                  font=self.small)
         self._thrust_bars(draw, t, top)
 
     def _thrust_bars(self, draw, t, top):
         thrust, vessel = self.run.thrusts, self.run.vessel
         if not len(thrust):
             return
-        half, right = 70, self.view.width - 14
+        half, right = min(70, self.view.width // 8), self.view.width - 14
         for k, (side, colour, name) in enumerate((("left", _PORT, "port"),
                                                   ("right", _STARBOARD, "starboard"))):
             value = float(numpy.interp(t, thrust.t, getattr(thrust, side)))
@@ -301,8 +298,8 @@ def main(arguments=None):
             raise RecordingError(f"--out {options.out}: has to end in .gif or .mp4")
         if options.speed <= 0.0 or not 1.0 <= options.rate <= 50.0:
             raise RecordingError("--speed has to be positive, --rate from 1 to 50")
-        if not 320 <= options.width <= 3840:
-            raise RecordingError("--width has to be from 320 to 3840 pixels")
+        if not 400 <= options.width <= 3840:
+            raise RecordingError("--width has to be from 400 to 3840 pixels")
         run, scenario, _ = load(options)
         film = Film(run, scenario, options.width - options.width % 2)
         times = frame_times(run, options.speed, options.rate)

@@ -52,6 +52,14 @@ def read_bag(path, vessel="otter_gazebo", namespace=None, partial=False):
             bag.close()
 
 
+def read_one(path, number, vessel="otter_gazebo", namespace=None, partial=False):
+    """Run `number` of a bag, from 1, and how many it holds."""
+    runs = read_bag(path, vessel, namespace, partial)
+    if not 1 <= number <= len(runs):
+        raise RecordingError(f"{path}: holds {len(runs)} runs, none with number {number}")
+    return runs[number - 1], len(runs)
+
+
 def _rosbag():
     try:
         import rosbag

@@ -20,8 +20,10 @@ _HISTOGRAMS = (("tracking_error_mean_m", "mean tracking error, m"),
                ("planning_ms_max", "slowest plan, ms"),
                ("tracker_ms_p99", "control step, 99th percentile, ms"))
 # Tables I and II of the paper (docs/planner.md, docs/tracker.md).
-_PAPER_PLANS = {"baseline": (71.4, 20.5, 24.3, 29.7, 58.1, 86), "local": (71.8, 20.8, 24.2, 40.6, 47.8, 96),
-                "global": (69.6, 21.6, 22.1, 30.8, 60.2, 84), "proposed": (69.3, 21.3, 21.9, 41.8, 45.6, 98)}
+_PAPER_PLANS = {"baseline": (71.4, 20.5, 24.3, 29.7, 58.1, 86),
+                "local": (71.8, 20.8, 24.2, 40.6, 47.8, 96),
+                "global": (69.6, 21.6, 22.1, 30.8, 60.2, 84),
+                "proposed": (69.3, 21.3, 21.9, 41.8, 45.6, 98)}
 _PAPER_TRACKING = (("the paper's, without flatness", 0.257, 0.768, 2.93, 4.31, 2.01),
                    ("the paper's, with flatness", 0.121, 0.483, 3.32, 4.37, 0.95))
 
@@ -81,9 +83,9 @@ class _Charts:
 
     def get(self, name):
         if name not in self._known:
-            pattern = glob.escape(str(name)) + ".yaml"
+            pattern = os.path.join("**", glob.escape(str(name)) + ".yaml")
             found = [path for folder in self._folders for path in
-                     sorted(glob.glob(os.path.join(glob.escape(folder), "**", pattern), recursive=True))]
+                     sorted(glob.glob(os.path.join(glob.escape(folder), pattern), recursive=True))]
             self._known[name] = load_scenario(found[0]) if found else None
         return self._known[name]
 
@@ -146,10 +148,8 @@ def _failures(page, missions):
     failed = [m for m in missions if m.get("outcome") != "arrived"]
     if failed:
         page.section("Those that did not arrive")
-        page.table(("scenario", "mission", "vessel", "disturbance", "seed", "outcome", "reason"),
-                   [tuple(str(m.get(key, "")) for key in ("scenario", "mission", "vessel", "disturbance",
-                                                          "seed", "outcome", "reason"))
-                    for m in failed])
+        keys = ("scenario", "mission", "vessel", "disturbance", "seed", "outcome", "reason")
+        page.table(keys, [tuple(str(m.get(key, "")) for key in keys) for m in failed])
 
 
 def _name(mission):
@@ -289,8 +289,8 @@ def _tracking(page, found):
                      number(100 * r.get("saturation_share", numpy.nan), 1),
                      number(r.get("solver_us", {}).get("p99"), 0)))
     page.table(("run", "disturbance", "seed", "mean error, m", "largest, m", "mean speed, m/s",
-                "largest, m/s", "∫ r² dt, rad²/s", "thrust rms, N", "saturated, %", "99 % step, µs"),
-               rows, numbers=range(2, 11))
+                "largest, m/s", "∫ r² dt, rad²/s", "thrust rms, N", "saturated, %",
+                "99 % step, µs"), rows, numbers=range(2, 11))
     if len(runs) <= 40:
         names = [f"{r['vessel']} {os.path.basename(r['path'])} {r.get('disturbance', '')} "
                  f"{r.get('seed', '')}" for r in runs]

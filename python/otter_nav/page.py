@@ -39,7 +39,8 @@ pre{white-space:pre-wrap;font-size:12.5px}
 @media (max-width:480px){.pair{grid-template-columns:1fr}}
 @media print{:root{color-scheme:light;LIGHT}@page{margin:14mm}body{font-size:11pt}
 main{max-width:none;padding:0}h2,h2+.note{break-after:avoid}h2{margin-top:14px}
-.scroll{overflow:visible}figure svg{max-height:150mm}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
+.scroll{overflow:visible}figure svg{max-height:150mm}
+*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 """
 
 
@@ -69,7 +70,8 @@ class Page:
         self._parts.append(text)
 
     def heading(self, text, lead="", badge="", good=True):
-        shown = f'<span class="badge {"good" if good else "bad"}">{escape(badge)}</span>' if badge else ""
+        kind = "good" if good else "bad"
+        shown = f'<span class="badge {kind}">{escape(badge)}</span>' if badge else ""
         self.raw(f"<h1>{escape(text)}{shown}</h1>")
         if lead:
             self.raw(f'<p class="lead">{escape(lead)}</p>')
@@ -81,8 +83,8 @@ class Page:
 
     def figures(self, entries):
         """(name, shown value, unit) each."""
-        cells = "".join(f"<div><dt>{escape(name)}</dt><dd>{value} <small>{escape(unit)}</small></dd></div>"
-                        for name, value, unit in entries)
+        cells = "".join(f"<div><dt>{escape(name)}</dt><dd>{value} "
+                        f"<small>{escape(unit)}</small></dd></div>" for name, value, unit in entries)
         self.raw(f'<dl class="figures">{cells}</dl>')
 
     def picture(self, svg, caption=""):

@@ -4,7 +4,7 @@ import json
 import os
 import sys
 
-from .bag import read_bag
+from .bag import read_one
 from .errors import RecordingError
 from .page import Page, escape, number
 from .result import read_result
@@ -190,15 +190,13 @@ def add_source_arguments(parser):
 def load(options):
     """(run, scenario, number of other runs) of the program's arguments."""
     if options.bag:
-        runs = read_bag(options.bag, options.vessel or "otter_gazebo", options.namespace,
-                        options.partial)
-        if not 1 <= options.run <= len(runs):
-            raise RecordingError(f"{options.bag}: holds {len(runs)} runs, none with number {options.run}")
-        run, others = runs[options.run - 1], len(runs) - 1
+        run, count = read_one(options.bag, options.run, options.vessel or "otter_gazebo",
+                              options.namespace, options.partial)
+        others = count - 1
         if options.vessel is None:
             run.details["vessel"] = " (assumed, see --vessel)"
         if others:
-            print(f"{options.bag} holds {len(runs)} runs; this is number {options.run} (--run)",
+            print(f"{options.bag} holds {count} runs; this is number {options.run} (--run)",
                   file=sys.stderr)
     else:
         run, others = read_result(options.result, options.run - 1, options.vessel), 0

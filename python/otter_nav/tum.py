@@ -5,7 +5,7 @@ import sys
 
 import numpy
 
-from .bag import read_bag
+from .bag import read_one
 from .errors import RecordingError
 
 
@@ -35,10 +35,8 @@ def main(arguments=None):
     parser.add_argument("--partial", action="store_true", help="read what is there of a bag cut off")
     options = parser.parse_args(arguments)
     try:
-        runs = read_bag(options.bag, options.vessel, options.namespace, options.partial)
-        if not 1 <= options.run <= len(runs):
-            raise RecordingError(f"{options.bag}: holds {len(runs)} runs, none with number {options.run}")
-        run = runs[options.run - 1]
+        run, _ = read_one(options.bag, options.run, options.vessel, options.namespace,
+                          options.partial)
         os.makedirs(options.out, exist_ok=True)
         window = run.window if options.window else None
         for name, table in (("truth", run.truth), ("odometry", run.odometry),

@@ -52,7 +52,7 @@ class AnimationTest(unittest.TestCase):
 
     def test_gif_of_a_result(self):
         result = synthetic.write_result(self.folder)
-        code, out = self.make("result.gif", "--result", result, "--width", "320")
+        code, out = self.make("result.gif", "--result", result, "--width", "400")
         self.assertEqual(code, 0)
         self.assertGreater(os.path.getsize(out), 1000)
 
@@ -69,12 +69,12 @@ class AnimationTest(unittest.TestCase):
             file.write("#!/bin/sh\n" + script)
         os.chmod(path, 0o755)
         with mock.patch("otter_nav.animation.shutil.which", return_value=path):
-            return self.make("run.mp4", "--bag", self.bag, "--width", "320", "--rate", "2")
+            return self.make("run.mp4", "--bag", self.bag, "--width", "400", "--rate", "2")
 
     def test_film_is_every_frame_whole_to_ffmpeg(self):
         code, out = self.with_encoder('for last; do :; done; cat > "$last"')
         self.assertEqual(code, 0)
-        size = Film(read_bag(self.bag)[0], None, 320).background.size
+        size = Film(read_bag(self.bag)[0], None, 400).background.size
         frames = len(frame_times(read_bag(self.bag)[0], 8.0, 2.0))
         self.assertEqual(os.path.getsize(out), frames * 3 * size[0] * size[1])
         self.assertEqual([side % 2 for side in size], [0, 0])

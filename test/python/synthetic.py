@@ -72,8 +72,9 @@ def messages(offset_s=0.0, truth=True, contact=ARRIVES_S + 0.5):
     for t in numpy.arange(START_S, END_S + 1e-9, STEP_S):
         x, y = pose(t)
         if truth:
-            add("plant_state", PlantState(x=x, y=y, yaw=HEADING, u=SPEED_MPS, clearance=3.0 - 0.1 * (t - START_S),
-                                          thrust_left=LEFT_N - 1.0, thrust_right=RIGHT_N), t)
+            add("plant_state", PlantState(
+                x=x, y=y, yaw=HEADING, u=SPEED_MPS, clearance=3.0 - 0.1 * (t - START_S),
+                thrust_left=LEFT_N - 1.0, thrust_right=RIGHT_N), t)
         odometry = Odometry()
         odometry.header.frame_id, odometry.child_frame_id = "odom", "base_link"
         odometry.pose.pose.position.x, odometry.pose.pose.position.y = x, y
@@ -92,8 +93,8 @@ def messages(offset_s=0.0, truth=True, contact=ARRIVES_S + 0.5):
             first_solution_ms=5.0, planning_ms=20.0 if t < 108.0 else 40.0, samples=100, nodes=40,
             cost=170.0, trajectory_id=1 if sailing else 0), t)
         add("tracker_status", TrackerStatus(
-            state=TrackerStatus.TRACKING if sailing else TrackerStatus.IDLE, solver_ms_median=0.05, solver_ms_p99=0.2,
-            cycles_on_time=0.99, disturbance=[3.0, -4.0, 0.5]), t)
+            state=TrackerStatus.TRACKING if sailing else TrackerStatus.IDLE,
+            solver_ms_median=0.05, solver_ms_p99=0.2, cycles_on_time=0.99, disturbance=[3.0, -4.0, 0.5]), t)
         wind = Vector3Stamped()
         wind.vector.y = 3.0
         add("wind", wind, t)
@@ -115,7 +116,7 @@ def write_bag(path, runs=1, prefix="", **options):
 
 
 def write_result(folder, count=1):
-    """result.json of `count` missions with tracks: 2 m/s to the east, 0.1 m to port of the reference."""
+    """result.json of missions with tracks: 2 m/s to the east, 0.1 m to port of the reference."""
     missions = []
     os.makedirs(os.path.join(folder, "tracks"), exist_ok=True)
     for k in range(count):
@@ -129,7 +130,8 @@ def write_result(folder, count=1):
                 rows.writerow([f"{v:.4f}" for v in (t, way, off, 0, 2 if t >= 1 else 0, 0, 0, 0, 0,
                                                     30, 40, way, 0, 0)])
         missions.append({"scenario": "pond", "mission": k, "vessel": "otter_gazebo",
-                         "disturbance": "paper", "seed": 1, "outcome": "stopped" if k == 1 else "arrived",
+                         "disturbance": "paper", "seed": 1,
+                         "outcome": "stopped" if k == 1 else "arrived",
                          "duration_s": 10.0, "distance_m": 18.1, "min_clearance_m": 1.0 + k,
                          "tracking_error_mean_m": 0.1 + 0.01 * k, "tracking_error_max_m": 0.1 + 0.1 * k,
                          "replans": k, "planning_ms_median": 30.0, "planning_ms_max": 50.0 + k,
