@@ -4,11 +4,13 @@ import json
 import os
 import sys
 
+import numpy
+
 from .bag import read_one
 from .errors import RecordingError
 from .page import Page, escape, number
 from .result import read_result
-from .vessel import share_folder
+from .vessel import least_vessel, share_folder
 
 
 def version():
@@ -181,10 +183,21 @@ def add_source_arguments(parser):
     parser.add_argument("--run", type=int, default=1, help="which run of the bag or mission of the "
                         "result, from 1 (default 1)")
     parser.add_argument("--vessel", help="name in config/vessels or a file (default: the result's; "
-                        "of a bag, otter_gazebo)")
+                        "of a bag, the weakest that can give its commands)")
     parser.add_argument("--namespace", help="of the vessel, where the bag holds several")
     parser.add_argument("--partial", action="store_true", help="read what is there of a bag cut off")
     return source
+
+
+def _assume_vessel(run):
+    """A bag does not say whose it is; its commands rule out vessels that are too weak for them."""
+    run.details["vessel"] = " (assumed, see --vessel)"
+    if len(run.commands):
+        most = [float(numpy.max(side)) for side in (run.commands.left, run.commands.right)]
+        least = [float(numpy.min(side)) for side in (run.commands.left, run.commands.right)]
+        vessel = least_vessel(max(most), -min(least))
+        if vessel is not None:
+            run.vessel = vessel
 
 
 def load(options):
@@ -194,7 +207,7 @@ def load(options):
                               options.namespace, options.partial)
         others = count - 1
         if options.vessel is None:
-            run.details["vessel"] = " (assumed, see --vessel)"
+            _assume_vessel(run)
         if others:
             print(f"{options.bag} holds {count} runs; this is number {options.run} (--run)",
                   file=sys.stderr)

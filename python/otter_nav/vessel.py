@@ -60,3 +60,16 @@ def load_vessel(name_or_path):
                       length_m=float(hull["length_m"]), beam_m=float(hull["beam_m"]))
     except (KeyError, TypeError, ValueError, yaml.YAMLError) as error:
         raise RecordingError(f"vessel file {path}: {error!r} is missing or no number") from error
+
+
+def least_vessel(ahead_n, astern_n):
+    """The weakest vessel of config/vessels with such thrust; of several, the first
+    by name. None if none has it."""
+    share = share_folder()
+    if share is None:
+        return None
+    known = [load_vessel(path) for path in sorted((share / "config" / "vessels").glob("*.yaml"))]
+    slack = 1.0 + 1e-3
+    able = [vessel for vessel in known if ahead_n <= slack * vessel.ahead_max_n and
+            astern_n <= slack * vessel.astern_max_n]
+    return min(able, key=lambda vessel: vessel.ahead_max_n, default=None)

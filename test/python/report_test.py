@@ -5,6 +5,7 @@ import os
 import re
 import tempfile
 import unittest
+from unittest import mock
 
 import synthetic
 
@@ -79,6 +80,16 @@ class ReportTest(unittest.TestCase):
             self.assertIn(word, words)
         self.assertAlmostEqual(figures["tracking_error_mean_m"], 0.5, 6)
         self.assertAlmostEqual(figures["duration_s"], 16.0, 6)
+
+    def test_vessel_of_a_bag_is_the_weakest_that_can_give_its_commands(self):
+        bag = os.path.join(self.folder, "run.bag")
+        for thrust, name in ((50.0, "otter_gazebo"), (100.0, "otter"), (500.0, "wam_v")):
+            with mock.patch("synthetic.LEFT_N", thrust):
+                synthetic.write_bag(bag)
+            text, _, _ = self.make("--bag", bag)
+            self.assertIn(f"vessel {name} (assumed", text)
+        text, _, _ = self.make("--bag", bag, "--vessel", "otter")
+        self.assertIn("vessel otter<", text)
 
     def test_page_of_a_result_states_the_missions_own_figures(self):
         path = synthetic.write_result(self.folder, 2)
