@@ -40,6 +40,7 @@ struct Tally {
 struct Bench {
   optimizer::GlobalOptimizer optimizer;
   topology::GuidePathFinder finder;
+  feasibility::SafetyLimits limits;
   bool verbose = false;
   std::map<std::string, Tally> tallies;
 
@@ -63,7 +64,7 @@ struct Bench {
     Result<optimizer::Optimized> result = failure("");
     for (int i = 0; i < kRepeats; ++i) {
       const double began = cpuSeconds();
-      result = optimizer.optimize(field, guide->points, start, goal, optimizer::Budget());
+      result = optimizer.optimize(field, guide->points, start, goal, optimizer::Budget(), limits);
       quickest = std::min(quickest, cpuSeconds() - began);
     }
     if (!result) {
@@ -136,7 +137,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", vessel.error().message.c_str());
     return 1;
   }
-  Bench bench{optimizer::GlobalOptimizer({}, *vessel), topology::GuidePathFinder({}), verbose, {}};
+  Bench bench{optimizer::GlobalOptimizer({}, *vessel),
+              topology::GuidePathFinder({}),
+              feasibility::SafetyLimits::of(*vessel),
+              verbose,
+              {}};
   if (const Status status = run(bench, folder, map_name == "world"); !status) {
     std::fprintf(stderr, "%s\n", status.error().message.c_str());
     return 1;

@@ -61,12 +61,14 @@ planner::Termination cpuClock(double budget_s) {
   return termination;
 }
 
-planner::Query queryOf(const scenario::Mission& mission, std::uint64_t seed) {
+planner::Query queryOf(const scenario::Mission& mission, const vessel::Parameters& vessel,
+                       std::uint64_t seed) {
   planner::Query query;
-  query.start.position = mission.start.position;
-  query.start_psi_rad = mission.start.psi_rad;
-  query.goal = mission.goal.position;
-  query.goal_psi_rad = mission.goal.psi_rad;
+  query.start.flat.position = mission.start.position;
+  query.start.psi_rad = mission.start.psi_rad;
+  query.goal.flat.position = mission.goal.position;
+  query.goal.psi_rad = mission.goal.psi_rad;
+  query.limits = feasibility::SafetyLimits::of(vessel);
   query.seed = seed;
   return query;
 }
@@ -102,7 +104,7 @@ class Runner {
  private:
   Status runCase(const Ground& ground, const scenario::Mission& mission, Method& method,
                  Case& result) {
-    const planner::Query query = queryOf(mission, result.seed);
+    const planner::Query query = queryOf(mission, vessel_, result.seed);
     const double budget_s = 1e-3 * request_.budget_ms;
     const planner::Plan plan = method.planner.plan(
         ground.field, query,

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "otter_nav/base/statistics.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/topology/guide_path.hpp"
@@ -114,9 +115,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 10000));
   app.add_flag("--each", each, "a line for each mission");
   CLI11_PARSE(app, argc, argv);
-  const auto node = config::loadFile(options_path);
-  const auto options = node ? topology::readOptions({*node, options_path})
-                            : Result<topology::Options>(failure(node.error().message));
+  const auto options = config::load<topology::Options>(options_path);
   if (!options) {
     std::fprintf(stderr, "%s\n", options.error().message.c_str());
     return 1;

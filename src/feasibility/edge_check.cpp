@@ -4,24 +4,36 @@
 #include <array>
 #include <cmath>
 
-#include "otter_nav/vessel/hull.hpp"
+#include "otter_nav/base/planar.hpp"
+#include "otter_nav/feasibility/clearance_walk.hpp"
+#include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 
 namespace otter_nav::feasibility {
 namespace {
 
 constexpr double kInstantsPerSecond = 5.0;
 constexpr int kFewestInstants = 4;
-// The smallest jump, as a way at the edge's greatest speed.
-constexpr double kHullSlackM = 0.02;
+constexpr double kSpeedShare = 0.98;  // of the speed limit, on an edge
+// Bent edges.
+constexpr double kBentStepS = 0.1;
+constexpr double kSlowMps = 0.3;        // slower, the pieces at start and goal are rebuilt anyway
+constexpr double kTurningRadps = 0.15;  // a course turning less counts as straight
+constexpr double kYawRateShare = 0.75;  // of the limit
+constexpr double kLeastForceShare = 0.02;  // |w| while turning, of both thrusters ahead
 
 }  // namespace
 
-EdgeCheck::EdgeCheck(const EdgeLimits& limits, const vessel::Parameters& vessel)
-    : limits_(limits),
-      inverse_(vessel),
-      end_offset_m_(0.25 * vessel.hull.length_m),
-      disc_radius_m_(std::hypot(0.25 * vessel.hull.length_m, 0.5 * vessel.hull.beam_m)),
-      circumscribed_m_(vessel::circumscribedRadius(vessel.hull)) {}
+EdgeCheck::EdgeCheck(const vessel::Parameters& vessel)
+    : inverse_(vessel), thrusters_(vessel.thrusters), hull_(vessel.hull) {}
+
+void EdgeCheck::begin(const Obstacles& obstacles, const SafetyLimits& limits) {
+  obstacles_ = obstacles;
+  limits_ = limits;
+  hull_ = HullCover(limits.hull);
+  speed_max_mps_ = kSpeedShare * limits.speed_max_mps;
+  force_ahead_n_ = 2.0 * limits.thrust_share * thrusters_.ahead_max_n;
+  force_astern_n_ = 2.0 * limits.thrust_share * thrusters_.astern_max_n;
+}
 
 // Position, velocity and acceleration alone: a third of the work of Piece::flat, in the hottest
 // loop of the search.
@@ -39,35 +51,15 @@ EdgeCheck::Motion EdgeCheck::motionAt(const trajectory::Piece& piece, double t_s
 
 EdgeFault EdgeCheck::checkMotion(const Motion& motion) const {
   const double speed2 = motion.velocity.squaredNorm();
-  if (speed2 > limits_.speed_max_mps * limits_.speed_max_mps) {
+  if (speed2 > speed_max_mps_ * speed_max_mps_) {
     return EdgeFault::kSpeed;
   }
   const Eigen::Vector2d force = inverse_.surgeForce(motion.velocity, motion.acceleration);
-  const double limit =
-      force.dot(motion.velocity) >= 0.0 ? limits_.force_ahead_n : limits_.force_astern_n;
-  return force.squaredNorm() > limit * limit ? EdgeFault::kThrust : EdgeFault::kNone;
+  const double limit = force.dot(motion.velocity) >= 0.0 ? force_ahead_n_ : force_astern_n_;
+  return force.squaredNorm() > limit * limit ? EdgeFault::kForce : EdgeFault::kNone;
 }
 
-// How far the hull may still move before it could touch, m.
-double EdgeCheck::slack(const Motion& motion) const {
-  const double centre = field_->clearance(motion.position);
-  const double left = centre - limits_.clearance_m;
-  if (left < 0.0 || centre >= circumscribed_m_) {
-    return left;
-  }
-  const Eigen::Vector2d w = inverse_.headingForce(motion.velocity, motion.acceleration);
-  const Eigen::Vector2d along = w.squaredNorm() > 1e-6 ? w : motion.velocity;
-  const double norm = along.norm();
-  if (norm < 1e-6) {
-    return left;
-  }
-  const Eigen::Vector2d offset = along * (end_offset_m_ / norm);
-  const double ends = std::min(field_->clearance(motion.position + offset),
-                               field_->clearance(motion.position - offset));
-  return std::min(left, ends - disc_radius_m_);
-}
-
-EdgeFault EdgeCheck::check(const trajectory::Piece& piece) const {
+EdgeFault EdgeCheck::check(const trajectory::Piece& piece, double start_s) const {
   constexpr std::array<double, 3> kFirst = {0.5, 0.25, 0.75};
   for (const double share : kFirst) {
     const EdgeFault fault = checkMotion(motionAt(piece, share * piece.duration_s));
@@ -84,25 +76,59 @@ EdgeFault EdgeCheck::check(const trajectory::Piece& piece) const {
       return fault;
     }
   }
-  return isClear(piece) ? EdgeFault::kNone : EdgeFault::kCollision;
+  return isClear(piece, start_s) ? EdgeFault::kNone : EdgeFault::kClearance;
 }
 
-bool EdgeCheck::isClear(const trajectory::Piece& piece) const {
-  double t = 0.0;
-  while (true) {
-    const double left = slack(motionAt(piece, t));
-    if (left < 0.0) {
-      return false;
-    }
-    if (t >= piece.duration_s) {
-      return true;
-    }
-    t = std::min(piece.duration_s, t + std::max(left, kHullSlackM) / limits_.speed_max_mps);
+EdgeFault EdgeCheck::checkTurning(const vessel::FlatPoint& z) const {
+  const double speed = z.velocity.norm();
+  if (speed < kSlowMps) {
+    return EdgeFault::kNone;
   }
+  const double floor = kLeastForceShare * 2.0 * thrusters_.ahead_max_n;
+  const Eigen::Vector2d w = inverse_.headingForce(z.velocity, z.acceleration);
+  const Eigen::Vector2d w1 = inverse_.headingForceRate(z.acceleration, z.jerk);
+  const double force2 = w.squaredNorm();
+  if (std::abs(cross(w, w1)) >
+      kYawRateShare * limits_.yaw_rate_max_radps * std::max(force2, floor * floor)) {
+    return EdgeFault::kYawRate;
+  }
+  const double turning = std::abs(cross(z.velocity, z.acceleration)) / (speed * speed);
+  const bool undefined = w.dot(z.velocity) < 0.0 || force2 < floor * floor;
+  return turning > kTurningRadps && undefined ? EdgeFault::kHeading : EdgeFault::kNone;
 }
 
-bool EdgeCheck::isFree(const Eigen::Vector2d& position) const {
-  return field_->clearance(position) >= limits_.clearance_m;
+EdgeFault EdgeCheck::checkBent(const trajectory::Piece& piece, double start_s) const {
+  const int steps = std::max(2, static_cast<int>(std::ceil(piece.duration_s / kBentStepS)));
+  for (int i = 0; i <= steps; ++i) {
+    const vessel::FlatPoint z = piece.flat(piece.duration_s * i / steps);
+    EdgeFault fault = checkMotion({z.position, z.velocity, z.acceleration});
+    fault = fault == EdgeFault::kNone ? checkTurning(z) : fault;
+    if (fault != EdgeFault::kNone) {
+      return fault;
+    }
+  }
+  return isClear(piece, start_s) ? EdgeFault::kNone : EdgeFault::kClearance;
+}
+
+bool EdgeCheck::isClear(const trajectory::Piece& piece, double start_s) const {
+  const double approach =
+      trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
+      obstacles_->rateBound();
+  double centre = 0.0;
+  const auto slack = [&](double t) {
+    const Motion m = motionAt(piece, t);
+    const auto bow = [&]() -> Eigen::Vector2d {
+      const Eigen::Vector2d w = inverse_.headingForce(m.velocity, m.acceleration);
+      const Eigen::Vector2d along = w.squaredNorm() > 1e-6 ? w : m.velocity;
+      return along / std::max(along.norm(), 1e-6);
+    };
+    return hull_.slack(*obstacles_, m.position, start_s + t, limits_.clearance_m, bow, centre);
+  };
+  return !firstConflict(0.0, piece.duration_s, approach, slack);
+}
+
+bool EdgeCheck::isFree(const Eigen::Vector2d& position, double time_s) const {
+  return obstacles_->clearance(position, time_s) >= limits_.clearance_m + kLeastSlackM;
 }
 
 }  // namespace otter_nav::feasibility

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/feasibility/clearance_walk.hpp"
+#include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
@@ -18,7 +20,6 @@ using trajectory::lineOf;
 using trajectory::speedBound;
 
 constexpr double kSlowMps = 1e-3;             // below it a course says nothing of the heading
-constexpr double kLeastSlackM = 1e-3;         // nearer to the limit than this counts as a fault
 constexpr double kSwayN = 0.1;                // what pieces of degree 7 leave, next to the model
 constexpr double kLeastHeadingForceN = 1e-6;  // above rounding
 constexpr double kAcrossCosine = 0.02;        // heading and course nearer to a right angle: a jump
@@ -56,17 +57,13 @@ struct PieceCheck::Point {
   double sway_n = 0.0;           // a force to port that no thruster gives
 };
 
-HullCircles hullCircles(const vessel::Hull& hull) {
-  return {hull.length_m / 3.0, std::hypot(hull.length_m / 6.0, hull.beam_m / 2.0)};
-}
-
 PieceCheck::PieceCheck(const trajectory::Piece& piece, const vessel::Parameters& vessel,
-                       const CheckOptions& options)
-    : piece_(piece), vessel_(vessel), inverse_(vessel), options_(options) {
-  velocity_ = differentiate<8>(piece.position);
-  acceleration_ = differentiate<7>(velocity_);
-  jerk_ = differentiate<6>(acceleration_);
-  snap_ = differentiate<5>(jerk_);
+                       const SafetyLimits& limits, const Tolerances& tolerances)
+    : piece_(piece), vessel_(vessel), inverse_(vessel), limits_(limits), tolerances_(tolerances) {
+  velocity_ = trajectory::differentiate<8>(piece.position);
+  acceleration_ = trajectory::differentiate<7>(velocity_);
+  jerk_ = trajectory::differentiate<6>(acceleration_);
+  snap_ = trajectory::differentiate<5>(jerk_);
   if (piece.kind == trajectory::PieceKind::kSail) {
     direction_ = trajectory::lineOf(piece);
     straight_ = direction_.squaredNorm() > 0.5;
@@ -139,7 +136,8 @@ PieceCheck::Point PieceCheck::inSpin(double t_s) const {
 }
 
 void PieceCheck::checkSpin(PieceReport& report) const {
-  const int steps = std::max(2, static_cast<int>(std::ceil(piece_.duration_s / options_.step_s)));
+  const int steps =
+      std::max(2, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
   Sampled left;
   Sampled right;
   for (int i = 0; i <= steps && report.fault == Fault::kNone; ++i) {
@@ -153,11 +151,11 @@ void PieceCheck::checkSpin(PieceReport& report) const {
     report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
     if (std::abs(p.sway_n) > kSwayN) {
       report.fault = Fault::kSway;
-    } else if (report.thrust_share > options_.thrust_share) {
+    } else if (report.thrust_share > limits_.thrust_share) {
       report.fault = Fault::kThrust;
-    } else if (report.speed_mps > options_.speed_max_mps) {
+    } else if (report.speed_mps > limits_.speed_max_mps) {
       report.fault = Fault::kSpeed;
-    } else if (report.yaw_rate_radps > options_.yaw_rate_max_radps) {
+    } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
       report.fault = Fault::kYawRate;
     }
   }
@@ -169,9 +167,11 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
     checkSpin(report);
     return;
   }
-  const int steps = std::max(4, static_cast<int>(std::ceil(piece_.duration_s / options_.step_s)));
+  const int steps =
+      std::max(4, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
   Sampled left;
   Sampled right;
+  const double least_force = tolerances_.heading_force_share * 2.0 * vessel_.thrusters.ahead_max_n;
   double branch = 0.0;  // sign of w . v
   for (int i = 0; i <= steps; ++i) {
     report.time_s = piece_.duration_s * i / steps;
@@ -192,17 +192,17 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
         report.fault = Fault::kHeadingJump;
       }
       branch = speed > kSlowMps ? cosine : 0.0;
-      if (norm < options_.heading_force_min_n) {
+      if (norm < least_force) {
         report.fault = Fault::kHeadingUndefined;
       }
     } else if (direction_.dot(p.velocity) < -kSlowMps) {
       report.fault = Fault::kAstern;
     }
-    if (report.thrust_share > options_.thrust_share) {
+    if (report.thrust_share > limits_.thrust_share) {
       report.fault = Fault::kThrust;
-    } else if (report.speed_mps > options_.speed_max_mps) {
+    } else if (report.speed_mps > limits_.speed_max_mps) {
       report.fault = Fault::kSpeed;
-    } else if (report.yaw_rate_radps > options_.yaw_rate_max_radps) {
+    } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
       report.fault = Fault::kYawRate;
     }
     if (report.fault != Fault::kNone) {
@@ -211,36 +211,29 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
   }
 }
 
-void PieceCheck::checkClearance(const map::DistanceField& field, PieceReport& report) const {
-  const HullCircles hull = hullCircles(vessel_.hull);
-  const double speed = std::max(trajectory::speedBound(velocity_, piece_.duration_s), 1e-3);
-  const double end_speed = speed + hull.offset_m * (1.1 * report.yaw_rate_radps + 0.01);
-  const double around = hull.offset_m + hull.radius_m;
+// Turning moves the ends besides; 1.1 and 0.01 for what the yaw rate's samples may have missed.
+void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s,
+                                PieceReport& report) const {
+  const HullCover hull(limits_.hull);
+  const bool whole = tolerances_.keep_hull_clear;
+  const double turning = hull.offset_m * (1.1 * report.yaw_rate_radps + 0.01);
+  const double approach =
+      speedBound(velocity_, piece_.duration_s) + (whole ? turning : 0.0) + obstacles.rateBound();
   report.clearance_m = std::numeric_limits<double>::infinity();
-  double t = 0.0;
-  while (report.fault == Fault::kNone) {
-    report.time_s = t;
+  double centre = 0.0;
+  const auto slack = [&](double t) {
     const Eigen::Vector2d p = evaluate<8>(piece_.position, t);
-    const double clearance = field.clearance(p);
-    report.clearance_m = std::min(report.clearance_m, clearance);
-    const double slack = clearance - options_.clearance_m;
-    double jump = slack / speed;
-    if (slack < kLeastSlackM) {
-      report.fault = Fault::kClearance;
-    } else if (options_.check_hull && clearance - around < 0.5 * slack) {
-      const Eigen::Vector2d bow = hull.offset_m * bowAt(t);
-      const double ends = std::min(field.clearance(p + bow), field.clearance(p - bow));
-      if (ends - hull.radius_m < kLeastSlackM) {
-        report.fault = Fault::kHull;
-      }
-      jump = std::min(jump, (ends - hull.radius_m) / end_speed);
-    } else if (options_.check_hull) {
-      jump = std::min(jump, (clearance - around) / speed);
-    }
-    if (t >= piece_.duration_s) {
-      return;
-    }
-    t = std::min(t + jump, piece_.duration_s);
+    const double now = tolerances_.start_s + start_s + t;
+    const double left =
+        whole ? hull.slack(
+                    obstacles, p, now, limits_.clearance_m, [&] { return bowAt(t); }, centre)
+              : (centre = obstacles.clearance(p, now)) - limits_.clearance_m;
+    report.clearance_m = std::min(report.clearance_m, centre);
+    return left;
+  };
+  if (const auto conflict = firstConflict(0.0, piece_.duration_s, approach, slack)) {
+    report.time_s = *conflict;
+    report.fault = centre - limits_.clearance_m < kLeastSlackM ? Fault::kClearance : Fault::kHull;
   }
 }
 

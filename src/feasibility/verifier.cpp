@@ -29,9 +29,14 @@ std::string sentence(const char* what, double t_s, double value, double limit) {
 
 class Verifier {
  public:
-  Verifier(const trajectory::Trajectory& trajectory, const map::DistanceField& field,
-           const vessel::Parameters& vessel, const CheckOptions& options)
-      : trajectory_(trajectory), field_(field), vessel_(vessel), options_(options) {
+  Verifier(const trajectory::Trajectory& trajectory, const Obstacles& obstacles,
+           const vessel::Parameters& vessel, const SafetyLimits& limits,
+           const Tolerances& tolerances)
+      : trajectory_(trajectory),
+        obstacles_(obstacles),
+        vessel_(vessel),
+        limits_(limits),
+        tolerances_(tolerances) {
     result_.clearance_m = std::numeric_limits<double>::infinity();
     result_.heading_force_n = std::numeric_limits<double>::infinity();
   }
@@ -80,9 +85,8 @@ class Verifier {
     const std::string label(name);
     const vessel::FlatPoint z = trajectory_.pieces()[piece].flat(t_in_piece);
     const double off = (z.position - boundary.flat.position).norm();
-    if (off > options_.position_tolerance_m) {
-      fail(t,
-           sentence((label + " position missed").c_str(), t, off, options_.position_tolerance_m));
+    if (off > tolerances_.position_m) {
+      fail(t, sentence((label + " position missed").c_str(), t, off, tolerances_.position_m));
       return;
     }
     double motion = (z.velocity - boundary.flat.velocity).norm();
@@ -95,11 +99,10 @@ class Verifier {
       return;
     }
     if (trajectory::atRest(boundary)) {
-      const PieceCheck check(trajectory_.pieces()[piece], vessel_, options_);
+      const PieceCheck check(trajectory_.pieces()[piece], vessel_, limits_, tolerances_);
       const double turn = std::abs(wrapAngle(check.heading(t_in_piece) - boundary.psi_rad));
-      if (!(turn <= options_.heading_tolerance_rad)) {
-        fail(t, sentence((label + " heading missed").c_str(), t, turn,
-                         options_.heading_tolerance_rad));
+      if (!(turn <= tolerances_.heading_rad)) {
+        fail(t, sentence((label + " heading missed").c_str(), t, turn, tolerances_.heading_rad));
       }
     }
   }
@@ -138,7 +141,7 @@ class Verifier {
 
   void checkPiece(std::size_t i) {
     const trajectory::Piece& piece = trajectory_.pieces()[i];
-    const PieceCheck check(piece, vessel_, options_);
+    const PieceCheck check(piece, vessel_, limits_, tolerances_);
     if (i > 0) {
       checkJoint(i, check);
     }
@@ -148,7 +151,7 @@ class Verifier {
     PieceReport report;
     check.checkDynamics(report);
     if (report.fault == Fault::kNone) {
-      check.checkClearance(field_, report);
+      check.checkClearance(obstacles_, trajectory_.startOf(i), report);
       result_.clearance_m = std::min(result_.clearance_m, report.clearance_m);
     }
     result_.thrust_share = std::max(result_.thrust_share, report.thrust_share);
@@ -164,7 +167,7 @@ class Verifier {
   }
 
   void explain(const PieceReport& r, double t) {
-    const CheckOptions& o = options_;
+    const SafetyLimits& o = limits_;
     switch (r.fault) {
       case Fault::kThrust:
         fail(t, sentence("thrust share too large", t, r.thrust_share, o.thrust_share));
@@ -177,7 +180,7 @@ class Verifier {
         break;
       case Fault::kHeadingUndefined:
         fail(t, sentence("turns without a force to turn by, N", t, r.heading_force_n,
-                         o.heading_force_min_n));
+                         tolerances_.heading_force_share * 2.0 * vessel_.thrusters.ahead_max_n));
         break;
       case Fault::kHeadingJump:
         fail(t, sentence("heading swings across the course", t, 0.0, 0.0));
@@ -200,9 +203,10 @@ class Verifier {
   }
 
   const trajectory::Trajectory& trajectory_;
-  const map::DistanceField& field_;
+  const Obstacles& obstacles_;
   const vessel::Parameters& vessel_;
-  const CheckOptions& options_;
+  const SafetyLimits& limits_;
+  const Tolerances& tolerances_;
   Verification result_;
   double heading_ = 0.0;  // at the end of the piece before
   double yaw_rate_ = 0.0;
@@ -210,15 +214,17 @@ class Verifier {
 
 }  // namespace
 
-Verification verify(const trajectory::Trajectory& trajectory, const map::DistanceField& field,
+Verification verify(const trajectory::Trajectory& trajectory, const Obstacles& obstacles,
                     const vessel::Parameters& vessel, const trajectory::Boundary& start,
-                    const trajectory::Boundary& goal, const CheckOptions& options) {
-  return Verifier(trajectory, field, vessel, options).run(&start, &goal);
+                    const trajectory::Boundary& goal, const SafetyLimits& limits,
+                    const Tolerances& tolerances) {
+  return Verifier(trajectory, obstacles, vessel, limits, tolerances).run(&start, &goal);
 }
 
-Verification verify(const trajectory::Trajectory& trajectory, const map::DistanceField& field,
-                    const vessel::Parameters& vessel, const CheckOptions& options) {
-  return Verifier(trajectory, field, vessel, options).run(nullptr, nullptr);
+Verification verify(const trajectory::Trajectory& trajectory, const Obstacles& obstacles,
+                    const vessel::Parameters& vessel, const SafetyLimits& limits,
+                    const Tolerances& tolerances) {
+  return Verifier(trajectory, obstacles, vessel, limits, tolerances).run(nullptr, nullptr);
 }
 
 }  // namespace otter_nav::feasibility

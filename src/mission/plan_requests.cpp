@@ -36,8 +36,8 @@ PlanRequest PlanRequests::fromRest(double now_s, const vessel::State& state,
                                    const vessel::Pose& goal,
                                    const feasibility::Obstacles& obstacles) {
   PlanRequest request;
-  request.query.start.position = state.head<2>();
-  request.query.start_psi_rad = state[vessel::kPsi];
+  request.query.start.flat.position = state.head<2>();
+  request.query.start.psi_rad = state[vessel::kPsi];
   request.start_time_s = now_s;
   return ask(now_s, std::move(request), goal, safety.freeThrustShare(), From::kRest, obstacles);
 }
@@ -53,8 +53,8 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
   }
   const trajectory::Sample sample = sailed.trajectory.sample(*at, vessel_);
   PlanRequest request;
-  request.query.start = sample.flat;
-  request.query.start_psi_rad = sample.state[vessel::kPsi];
+  request.query.start.flat = sample.flat;
+  request.query.start.psi_rad = sample.state[vessel::kPsi];
   request.start_time_s = sailed.start_time_s + *at;
   request.warm_start = stopping::remainder(sailed.trajectory, *at);
   // The force it begins with is one of the plan being sailed.
@@ -67,10 +67,10 @@ PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
   constexpr double kStartShare = 0.9;  // of the plan's thrust, at its beginning
   const double share = safety.movingThrustShare();
   PlanRequest request;
-  request.query.start = vessel::InverseDynamics(vessel_).fromState(
+  request.query.start.flat = vessel::InverseDynamics(vessel_).fromState(
       state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n);
-  request.query.start.position += latency.seconds() * request.query.start.velocity;
-  request.query.start_psi_rad = state[vessel::kPsi];
+  request.query.start.flat.position += latency.seconds() * request.query.start.flat.velocity;
+  request.query.start.psi_rad = state[vessel::kPsi];
   request.start_time_s = now_s + latency.seconds();
   return ask(now_s, std::move(request), goal, share, From::kVessel, obstacles);
 }
@@ -80,10 +80,10 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
                               const feasibility::Obstacles& obstacles) {
   const map::DistanceField& field = obstacles.field();
   const double room =
-      std::min(field.clearance(request.query.start.position), field.clearance(goal.position));
+      std::min(field.clearance(request.query.start.flat.position), field.clearance(goal.position));
   request.id = next_id_++;
-  request.query.goal = goal.position;
-  request.query.goal_psi_rad = goal.psi_rad;
+  request.query.goal.flat.position = goal.position;
+  request.query.goal.psi_rad = goal.psi_rad;
   request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
   request.limits = safety.limits(thrust_share, room);
   request.moving = from != From::kRest;

@@ -437,7 +437,7 @@ class Supervisor::Impl {
   Orders takeFromRest(const Moment& m, const planner::Plan& plan,
                       const PlanRequests::Asked& asked) {
     constexpr double kDriftM = 0.7;
-    const Eigen::Vector2d& start = asked.request.query.start.position;
+    const Eigen::Vector2d& start = asked.request.query.start.flat.position;
     if ((m.situation.state.head<2>() - start).norm() > kDriftM) {
       return planFromRest(m);
     }

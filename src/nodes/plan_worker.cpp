@@ -97,8 +97,9 @@ std::vector<Eigen::Vector2d> PlanWorker::guidePath(const Task& task) {
   }
   const planner::Query& query = task.request.query;
   FindGuidePath call;
-  call.request.start = poseMessage(query.start.position, query.start_psi_rad);
-  call.request.goal = poseMessage(query.goal, query.goal_psi_rad);
+  call.request.start = poseMessage(query.start.flat.position, query.start.psi_rad);
+  call.request.goal = poseMessage(query.goal.flat.position, query.goal.psi_rad);
+  call.request.clearance = task.request.limits.clearance_m;
   call.request.map_stamp = task.map_stamp;
   if (!topology_.isValid() || !topology_.call(call)) {
     ROS_WARN_THROTTLE(10.0, "find_guide_path does not answer; the planner finds its own way");

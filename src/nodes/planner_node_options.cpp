@@ -1,4 +1,5 @@
 #include "map_options.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/share.hpp"
 #include "planner_node.hpp"
 
@@ -8,8 +9,8 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   const Status node = config::readFields(section, setup.node);
   const auto field = readDistanceFieldOptions(section.child("distance_field"));
   const auto supervisor = mission::readSupervisorOptions(section.child("supervisor"));
-  const auto planner = planner::readOptions(section.child("planner"));
-  const auto topology = topology::readOptions(section.child("topology"));
+  const auto planner = config::read<planner::Options>(section.child("planner"));
+  const auto topology = config::read<topology::Options>(section.child("topology"));
   config::Section optimizer = section.child("optimizer");
   const auto local = optimizer::readLocalOptions(optimizer.child("local"));
   const auto global = optimizer::readGlobalOptions(optimizer.child("global"));

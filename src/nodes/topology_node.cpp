@@ -4,6 +4,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "map_options.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/guide_paths.hpp"
@@ -30,7 +31,8 @@ Result<topology::Pose> toPose(const geometry_msgs::PoseStamped& message, const c
 Result<std::unique_ptr<TopologyNode>> TopologyNode::create(config::Section section) {
   const Result<map::DistanceFieldOptions> field =
       readDistanceFieldOptions(section.child("distance_field"));
-  const Result<topology::Options> options = topology::readOptions(section.child("topology"));
+  const Result<topology::Options> options =
+      config::read<topology::Options>(section.child("topology"));
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);
   }
@@ -101,7 +103,8 @@ Result<topology::GuidePath> TopologyNode::find(const FindGuidePath::Request& req
                              [&] { return map_.ready() && map_.stamp() >= request.map_stamp; })) {
     return failure(map_.ready() ? "the map is older than asked for" : "there is no map yet");
   }
-  return finder_.find(map_.field(), *start, *goal);
+  return finder_.find(map_.field(), *start, *goal,
+                      request.clearance > 0.0 ? request.clearance : topology::kNarrowestM);
 }
 
 }  // namespace otter_nav::nodes

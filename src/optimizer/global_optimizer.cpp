@@ -19,6 +19,9 @@ namespace {
 // An attempt that after so many rounds still exceeds a limit by this share is given up.
 constexpr int kPatience = 2;
 constexpr double kHopeless = 0.5;
+// Of the limits of thrust and yaw rate, on the spot.
+constexpr double kSpinShare = 0.97;
+constexpr double kTurnShare = 0.905;
 
 }  // namespace
 
@@ -27,21 +30,10 @@ class GlobalOptimizer::Solver {
   Solver(const GlobalOptions& options, const vessel::Parameters& vessel)
       : options_(options), vessel_(vessel), problem_(vessel), initial_(vessel) {}
 
-  [[nodiscard]] feasibility::CheckOptions checkOptions(double clearance_m) const {
-    feasibility::CheckOptions check;
-    check.clearance_m = clearance_m > 0.0 ? clearance_m : options_.clearance_m;
-    check.check_hull = options_.keep_hull_clear;
-    check.thrust_share = options_.thrust_share;
-    check.speed_max_mps = options_.speed_max_mps * 1.01;
-    check.yaw_rate_max_radps = std::max(options_.yaw_rate_max_radps * 1.05, kSpinRateMax);
-    check.heading_force_min_n = 0.4 * options_.heading_force_min_n;
-    return check;
-  }
-
   Result<Optimized> run(const feasibility::Obstacles& obstacles,
                         const std::vector<Eigen::Vector2d>& way, const trajectory::Boundary& start,
                         const trajectory::Boundary& goal, const Budget& budget,
-                        double clearance_m) {
+                        const feasibility::SafetyLimits& limits) {
     if (way.size() < 2) {
       return failure("the way to optimise has " + std::to_string(way.size()) +
                      " points, at least 2 are needed");
@@ -50,7 +42,7 @@ class GlobalOptimizer::Solver {
     start_ = &start;
     goal_ = &goal;
     budget_ = &budget;
-    check_ = checkOptions(clearance_m);
+    limits_ = limits;
     result_ = Optimized();
     for (int i = 0; i < std::min(budget.max_attempts, kAttempts); ++i) {
       if (attempt(way, i)) {
@@ -69,12 +61,11 @@ class GlobalOptimizer::Solver {
   Result<Optimized> stopAndSpin(const feasibility::Obstacles& obstacles,
                                 const std::vector<Eigen::Vector2d>& way,
                                 const trajectory::Boundary& start, const trajectory::Boundary& goal,
-                                double clearance_m) const {
-    const feasibility::CheckOptions check = checkOptions(clearance_m);
+                                const feasibility::SafetyLimits& limits) const {
     Optimized plain;
-    plain.trajectory = StopAndSpin(vessel_, spinLimits(), check).follow(way, start, goal);
+    plain.trajectory = StopAndSpin(vessel_, spinLimits(limits), limits).follow(way, start, goal);
     plain.verification =
-        feasibility::verify(plain.trajectory, obstacles.field(), vessel_, start, goal, check);
+        feasibility::verify(plain.trajectory, obstacles, vessel_, start, goal, limits);
     plain.last_resort = true;
     if (!plain.verification.ok) {
       return failure("following the way from stop to stop failed: " + plain.verification.reason);
@@ -83,22 +74,21 @@ class GlobalOptimizer::Solver {
   }
 
  private:
-  static constexpr double kSpinRateMax = 2.0;
-
   [[nodiscard]] bool outOfTime() const {
     return result_.iterations >= budget_->max_iterations ||
            (budget_->elapsed_s && budget_->elapsed_s() >= budget_->budget_s);
   }
 
-  [[nodiscard]] SpinLimits spinLimits() const {
-    SpinLimits limits;
-    limits.thrust_share = std::min(options_.spin_thrust_share, options_.thrust_share);
-    return limits;
+  [[nodiscard]] static SpinLimits spinLimits(const feasibility::SafetyLimits& limits) {
+    SpinLimits spin;
+    spin.thrust_share = kSpinShare * limits.thrust_share;
+    spin.yaw_rate_max_radps = kTurnShare * limits.yaw_rate_max_radps;
+    return spin;
   }
 
   void aim(int attempt) {
     const Aims aims =
-        aimsOf(attempt, options_, vessel_, check_, obstacles_->field().geometry().resolution_m);
+        aimsOf(attempt, options_, vessel_, limits_, obstacles_->field().geometry().resolution_m);
     problem_.targets.limits = aims.limits;
     problem_.targets.weights = aims.weights;
     problem_.targets.obstacles = obstacles_;
@@ -127,7 +117,7 @@ class GlobalOptimizer::Solver {
         return true;
       }
       const bool hopeless =
-          round >= kPatience && worstExcess(result_.trajectory, vessel_, check_) > kHopeless;
+          round >= kPatience && worstExcess(result_.trajectory, vessel_, limits_) > kHopeless;
       if (hopeless || outOfTime()) {
         return false;
       }
@@ -199,28 +189,28 @@ class GlobalOptimizer::Solver {
     const Spline shape = spline_;
     result_.trajectory = assemble(chosen_, spline_);
     for (int i = 0; i < kTries; ++i) {
-      const double excess = worstExcess(result_.trajectory, vessel_, check_);
+      const double excess = worstExcess(result_.trajectory, vessel_, limits_);
       if (excess <= 0.0 || excess > dilation_max) {
         break;
       }
       dilate(1.0 + 0.7 * excess + 0.001, spline_);
       result_.trajectory = assemble(chosen_, spline_);
     }
-    result_.verification = feasibility::verify(result_.trajectory, obstacles_->field(), vessel_,
-                                               *start_, *goal_, check_);
+    result_.verification =
+        feasibility::verify(result_.trajectory, *obstacles_, vessel_, *start_, *goal_, limits_);
     spline_ = shape;
   }
 
   // What failed is aimed at more strictly, and its weight raised.
   void tighten() {
     const feasibility::Verification& v = result_.verification;
-    if (v.thrust_share > check_.thrust_share) {
-      const double excess = std::min(v.thrust_share - check_.thrust_share, 0.04);
+    if (v.thrust_share > limits_.thrust_share) {
+      const double excess = std::min(v.thrust_share - limits_.thrust_share, 0.04);
       problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
       problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
       problem_.targets.weights.dynamics *= options_.weight_growth;
     } else {
-      const double missing = check_.clearance_m - v.clearance_m;
+      const double missing = limits_.clearance_m - v.clearance_m;
       problem_.targets.limits.clearance_m += std::clamp(missing + 0.02, 0.02, 0.2);
       problem_.targets.limits.hull_clearance_m += 0.03;
       problem_.targets.weights.clearance *= options_.weight_growth;
@@ -234,7 +224,7 @@ class GlobalOptimizer::Solver {
       return failure("optimisation from a moving start failed: " + reason);
     }
     const int iterations = result_.iterations;
-    auto plain = stopAndSpin(*obstacles_, way, *start_, *goal_, check_.clearance_m);
+    auto plain = stopAndSpin(*obstacles_, way, *start_, *goal_, limits_);
     if (!plain) {
       return failure("optimisation failed: " + reason + "; " + plain.error().message);
     }
@@ -250,10 +240,10 @@ class GlobalOptimizer::Solver {
   Spline spline_;
   Originals originals_;
   EndOptions end_options_;
-  EndChooser chooser_{vessel_, check_, end_options_};
+  EndChooser chooser_{vessel_, limits_, end_options_};
   ChosenEnds chosen_;
   Optimized result_;
-  feasibility::CheckOptions check_;
+  feasibility::SafetyLimits limits_;
   const feasibility::Obstacles* obstacles_ = nullptr;
   const trajectory::Boundary* start_ = nullptr;
   const trajectory::Boundary* goal_ = nullptr;
@@ -281,15 +271,15 @@ Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstac
                                             const std::vector<Eigen::Vector2d>& way,
                                             const trajectory::Boundary& start,
                                             const trajectory::Boundary& goal, const Budget& budget,
-                                            double clearance_m) {
-  return solver_->run(obstacles, way, start, goal, budget, clearance_m);
+                                            const feasibility::SafetyLimits& limits) {
+  return solver_->run(obstacles, way, start, goal, budget, limits);
 }
 
 Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstacles,
                                             const trajectory::Trajectory& initial,
                                             const trajectory::Boundary& start,
                                             const trajectory::Boundary& goal, const Budget& budget,
-                                            double clearance_m) {
+                                            const feasibility::SafetyLimits& limits) {
   std::vector<Eigen::Vector2d> way;
   for (const trajectory::Piece& piece : initial.pieces()) {
     constexpr int kParts = 6;
@@ -298,19 +288,15 @@ Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstac
     }
   }
   way.push_back(goal.flat.position);
-  return solver_->run(obstacles, way, start, goal, budget, clearance_m);
+  return solver_->run(obstacles, way, start, goal, budget, limits);
 }
 
 Result<Optimized> GlobalOptimizer::stopAndSpin(const feasibility::Obstacles& obstacles,
                                                const std::vector<Eigen::Vector2d>& way,
                                                const trajectory::Boundary& start,
                                                const trajectory::Boundary& goal,
-                                               double clearance_m) {
-  return solver_->stopAndSpin(obstacles, way, start, goal, clearance_m);
-}
-
-feasibility::CheckOptions GlobalOptimizer::checkOptions(double clearance_m) const {
-  return solver_->checkOptions(clearance_m);
+                                               const feasibility::SafetyLimits& limits) {
+  return solver_->stopAndSpin(obstacles, way, start, goal, limits);
 }
 
 }  // namespace otter_nav::optimizer

@@ -35,9 +35,10 @@ LocalOptimizer::LocalOptimizer(const LocalOptions& options, const vessel::Parame
 
 // Guidance points (f_c): each colliding stretch moves aside as a whole, square to its course, to
 // the side where it has less far to go.
-void LocalOptimizer::guideStretch(const map::DistanceField& field, const States& states, int first,
-                                  int last, double weight, Pulls& pulls) const {
-  const double safe = options_.clearance_m + options_.clearance_margin_m +
+void LocalOptimizer::guideStretch(const feasibility::EdgeCheck& check, const States& states,
+                                  int first, int last, double weight, Pulls& pulls) const {
+  const map::DistanceField& field = check.obstacles().field();
+  const double safe = check.clearance() + options_.clearance_margin_m +
                       kSquareCells * field.geometry().resolution_m;
   std::array<Eigen::Vector2d, kMaxSegments * kPoints> best;
   double best_m = options_.push_max_m;
@@ -75,11 +76,12 @@ void LocalOptimizer::guideStretch(const map::DistanceField& field, const States&
 
 // Each point is drawn to where it was (f_o); a colliding one instead to its guidance point (f_c);
 // one beyond a limit to the limit (f_d).
-void LocalOptimizer::pullTowards(const map::DistanceField& field, const Knots& knots, double step_s,
-                                 double growth, Pulls& pulls) const {
-  const double need = options_.clearance_m + 0.5 * options_.clearance_margin_m +
+void LocalOptimizer::pullTowards(const feasibility::EdgeCheck& check, const Knots& knots,
+                                 double step_s, double growth, Pulls& pulls) const {
+  const map::DistanceField& field = check.obstacles().field();
+  const double need = check.clearance() + 0.5 * options_.clearance_margin_m +
                       kSquareCells * field.geometry().resolution_m;
-  const double force = options_.force_share * 2.0 * vessel_.thrusters.ahead_max_n;
+  const double force = check.forceMax();
   const vessel::InverseDynamics inverse(vessel_);
   const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
   States states;
@@ -101,13 +103,13 @@ void LocalOptimizer::pullTowards(const map::DistanceField& field, const Knots& k
       stretch = i;
     }
     if (stretch >= 0 && (!collides || i + 1 == count)) {
-      guideStretch(field, states, stretch, collides ? i : i - 1, options_.weight_clearance * growth,
+      guideStretch(check, states, stretch, collides ? i : i - 1, options_.weight_clearance * growth,
                    pulls);
       stretch = -1;
     }
     const double speed = z.col(1).norm();
-    if (speed > options_.speed_max_mps) {
-      pull.target.col(1) = 0.95 * options_.speed_max_mps / speed * z.col(1);
+    if (speed > check.speedMax()) {
+      pull.target.col(1) = 0.95 * check.speedMax() / speed * z.col(1);
       pull.weight[1] = options_.weight_dynamics * growth;
     }
     const double asked = inverse.surgeForce(z.col(1), z.col(2)).norm();
@@ -164,22 +166,24 @@ void LocalOptimizer::solve(const Pulls& pulls, double step_s, Knots& knots) cons
   }
 }
 
-bool LocalOptimizer::accept(const map::DistanceField& field, const Knots& knots, double step_s,
-                            RepairedEdge& repaired, EdgeFault& fault) const {
+feasibility::EdgeFault LocalOptimizer::join(const feasibility::EdgeCheck& check, const Knots& knots,
+                                            double start_s, double step_s,
+                                            RepairedEdge& repaired) const {
   repaired.count = options_.segments;
   repaired.duration_s = step_s * options_.segments;
   for (std::size_t i = 0; i < static_cast<std::size_t>(options_.segments); ++i) {
     repaired.pieces[i] = trajectory::quinticPiece(knots[i], knots[i + 1], step_s);
-    fault = check(field, repaired.pieces[i]).fault;
-    if (fault != EdgeFault::kNone) {
-      return false;
+    const feasibility::EdgeFault fault =
+        check.checkBent(repaired.pieces[i], start_s + step_s * static_cast<double>(i));
+    if (fault != feasibility::EdgeFault::kNone) {
+      return fault;
     }
   }
-  return true;
+  return feasibility::EdgeFault::kNone;
 }
 
-bool LocalOptimizer::repair(const map::DistanceField& field, const trajectory::Piece& edge,
-                            RepairedEdge& repaired) const {
+bool LocalOptimizer::repair(const feasibility::EdgeCheck& check, const trajectory::Piece& edge,
+                            double start_s, RepairedEdge& repaired) const {
   const auto n = static_cast<std::size_t>(options_.segments);
   double step = edge.duration_s / static_cast<double>(n);
   Knots knots;
@@ -198,13 +202,13 @@ bool LocalOptimizer::repair(const map::DistanceField& field, const trajectory::P
   }
   double growth = 1.0;
   for (int attempt = 0; attempt < options_.attempts; ++attempt) {
-    pullTowards(field, knots, step, growth, pulls);
+    pullTowards(check, knots, step, growth, pulls);
     solve(pulls, step, knots);
-    EdgeFault fault = EdgeFault::kNone;
-    if (accept(field, knots, step, repaired, fault)) {
+    const feasibility::EdgeFault fault = join(check, knots, start_s, step, repaired);
+    if (fault == feasibility::EdgeFault::kNone) {
       return true;
     }
-    if (fault != EdgeFault::kClearance) {
+    if (fault != feasibility::EdgeFault::kClearance) {
       step *= kStretch;
     }
     growth *= options_.weight_growth;

@@ -1,4 +1,4 @@
-#include "otter_nav/planner/guide_line.hpp"
+#include "planner/guide_line.hpp"
 
 #include <algorithm>
 #include <cmath>

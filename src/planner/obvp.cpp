@@ -1,4 +1,4 @@
-#include "otter_nav/planner/obvp.hpp"
+#include "planner/obvp.hpp"
 
 #include <array>
 #include <cmath>

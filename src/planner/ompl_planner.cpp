@@ -43,7 +43,7 @@ ob::PlannerStatus statusOf(Outcome outcome) {
       return ob::PlannerStatus::INVALID_GOAL;
     case Outcome::kTimeUp:
       return ob::PlannerStatus::TIMEOUT;
-    case Outcome::kNoWay:
+    case Outcome::kNoPath:
       break;
   }
   return ob::PlannerStatus::ABORT;
@@ -91,10 +91,11 @@ ob::PlannerStatus OmplPlanner::solve(const ob::PlannerTerminationCondition& stop
   const topology::Pose from = adapter_.pose(start);
   const topology::Pose to = adapter_.pose(goal->getState());
   Query query;
-  query.start.position = from.position;
-  query.start_psi_rad = from.psi_rad;
-  query.goal = to.position;
-  query.goal_psi_rad = to.psi_rad;
+  query.start.flat.position = from.position;
+  query.start.psi_rad = from.psi_rad;
+  query.goal.flat.position = to.position;
+  query.goal.psi_rad = to.psi_rad;
+  query.limits = feasibility::SafetyLimits::of(vessel_);
   query.seed = seed_;
   plan_ = planner_.plan(*field_, query, fromOmpl(stop));
   if (plan_.outcome == Outcome::kSolved) {

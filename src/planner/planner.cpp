@@ -1,10 +1,407 @@
 #include "otter_nav/planner/planner.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <utility>
 
-#include "pipeline.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/optimizer/global_optimizer.hpp"
+#include "otter_nav/topology/guide_path.hpp"
+#include "planner/fallback.hpp"
+#include "planner/guide_line.hpp"
+#include "planner/sampler.hpp"
+#include "planner/search.hpp"
 
 namespace otter_nav::planner {
+namespace {
+
+// Beyond the clearance, that the guide line is pushed out to.
+constexpr double kRoomM = 0.7;
+constexpr double kSampleSpeedShare = 0.867;  // of the speed limit, along the guide line
+constexpr double kNearM = 0.3;               // a goal nearer than this needs no search
+
+std::string describe(const Eigen::Vector2d& p) {
+  std::ostringstream text;
+  text.precision(5);
+  text << "(" << p.x() << ", " << p.y() << ") m";
+  return text.str();
+}
+
+// Why a vessel can't begin or end there, or nothing.
+std::string blocked(const feasibility::Obstacles& obstacles, const trajectory::Boundary& end,
+                    double clearance_m) {
+  const Eigen::Vector2d& p = end.flat.position;
+  if (!p.allFinite() || !std::isfinite(end.psi_rad)) {
+    return "is not a finite pose";
+  }
+  if (!obstacles.field().geometry().contains(p)) {
+    return describe(p) + " is outside the map";
+  }
+  const double clearance = obstacles.field().clearance(p);
+  if (clearance < clearance_m) {
+    std::ostringstream text;
+    text.precision(3);
+    text << describe(p) << " is " << clearance << " m from an obstacle, " << clearance_m
+         << " m are asked for";
+    return text.str();
+  }
+  return "";
+}
+
+double costOf(const trajectory::Trajectory& trajectory, double sigma) {
+  double cost = 0.0;
+  for (const trajectory::Piece& piece : trajectory.pieces()) {
+    cost += pieceCost(piece, sigma);
+  }
+  return cost;
+}
+
+KinoState stateOf(const trajectory::Boundary& end) {
+  return {end.flat.position, end.flat.velocity, end.flat.acceleration};
+}
+
+}  // namespace
+
+// The planner's stages for one query, in order.
+class Planner::Pipeline {
+ public:
+  Pipeline(const Options& options, const vessel::Parameters& vessel)
+      : options_(options),
+        vessel_(vessel),
+        finder_(options.topology),
+        search_({options.sigma, options.max_nodes, options.local_optimization}, options.local,
+                vessel),
+        optimizer_(options.global, vessel) {}
+
+  Plan plan(const feasibility::Obstacles& obstacles, const Query& query,
+            const Termination& termination) {
+    Run run{obstacles, query, termination};
+    run.samples_left = termination.max_iterations;
+    const double began = run.now();
+    if (checkEnds(run) && !planNearby(run) && findGuide(run)) {
+      tryWarmStart(run);
+      buildLine(run);
+      const int attempts = std::max(options_.max_attempts, options_.improve_attempts + 1);
+      for (int attempt = 0; attempt < attempts && !done(run); ++attempt) {
+        attemptOnce(run, attempt);
+      }
+      keepTrees(run);
+    }
+    conclude(run);
+    run.plan.figures.total_ms = 1e3 * (run.now() - began);
+    return std::move(run.plan);
+  }
+
+ private:
+  // What one query's stages share.
+  struct Run {
+    const feasibility::Obstacles& obstacles;
+    const Query& query;
+    const Termination& termination;
+    Plan plan;
+    int samples_left = 0;
+    bool fallback = false;  // the plan so far could not be optimised
+
+    [[nodiscard]] double now() const {
+      return termination.elapsed_s ? termination.elapsed_s() : 0.0;
+    }
+    [[nodiscard]] bool timeUp() const {
+      return termination.elapsed_s && termination.elapsed_s() >= termination.budget_s;
+    }
+    [[nodiscard]] bool solved() const { return plan.outcome == Outcome::kSolved; }
+    [[nodiscard]] optimizer::Budget budget() const {
+      optimizer::Budget budget;
+      budget.elapsed_s = termination.elapsed_s;
+      budget.budget_s = termination.budget_s;
+      return budget;
+    }
+  };
+
+  // Where the trees begin: at the ends themselves where the whole will be optimised, as which way
+  // to leave is chosen there; without it, after a straight launch and before a straight stop.
+  enum class Roots { kAtEnds, kLaunched };
+
+  static bool checkEnds(Run& run) {
+    const double clearance = run.query.limits.clearance_m;
+    if (const std::string why = blocked(run.obstacles, run.query.start, clearance); !why.empty()) {
+      run.plan.outcome = Outcome::kStartBlocked;
+      run.plan.reason = "the start " + why;
+      return false;
+    }
+    if (const std::string why = blocked(run.obstacles, run.query.goal, clearance); !why.empty()) {
+      run.plan.outcome = Outcome::kGoalBlocked;
+      run.plan.reason = "the goal " + why;
+      return false;
+    }
+    return true;
+  }
+
+  // A goal within reach of the hull: straight there, turning on the spot.
+  bool planNearby(Run& run) {
+    const Query& query = run.query;
+    const std::vector<Eigen::Vector2d> line = {query.start.flat.position, query.goal.flat.position};
+    if (!trajectory::atRest(query.start) || (line[1] - line[0]).norm() > kNearM) {
+      return false;
+    }
+    const double began = run.now();
+    auto nearby =
+        optimizer_.stopAndSpin(run.obstacles, line, query.start, query.goal, query.limits);
+    run.plan.figures.optimize_ms += 1e3 * (run.now() - began);
+    if (nearby) {
+      accept(run, std::move(nearby->trajectory), false);
+    }
+    return nearby.has_value();
+  }
+
+  bool findGuide(Run& run) {
+    const Query& query = run.query;
+    const vessel::FlatPoint& from = query.start.flat;
+    if (query.guide_path.size() >= 2) {
+      guide_.points = query.guide_path;
+      guide_.points.front() = from.position;
+      guide_.points.back() = query.goal.flat.position;
+      return true;
+    }
+    const double began = run.now();
+    const double psi = from.velocity.norm() > 0.1 ? std::atan2(from.velocity.y(), from.velocity.x())
+                                                  : query.start.psi_rad;
+    const auto found = finder_.find(run.obstacles.field(), {from.position, psi},
+                                    {query.goal.flat.position, query.goal.psi_rad}, guide_,
+                                    query.limits.clearance_m);
+    run.plan.figures.guide_ms = 1e3 * (run.now() - began);
+    if (!found) {
+      run.plan.reason = found.error().message;
+      run.plan.outcome =
+          found.error().failure == topology::Failure::kStartBlocked  ? Outcome::kStartBlocked
+          : found.error().failure == topology::Failure::kGoalBlocked ? Outcome::kGoalBlocked
+                                                                     : Outcome::kNoPath;
+    }
+    return found.has_value();
+  }
+
+  // What is being sailed stays a candidate, improved if that can be done.
+  void tryWarmStart(Run& run) {
+    const Query& query = run.query;
+    if (query.warm_start.empty()) {
+      return;
+    }
+    const double began = run.now();
+    const auto verification = feasibility::verify(query.warm_start, run.obstacles, vessel_,
+                                                  query.start, query.goal, query.limits);
+    run.plan.figures.verify_ms += 1e3 * (run.now() - began);
+    if (verification.ok) {
+      accept(run, query.warm_start, false);
+    }
+  }
+
+  void buildLine(const Run& run) {
+    const feasibility::SafetyLimits& limits = run.query.limits;
+    GuideLineOptions line;
+    line.speed_mps = kSampleSpeedShare * limits.speed_max_mps;
+    line.speed_start_mps = run.query.start.flat.velocity.norm();
+    line.force_ahead_n = 2.0 * limits.thrust_share * vessel_.thrusters.ahead_max_n;
+    line.corridor_m = options_.corridor_m;
+    line.safe_distance_m = limits.clearance_m + kRoomM;
+    line_.build(guide_.points, run.obstacles.field(), vessel_, line);
+  }
+
+  [[nodiscard]] bool done(const Run& run) const {
+    const bool sound = run.solved() && !run.fallback;
+    const bool improve = run.plan.figures.attempts <= options_.improve_attempts;
+    return run.timeUp() || run.samples_left <= 0 || (sound && !improve);
+  }
+
+  // A tree's path, optimised; failing that the guide path, and failing that the tree's path made
+  // feasible by the least that will do. Later attempts draw other samples.
+  void attemptOnce(Run& run, int attempt) {
+    ++run.plan.figures.attempts;
+    if (!options_.global_optimization) {
+      if (searchTrees(run, attempt, Roots::kLaunched)) {
+        closeTreesPath(run);
+      }
+      return;
+    }
+    if (searchTrees(run, attempt, Roots::kAtEnds)) {
+      run.plan.figures.tree_cost = search_.bestCost();
+      optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
+    }
+    if (attempt == 0 && !done(run)) {
+      optimizeGuide(run);
+    }
+    if (!done(run) && !run.query.warm_start.empty() && attempt == 0) {
+      optimizeTrajectory(run, run.query.warm_start);
+    }
+    const bool poor = !run.solved() || (run.fallback && attempt == 0);
+    if (poor && !run.timeUp() && searchTrees(run, attempt, Roots::kLaunched)) {
+      closeTreesPath(run);
+    }
+  }
+
+  void placeRoots(const Run& run, Roots roots) {
+    const feasibility::SafetyLimits& limits = run.query.limits;
+    KinoState start = stateOf(run.query.start);
+    KinoState goal = stateOf(run.query.goal);
+    launch_.reset();
+    stop_.reset();
+    if (roots == Roots::kLaunched) {
+      stop_ = stopAt(goal.position, line_.at(line_.length()).direction, limits.speed_max_mps);
+      goal = stop_->root;
+      if (trajectory::atRest(run.query.start)) {
+        launch_ = launchFrom(start.position, line_.at(0.0).direction, limits.speed_max_mps);
+        start = launch_->root;
+      }
+    }
+    search_.reset(run.obstacles, limits, start, goal);
+  }
+
+  // Samples until the trees meet, then improve_samples more.
+  bool searchTrees(Run& run, int attempt, Roots roots) {
+    const double began = run.now();
+    placeRoots(run, roots);
+    SamplerOptions options;
+    options.key_spacing_m /= 1.0 + 0.5 * attempt;
+    options.uniform_share = options_.uniform_share;
+    options.speed_max_mps = kSampleSpeedShare * run.query.limits.speed_max_mps;
+    Sampler sampler(options, line_, run.obstacles.field(),
+                    run.query.seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(attempt));
+    search_.joinRoots();
+    int budget = std::min(run.samples_left, options_.attempt_samples);
+    int improving = options_.improve_samples;
+    while (budget-- > 0 && !run.timeUp()) {
+      if (search_.solved() && improving-- <= 0) {
+        break;
+      }
+      search_.extend(sampler.next());
+      if (search_.solved() && run.plan.figures.first_solution_ms == 0.0) {
+        run.plan.figures.first_solution_ms = 1e3 * run.now();
+      }
+    }
+    const SearchCounts counts = search_.counts();
+    Figures& figures = run.plan.figures;
+    figures.samples += counts.samples;
+    figures.nodes += counts.joined;
+    figures.local_repairs += counts.repairs;
+    figures.tree_ms += 1e3 * (run.now() - began);
+    run.samples_left -= counts.samples;
+    return search_.solved();
+  }
+
+  void closeTreesPath(Run& run) {
+    const double began = run.now();
+    std::vector<trajectory::Piece> whole;
+    if (launch_) {
+      whole.push_back(launch_->piece);
+    }
+    const std::vector<trajectory::Piece> path = search_.recall();
+    whole.insert(whole.end(), path.begin(), path.end());
+    whole.push_back(stop_->piece);
+    run.plan.figures.tree_cost = search_.bestCost();
+    auto closed =
+        closePath(whole, run.query.start, run.query.goal, run.obstacles, vessel_, run.query.limits);
+    run.plan.figures.verify_ms += 1e3 * (run.now() - began);
+    if (closed) {
+      accept(run, std::move(*closed), options_.global_optimization);
+    } else if (!run.solved()) {
+      run.plan.reason = closed.error().message;
+    }
+  }
+
+  // One attempt only: the guide path is a better second one.
+  void optimizeTrajectory(Run& run, const trajectory::Trajectory& initial) {
+    const double began = run.now();
+    optimizer::Budget budget = run.budget();
+    budget.max_attempts = 1;
+    take(run, began,
+         optimizer_.optimize(run.obstacles, initial, run.query.start, run.query.goal, budget,
+                             run.query.limits));
+  }
+
+  // The tree's path could not be made feasible: the guide path itself may be.
+  void optimizeGuide(Run& run) {
+    const double began = run.now();
+    const std::string reason = run.plan.reason;
+    take(run, began,
+         optimizer_.optimize(run.obstacles, guide_.points, run.query.start, run.query.goal,
+                             run.budget(), run.query.limits));
+    run.plan.reason = reason;  // of the tree's path, if both fail
+  }
+
+  void take(Run& run, double began_s, Result<optimizer::Optimized> optimized) const {
+    run.plan.figures.optimize_ms += 1e3 * (run.now() - began_s);
+    if (optimized) {
+      run.plan.figures.iterations += optimized->iterations;
+      accept(run, std::move(optimized->trajectory), optimized->last_resort);
+    } else if (!run.solved()) {
+      run.plan.reason = optimized.error().message;
+    }
+  }
+
+  // The best by J, the search's own measure. A fallback (from stop to stop, or slowed down) is
+  // better than nothing, and worse than anything optimised.
+  void accept(Run& run, trajectory::Trajectory trajectory, bool fallback) const {
+    const double cost = costOf(trajectory, options_.sigma);
+    const bool better = fallback == run.fallback ? cost < run.plan.figures.cost : run.fallback;
+    if (run.solved() && !better) {
+      return;
+    }
+    run.fallback = fallback;
+    run.plan.figures.cost = cost;
+    run.plan.trajectory = std::move(trajectory);
+    run.plan.outcome = Outcome::kSolved;
+  }
+
+  static void conclude(Run& run) {
+    Figures& figures = run.plan.figures;
+    figures.node_utilization =
+        figures.samples > 0 ? static_cast<double>(figures.nodes) / figures.samples : 0.0;
+    if (run.solved()) {
+      run.plan.reason.clear();
+      figures.length_m = trajectory::length(run.plan.trajectory);
+      figures.duration_s = run.plan.trajectory.duration();
+    } else if (run.timeUp()) {
+      run.plan.outcome = Outcome::kTimeUp;
+      run.plan.reason = "the time is up" + (run.plan.reason.empty() ? "" : ": " + run.plan.reason);
+    } else if (run.plan.reason.empty()) {
+      run.plan.reason = "no path was found in " + std::to_string(figures.samples) + " samples";
+    }
+  }
+
+  void keepTrees(Run& run) const {
+    if (!options_.keep_trees) {
+      return;
+    }
+    constexpr int kPointsPerPiece = 8;
+    run.plan.guide_path = guide_.points;
+    std::vector<trajectory::Piece> pieces;
+    for (const Tree* tree : {&search_.fromStart(), &search_.toGoal()}) {
+      for (int i = 1; i < tree->size(); ++i) {
+        pieces.clear();
+        search_.appendEdge(*tree, i, pieces);
+        Plan::Branch branch;
+        branch.from_goal = tree->direction() == Direction::kToRoot;
+        for (const trajectory::Piece& piece : pieces) {
+          for (int k = 0; k <= kPointsPerPiece; ++k) {
+            branch.points.push_back(piece.flat(piece.duration_s * k / kPointsPerPiece).position);
+          }
+        }
+        run.plan.trees.push_back(std::move(branch));
+      }
+    }
+  }
+
+  Options options_;
+  vessel::Parameters vessel_;
+  topology::GuidePathFinder finder_;
+  topology::GuidePath guide_;
+  GuideLine line_;
+  Search search_;
+  std::optional<Launch> launch_;
+  std::optional<Launch> stop_;
+  optimizer::GlobalOptimizer optimizer_;
+};
 
 Termination wallClock(double budget_s, int max_iterations) {
   const auto start = std::chrono::steady_clock::now();
@@ -25,7 +422,7 @@ const char* toString(Outcome outcome) {
       return "start blocked";
     case Outcome::kGoalBlocked:
       return "goal blocked";
-    case Outcome::kNoWay:
+    case Outcome::kNoPath:
       return "no way";
     case Outcome::kTimeUp:
       return "time up";
@@ -39,9 +436,9 @@ Planner::~Planner() = default;
 Planner::Planner(Planner&&) noexcept = default;
 Planner& Planner::operator=(Planner&&) noexcept = default;
 
-Plan Planner::plan(const map::DistanceField& field, const Query& query,
+Plan Planner::plan(const feasibility::Obstacles& obstacles, const Query& query,
                    const Termination& termination) {
-  return pipeline_->plan(field, query, termination);
+  return pipeline_->plan(obstacles, query, termination);
 }
 
 }  // namespace otter_nav::planner

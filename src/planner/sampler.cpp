@@ -1,4 +1,4 @@
-#include "otter_nav/planner/sampler.hpp"
+#include "planner/sampler.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "otter_nav/planner/search.hpp"
+#include "planner/search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,8 @@ namespace otter_nav::planner {
 namespace {
 
 constexpr int kPiecesPerNode = 4;
+constexpr int kRepairsPerSample = 1;  // and tree
+constexpr double kEdgeMaxM = 30.0;    // between two states
 constexpr double kWorthRewiring = 1e-6;
 
 }  // namespace
@@ -15,18 +17,17 @@ constexpr double kWorthRewiring = 1e-6;
 Search::Search(const SearchOptions& options, const optimizer::LocalOptions& local,
                const vessel::Parameters& vessel)
     : options_(options),
-      check_(options.limits, vessel),
-      local_(local, vessel),
+      check_(vessel),
+      local_(local),
       from_start_(Direction::kFromRoot, options.max_nodes),
       to_goal_(Direction::kToRoot, options.max_nodes) {
-  options_.neighbours = std::clamp(options.neighbours, 1, kMaxNeighbours);
   pieces_.reserve(static_cast<std::size_t>(options.max_nodes) * kPiecesPerNode);
   meetings_.reserve(static_cast<std::size_t>(options.max_nodes));
 }
 
-void Search::reset(const map::DistanceField& field, const KinoState& start, const KinoState& goal) {
-  field_ = &field;
-  check_.setField(field);
+void Search::reset(const feasibility::Obstacles& obstacles, const feasibility::SafetyLimits& limits,
+                   const KinoState& start, const KinoState& goal) {
+  check_.begin(obstacles, limits);
   from_start_.reset(start);
   to_goal_.reset(goal);
   pieces_.clear();
@@ -35,16 +36,10 @@ void Search::reset(const map::DistanceField& field, const KinoState& start, cons
   counts_ = SearchCounts{};
 }
 
-void Search::setLimits(const feasibility::EdgeLimits& limits) {
-  options_.limits = limits;
-  check_.setLimits(limits);
-  local_.setClearance(limits.clearance_m);
-}
-
 bool Search::joinRoots() {
   const KinoState& start = from_start_.node(0).state;
   const KinoState& goal = to_goal_.node(0).state;
-  if ((goal.position - start.position).norm() > options_.edge_max_m) {
+  if ((goal.position - start.position).norm() > kEdgeMaxM) {
     return false;
   }
   const auto steered = steer(start, goal, options_.sigma);
@@ -82,19 +77,19 @@ bool Search::extend(const KinoState& sample) {
 }
 
 // The nodes through which the sample could be reached at least cost, were the sea empty: cost so
-// far plus sigma times the time the straight way takes at full speed. A heap holds the best.
+// far plus sigma times the time the straight line takes at full speed. A heap holds the best.
 int Search::findNeighbours(const Tree& tree, const KinoState& sample) {
   const auto worse = [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; };
-  const double per_metre = options_.sigma / options_.limits.speed_max_mps;
+  const double per_metre = options_.sigma / check_.speedMax();
   int found = 0;
   for (int i = 0; i < tree.size(); ++i) {
     const Node& node = tree.node(i);
     const double distance = (node.state.position - sample.position).norm();
-    if (distance > options_.edge_max_m) {
+    if (distance > kEdgeMaxM) {
       continue;
     }
     const double bound = node.cost + per_metre * distance;
-    if (found == options_.neighbours) {
+    if (found == kNeighbours) {
       if (bound >= candidates_[0].bound) {
         continue;
       }
@@ -142,7 +137,7 @@ int Search::grow(Tree& tree, const KinoState& sample) {
   if (!options_.repair_edges) {
     return kNone;
   }
-  for (int i = 0; i < std::min(found, options_.repairs_per_sample); ++i) {
+  for (int i = 0; i < std::min(found, kRepairsPerSample); ++i) {
     const Candidate& candidate = candidates_[static_cast<std::size_t>(i)];
     const KinoState& state = tree.node(candidate.node).state;
     const auto edge =
@@ -172,7 +167,7 @@ std::optional<Edge> Search::repairedEdge(const KinoState& from, const KinoState&
     return slower;
   }
   const trajectory::Piece failing = quinticPiece(from, to, steer.duration_s);
-  if (!local_.repair(*field_, failing, repaired_)) {
+  if (!local_.repair(check_, failing, 0.0, repaired_)) {
     return std::nullopt;
   }
   const auto count = static_cast<std::size_t>(repaired_.count);
@@ -199,7 +194,7 @@ std::optional<Edge> Search::slowerEdge(const KinoState& from, const KinoState& t
     if (fault == feasibility::EdgeFault::kNone) {
       return Edge{duration, cost.at(duration), kNone, 0};
     }
-    if (fault == feasibility::EdgeFault::kCollision) {
+    if (fault == feasibility::EdgeFault::kClearance) {
       return std::nullopt;
     }
   }
@@ -215,7 +210,7 @@ void Search::rewire(Tree& tree, int added) {
     const int index = candidates_[static_cast<std::size_t>(i)].node;
     const Node& node = tree.node(index);
     const double distance = (node.state.position - state.position).norm();
-    const double bound = cost + options_.sigma * distance / options_.limits.speed_max_mps;
+    const double bound = cost + options_.sigma * distance / check_.speedMax();
     if (index == added || node.parent == kNone || bound >= node.cost) {
       continue;
     }

@@ -1,4 +1,4 @@
-#include "otter_nav/planner/tree.hpp"
+#include "planner/tree.hpp"
 
 namespace otter_nav::planner {
 

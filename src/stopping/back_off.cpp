@@ -7,7 +7,11 @@
 #include <vector>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/feasibility/clearance_walk.hpp"
+#include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
+#include "otter_nav/vessel/hull.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -56,35 +60,34 @@ double pointClearance(const Eigen::Vector2d& p, double time_s, const Obstacles& 
   return edge_is_nearest ? std::numeric_limits<double>::infinity() : clearance;
 }
 
-// Looked at in steps of a few centimeters; the verification's circles around bow and stern are too
-// wide for a place this tight.
-double outlineClearance(const Eigen::Vector2d& position, double psi_rad, double time_s,
-                        const vessel::Hull& hull, const Obstacles& obstacles, bool edge) {
-  constexpr int kSteps = 20;
-  const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
-  const Eigen::Vector2d port(-ahead.y(), ahead.x());
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = -kSteps; k <= kSteps; ++k) {
-    const Eigen::Vector2d along = 0.5 * hull.length_m * k / kSteps * ahead;
-    const Eigen::Vector2d across = 0.5 * hull.beam_m * k / kSteps * port;
-    for (const double side : {-0.5, 0.5}) {
-      const Eigen::Vector2d beside = position + along + side * hull.beam_m * port;
-      const Eigen::Vector2d before = position + across + side * hull.length_m * ahead;
-      least = std::min({least, pointClearance(beside, time_s, obstacles, edge),
-                        pointClearance(before, time_s, obstacles, edge)});
-    }
-  }
-  return least;
-}
-
+// By the outline: the discs that verification sees are too wide for a place this tight. The hull's
+// corners swing at the yaw rate besides.
 bool outlineKeepsClear(const Trajectory& way, double from_s, const vessel::Parameters& vessel,
                        const Obstacles& obstacles, double least_m, bool edge) {
-  constexpr double kStepS = 0.05;
-  for (double t = from_s; t < way.duration() + kStepS; t += kStepS) {
-    const double at = std::min(t, way.duration());
-    const vessel::State state = way.sample(at, vessel).state;
-    if (outlineClearance(state.head<2>(), state[vessel::kPsi], at, vessel.hull, obstacles, edge) <
-        least_m) {
+  const double reach = vessel::circumscribedRadius(vessel.hull);
+  for (std::size_t i = way.pieceAt(from_s); i < way.pieces().size(); ++i) {
+    const Piece& piece = way.pieces()[i];
+    double turning = 0.0;
+    for (int k = 1; k < trajectory::kCoefficients; ++k) {
+      turning += k * std::abs(piece.heading[k]) * std::pow(piece.duration_s, k - 1);
+    }
+    const double approach =
+        trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
+        reach * turning + obstacles.rateBound();
+    const double start = way.startOf(i);
+    const auto slack = [&](double t) {
+      const vessel::State state = way.sampleIn(i, t, vessel).state;
+      const auto clearance = [&](const Eigen::Vector2d& p) {
+        return pointClearance(p, start + t, obstacles, edge);
+      };
+      const double slack_m = feasibility::outlineClearance(vessel.hull, state.head<2>(),
+                                                           state[vessel::kPsi], clearance) -
+                             least_m + feasibility::kLeastSlackM;
+      // Without the edge the clearance is no bound of what comes next: short steps.
+      return edge ? slack_m : std::min(slack_m, kTouchesM);
+    };
+    const double from = std::clamp(from_s - start, 0.0, piece.duration_s);
+    if (feasibility::firstConflict(from, piece.duration_s, approach, slack)) {
       return false;
     }
   }
@@ -93,11 +96,11 @@ bool outlineKeepsClear(const Trajectory& way, double from_s, const vessel::Param
 
 bool canFollow(const Trajectory& way, const Obstacles& obstacles,
                const vessel::Parameters& vessel) {
-  feasibility::CheckOptions check;
-  check.clearance_m = -1.0;  // seen to by the outline
-  check.check_hull = false;
-  check.speed_max_mps = vessel.top_speed_mps;
-  return feasibility::verify(way, obstacles.field(), vessel, check).ok;
+  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, -1.0);
+  limits.thrust_share = 1.0;
+  feasibility::Tolerances tolerances;
+  tolerances.keep_hull_clear = false;  // seen to by the outline
+  return feasibility::verify(way, obstacles, vessel, limits, tolerances).ok;
 }
 
 // Places inside the map's edge with room to turn, the nearest first.

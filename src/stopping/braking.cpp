@@ -25,6 +25,7 @@ constexpr double kUnderWayMps = 0.3;
 constexpr double kKnotS = 0.25;
 // The sailed trajectory may be at the thrusters' limits where the stop begins; the tracker shaves
 // off a short peak.
+constexpr double kLeastForceShare = 0.01;  // |w| while turning, of both thrusters ahead
 constexpr double kThrustTolerance = 1.1;
 
 // Along the way with its time slowed down smoothly to nothing within `duration_s`: z(s(t)) with
@@ -176,11 +177,12 @@ std::vector<Trajectory> candidates(const Trajectory& sailed, double at_s) {
 Braking brakingTrajectory(const Trajectory& sailed, double at_s,
                           const feasibility::Obstacles& obstacles, const vessel::Parameters& vessel,
                           double clearance_m) {
-  feasibility::CheckOptions check;
-  check.clearance_m = clearance_m;
-  check.thrust_share = kThrustTolerance;
-  check.speed_max_mps = 2.0 * vessel.top_speed_mps;
-  check.step_s = 0.02;
+  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, clearance_m);
+  limits.thrust_share = kThrustTolerance;
+  limits.speed_max_mps = 2.0 * vessel.top_speed_mps;
+  feasibility::Tolerances tolerances;
+  tolerances.heading_force_share = kLeastForceShare;
+  tolerances.step_s = 0.02;
   Braking best;
   best.clearance_m = -1.0;
   for (Trajectory& candidate : candidates(sailed, at_s)) {
@@ -188,7 +190,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
       continue;
     }
     if (keepsAsternShare(candidate, vessel) &&
-        feasibility::verify(candidate, obstacles.field(), vessel, check).ok) {
+        feasibility::verify(candidate, obstacles, vessel, limits, tolerances).ok) {
       return {std::move(candidate), true, clearance_m};
     }
     const double clearance = leastClearance(candidate, obstacles);

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/stopping/braking.hpp"
+#include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -15,14 +17,6 @@ using trajectory::kCoefficients;
 using trajectory::kDegree;
 using trajectory::Piece;
 using trajectory::Trajectory;
-
-double binomial(int n, int k) {
-  double value = 1.0;
-  for (int i = 1; i <= k; ++i) {
-    value *= static_cast<double>(n - k + i) / i;
-  }
-  return value;
-}
 
 // The same polynomial with its time counted from `t`.
 template <int Rows>
@@ -35,45 +29,27 @@ void shift(Eigen::Matrix<double, Rows, kCoefficients>& c, double t) {
   }
 }
 
-// No velocity's magnitude on the piece is above that of its Bernstein control points.
-double speedBound(const Piece& piece) {
-  constexpr int kVelocityDegree = kDegree - 1;
-  double bound = 0.0;
-  for (int j = 0; j <= kVelocityDegree; ++j) {
-    Eigen::Vector2d control = Eigen::Vector2d::Zero();
-    double power = 1.0;
-    for (int k = 0; k <= j; ++k) {
-      control += binomial(j, k) / binomial(kVelocityDegree, k) * power * (k + 1) *
-                 piece.position.col(k + 1);
-      power *= piece.duration_s;
-    }
-    bound = std::max(bound, control.norm());
-  }
-  return bound;
-}
-
 }  // namespace
 
 Conflict firstConflict(const Trajectory& trajectory, double from_s,
                        const feasibility::Obstacles& obstacles, double clearance_m) {
-  constexpr double kLeastStepM = 0.05;
   if (trajectory.empty()) {
     return {};
   }
   for (std::size_t i = trajectory.pieceAt(from_s); i < trajectory.pieces().size(); ++i) {
     const Piece& piece = trajectory.pieces()[i];
-    const double bound = speedBound(piece) + obstacles.rateBound();
-    double t = std::clamp(from_s - trajectory.startOf(i), 0.0, piece.duration_s);
-    while (true) {
-      const Eigen::Vector2d position = piece.flat(t).position;
-      const double clearance = obstacles.clearance(position, trajectory.startOf(i) + t);
-      if (clearance < clearance_m) {
-        return {true, trajectory.startOf(i) + t, position, clearance};
-      }
-      if (t >= piece.duration_s || bound <= 0.0) {
-        break;
-      }
-      t = std::min(piece.duration_s, t + std::max(kLeastStepM, clearance - clearance_m) / bound);
+    const double bound =
+        trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
+        obstacles.rateBound();
+    const double from = std::clamp(from_s - trajectory.startOf(i), 0.0, piece.duration_s);
+    const auto slack = [&](double t) {
+      return obstacles.clearance(piece.flat(t).position, trajectory.startOf(i) + t) - clearance_m +
+             feasibility::kLeastSlackM;
+    };
+    if (const auto t = feasibility::firstConflict(from, piece.duration_s, bound, slack)) {
+      const Eigen::Vector2d position = piece.flat(*t).position;
+      return {true, trajectory.startOf(i) + *t, position,
+              obstacles.clearance(position, trajectory.startOf(i) + *t)};
     }
   }
   return {};

@@ -1,4 +1,4 @@
-#include "flood.hpp"
+#include "topology/flood.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,17 +5,17 @@
 #include <limits>
 #include <sstream>
 
-#include "flood.hpp"
-#include "lattice_search.hpp"
-#include "repair.hpp"
-#include "taut.hpp"
+#include "topology/flood.hpp"
+#include "topology/lattice_search.hpp"
+#include "topology/repair.hpp"
+#include "topology/shortcut.hpp"
 
 namespace otter_nav::topology {
 
 struct GuidePathFinder::Workspace {
   LatticeSearch lattice;
   DubinsRepair repair;
-  Tautener tautener;
+  Shortener shortener;
   Flood flood;
   Polyline best, other;
 };
@@ -24,6 +24,12 @@ namespace {
 
 constexpr int kNoLimit = std::numeric_limits<int>::max();
 constexpr double kHair_m = 1e-6;
+constexpr double kMarginM = 0.02;      // on top where there is room, for what rounds the path off
+constexpr double kCorridorMaxM = 6.0;  // corridor radii end here
+constexpr double kLongM = 120.0;       // from this distance on the lattice is twice as wide
+constexpr double kGreed = 1.01;      // a search's result may be this much longer than its shortest
+constexpr int kMaxRepairs = 2;       // with more colliding stretches the whole is searched at once
+constexpr double kGoodRatio = 1.01;  // a repaired path this close to the straight is not improved
 
 std::string describe(const Eigen::Vector2d& p) {
   std::ostringstream out;
@@ -59,9 +65,9 @@ LatticeQuery wholeMap(const map::DistanceField& field, const Options& options, d
   query.start = start.position;
   query.goal = goal.position;
   query.clearance_m = clearance_m;
-  const bool long_way = (goal.position - start.position).norm() >= options.long_way_m;
-  query.block = blockCells(options, g) * (long_way ? 2 : 1);
-  query.greed = options.greed;
+  const bool far = (goal.position - start.position).norm() >= kLongM;
+  query.block = blockCells(options, g) * (far ? 2 : 1);
+  query.heuristic_weight = kGreed;
   query.low = g.origin;
   query.high = g.origin + g.resolution_m * Eigen::Vector2d(g.width, g.height);
   query.max_expansions = options.max_expansions;
@@ -77,15 +83,15 @@ GuidePathFinder::GuidePathFinder(GuidePathFinder&&) noexcept = default;
 GuidePathFinder& GuidePathFinder::operator=(GuidePathFinder&&) noexcept = default;
 
 // From start to goal at once: coarse, and if that leads nowhere, finer, after making sure that
-// there is a way.
-bool GuidePathFinder::searchWhole(const map::DistanceField& field, double clearance_m,
-                                  const Pose& start, const Pose& goal) {
+// there is a path.
+bool GuidePathFinder::searchWhole(const map::DistanceField& field, double least_m,
+                                  double clearance_m, const Pose& start, const Pose& goal) {
   Workspace& ws = *workspace_;
   LatticeQuery query = wholeMap(field, options_, clearance_m, start, goal);
   if (ws.lattice.run(field, query, ws.best) == LatticeSearch::Outcome::kFound) {
     return true;
   }
-  if (!ws.flood.connects(field, start.position, goal.position, options_.clearance_m)) {
+  if (!ws.flood.connects(field, start.position, goal.position, least_m)) {
     return false;
   }
   query.max_expansions = kNoLimit;
@@ -98,13 +104,13 @@ bool GuidePathFinder::searchWhole(const map::DistanceField& field, double cleara
   return true;
 }
 
-// Another way may be shorter than the repaired curve: searched for unless the straight line says
+// Another path may be shorter than the repaired curve: searched for unless the straight line says
 // that there is little to gain.
 void GuidePathFinder::improve(const map::DistanceField& field, double clearance_m,
                               const Pose& start, const Pose& goal) {
   Workspace& ws = *workspace_;
   const double length = lengthOf(ws.best);
-  if (length <= options_.good_ratio * (goal.position - start.position).norm()) {
+  if (length <= kGoodRatio * (goal.position - start.position).norm()) {
     return;
   }
   LatticeQuery query = wholeMap(field, options_, clearance_m, start, goal);
@@ -112,7 +118,7 @@ void GuidePathFinder::improve(const map::DistanceField& field, double clearance_
   if (ws.lattice.run(field, query, ws.other) != LatticeSearch::Outcome::kFound) {
     return;
   }
-  ws.tautener.run(field, clearance_m, ws.other);
+  ws.shortener.run(field, clearance_m, ws.other);
   if (lengthOf(ws.other) < length) {
     ws.best.swap(ws.other);
   }
@@ -120,27 +126,25 @@ void GuidePathFinder::improve(const map::DistanceField& field, double clearance_
 
 tl::expected<void, FindError> GuidePathFinder::find(const map::DistanceField& field,
                                                     const Pose& start, const Pose& goal,
-                                                    GuidePath& path) {
-  if (const std::string why = whyBlocked(field, start, options_.clearance_m); !why.empty()) {
+                                                    GuidePath& path, double clearance_m) {
+  if (const std::string why = whyBlocked(field, start, clearance_m); !why.empty()) {
     return tl::unexpected(FindError{Failure::kStartBlocked, "start " + why});
   }
-  if (const std::string why = whyBlocked(field, goal, options_.clearance_m); !why.empty()) {
+  if (const std::string why = whyBlocked(field, goal, clearance_m); !why.empty()) {
     return tl::unexpected(FindError{Failure::kGoalBlocked, "goal " + why});
   }
   Workspace& ws = *workspace_;
   const double room =
       std::min(field.clearance(start.position), field.clearance(goal.position)) - kHair_m;
-  const double clearance = std::max(
-      options_.clearance_m, std::min(options_.clearance_m + options_.clearance_margin_m, room));
+  const double clearance = std::max(clearance_m, std::min(clearance_m + kMarginM, room));
   ws.repair.begin(field, options_, clearance, start, goal, path);
-  path.repaired_dubins =
-      ws.repair.stretches() <= options_.max_repairs && ws.repair.run(ws.lattice, ws.best);
-  if (!path.repaired_dubins && !searchWhole(field, clearance, start, goal)) {
-    return tl::unexpected(FindError{Failure::kNoWay, "no way from " + describe(start.position) +
-                                                         " to " + describe(goal.position) +
-                                                         " keeps the clearance"});
+  path.repaired_dubins = ws.repair.stretches() <= kMaxRepairs && ws.repair.run(ws.lattice, ws.best);
+  if (!path.repaired_dubins && !searchWhole(field, clearance_m, clearance, start, goal)) {
+    return tl::unexpected(FindError{Failure::kNoPath, "no way from " + describe(start.position) +
+                                                          " to " + describe(goal.position) +
+                                                          " keeps the clearance"});
   }
-  ws.tautener.run(field, clearance, ws.best);
+  ws.shortener.run(field, clearance, ws.best);
   if (path.repaired_dubins) {
     improve(field, clearance, start, goal);
   }
@@ -148,15 +152,15 @@ tl::expected<void, FindError> GuidePathFinder::find(const map::DistanceField& fi
   path.length_m = lengthOf(path.points);
   path.corridor_m.clear();
   for (const Eigen::Vector2d& p : path.points) {
-    path.corridor_m.push_back(std::min(options_.corridor_max_m, field.clearance(p)));
+    path.corridor_m.push_back(std::min(kCorridorMaxM, field.clearance(p)));
   }
   return {};
 }
 
 Result<GuidePath> GuidePathFinder::find(const map::DistanceField& field, const Pose& start,
-                                        const Pose& goal) {
+                                        const Pose& goal, double clearance_m) {
   GuidePath path;
-  if (const auto found = find(field, start, goal, path); !found) {
+  if (const auto found = find(field, start, goal, path, clearance_m); !found) {
     return failure(found.error().message);
   }
   return path;

@@ -1,4 +1,4 @@
-#include "lattice_search.hpp"
+#include "topology/lattice_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +117,8 @@ void LatticeSearch::forEachNeighbour(std::int32_t id, const Visit& visit) {
 }
 
 float LatticeSearch::totalOf(const Node& node) const {
-  return node.length + static_cast<float>(query_.greed * (query_.goal - node.position).norm());
+  return node.length +
+         static_cast<float>(query_.heuristic_weight * (query_.goal - node.position).norm());
 }
 
 void LatticeSearch::push(std::int32_t id) {

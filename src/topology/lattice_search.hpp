@@ -17,7 +17,8 @@ struct LatticeQuery {
   // Only nodes within this box, m; and only paths shorter than this.
   Eigen::Vector2d low, high;
   double longest_m = 1e9;
-  double greed = 1.0;  // weight of the way still to go; the path is at most this much too long
+  double heuristic_weight =
+      1.0;  // weight of the distance still to go; the path is at most this much too long
   int max_expansions = 0;
 };
 

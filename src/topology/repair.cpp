@@ -1,4 +1,4 @@
-#include "repair.hpp"
+#include "topology/repair.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,8 @@ constexpr double kSpacing_m = 0.5;
 // Stretches closer than this are one: between them there is no room to come back to the curve.
 constexpr std::size_t kMergedGap = 4;  // samples
 constexpr int kPushes = 8;
+constexpr double kSafeM = 1.6;     // collision points are pushed out to this
+constexpr double kWindowM = 15.0;  // a repair looks this far around its stretch
 constexpr int kLocalExpansions = 1500;
 
 }  // namespace
@@ -75,7 +77,7 @@ void DubinsRepair::push(Stretch& stretch) {
     Eigen::Vector2d p = samples_[i];
     for (int k = 0; k < kPushes; ++k) {
       const auto here = field_->smooth(p);
-      const double missing = options_->safe_distance_m - here.distance_m;
+      const double missing = std::max(kSafeM, clearance_m_) - here.distance_m;
       const double slope = here.gradient.norm();
       if (missing <= 0.0 || slope < 0.1) {
         break;
@@ -112,8 +114,8 @@ bool DubinsRepair::searchAround(const Stretch& stretch, LatticeSearch& lattice) 
     query.low = query.low.cwiseMin(samples_[i]);
     query.high = query.high.cwiseMax(samples_[i]);
   }
-  query.low.array() -= options_->local_window_m;
-  query.high.array() += options_->local_window_m;
+  query.low.array() -= kWindowM;
+  query.high.array() += kWindowM;
   query.max_expansions = kLocalExpansions;
   return lattice.run(*field_, query, detour_) == LatticeSearch::Outcome::kFound;
 }

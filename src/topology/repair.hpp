@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lattice_search.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/topology/guide_path.hpp"
-#include "taut.hpp"
+#include "topology/lattice_search.hpp"
+#include "topology/shortcut.hpp"
 
 namespace otter_nav::topology {
 

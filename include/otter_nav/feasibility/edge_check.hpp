@@ -1,40 +1,42 @@
 // FeasibilityCheck of the paper's algorithm 2: whether a tree's edge can be sailed. Cheap tests
-// first: speed and thrust at a few instants, then along the edge, then collision by jumps as long
-// as the distance field and the edge's greatest speed allow, so that no corner is stepped over.
+// first, at a few instants: speed and the thrusters' joint force, a necessary condition of the
+// exact one (piece_check.hpp) that needs no jerk. Then the clearance, by the one walk.
 #pragma once
 
-#include "otter_nav/map/distance_field.hpp"
+#include <optional>
+
+#include "otter_nav/feasibility/hull_cover.hpp"
+#include "otter_nav/feasibility/obstacles.hpp"
+#include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::feasibility {
 
-enum class EdgeFault { kNone, kSpeed, kThrust, kCollision };
-
-struct EdgeLimits {
-  double clearance_m = 0.8;    // of the hull's centre
-  double speed_max_mps = 4.7;  // over ground
-  double force_ahead_n = 95.0;
-  double force_astern_n = 95.0;
-};
+enum class EdgeFault { kNone, kClearance, kSpeed, kForce, kYawRate, kHeading };
 
 class EdgeCheck {
  public:
-  EdgeCheck(const EdgeLimits& limits, const vessel::Parameters& vessel);
+  explicit EdgeCheck(const vessel::Parameters& vessel);
 
-  // The map of the present query; it must outlive the checks.
-  void setField(const map::DistanceField& field) { field_ = &field; }
-  void setLimits(const EdgeLimits& limits) { limits_ = limits; }
-  [[nodiscard]] const EdgeLimits& limits() const { return limits_; }
+  // Begins a query: field and layers of `obstacles` must outlive it.
+  void begin(const Obstacles& obstacles, const SafetyLimits& limits);
+  [[nodiscard]] const Obstacles& obstacles() const { return *obstacles_; }
+  [[nodiscard]] double clearance() const { return limits_.clearance_m; }
+  // What edges may ask for: a little less than the whole trajectory.
+  [[nodiscard]] double speedMax() const { return speed_max_mps_; }
+  [[nodiscard]] double forceMax() const { return force_ahead_n_; }  // both thrusters ahead, N
 
   // Sail pieces only. The heading is taken along w (vessel/inverse_dynamics.hpp), so a drifting
-  // hull's ends are tested where they are. Between instants tested, bow and stern may pass an
-  // obstacle by up to kHullSlack nearer than stated: what leaves the planner is verified exactly.
-  [[nodiscard]] EdgeFault check(const trajectory::Piece& piece) const;
-  [[nodiscard]] bool isClear(const trajectory::Piece& piece) const;
+  // hull's ends are tested where they are; what its turning adds to their speed is left to the
+  // verifier. `start_s`: when the edge begins, on the obstacles' clock.
+  [[nodiscard]] EdgeFault check(const trajectory::Piece& piece, double start_s = 0.0) const;
+  // The same with closer instants, where the yaw rate and the heading against the course count
+  // too: for edges that were bent.
+  [[nodiscard]] EdgeFault checkBent(const trajectory::Piece& piece, double start_s = 0.0) const;
   // Whether a state is within limits by itself, at rest or moving.
-  [[nodiscard]] bool isFree(const Eigen::Vector2d& position) const;
+  [[nodiscard]] bool isFree(const Eigen::Vector2d& position, double time_s = 0.0) const;
 
  private:
   struct Motion {
@@ -42,14 +44,17 @@ class EdgeCheck {
   };
   [[nodiscard]] static Motion motionAt(const trajectory::Piece& piece, double t_s);
   [[nodiscard]] EdgeFault checkMotion(const Motion& motion) const;
-  [[nodiscard]] double slack(const Motion& motion) const;
+  [[nodiscard]] EdgeFault checkTurning(const vessel::FlatPoint& z) const;
+  [[nodiscard]] bool isClear(const trajectory::Piece& piece, double start_s) const;
 
-  EdgeLimits limits_;
   vessel::InverseDynamics inverse_;
-  double end_offset_m_;   // the hull as two discs: their centres from its centre
-  double disc_radius_m_;  // and their radius
-  double circumscribed_m_;
-  const map::DistanceField* field_ = nullptr;
+  vessel::Thrusters thrusters_;
+  SafetyLimits limits_;
+  HullCover hull_;
+  double speed_max_mps_ = 0.0;
+  double force_ahead_n_ = 0.0;
+  double force_astern_n_ = 0.0;
+  std::optional<Obstacles> obstacles_;
 };
 
 }  // namespace otter_nav::feasibility

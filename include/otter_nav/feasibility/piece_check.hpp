@@ -5,20 +5,11 @@
 #include <Eigen/Core>
 
 #include "otter_nav/feasibility/verifier.hpp"
-#include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::feasibility {
-
-// The hull's rectangle is covered by three circles of `radius_m`: at the centre and `offset_m`
-// ahead and astern of it.
-struct HullCircles {
-  double offset_m = 0.0;
-  double radius_m = 0.0;
-};
-[[nodiscard]] HullCircles hullCircles(const vessel::Hull& hull);
 
 enum class Fault {
   kNone,
@@ -46,7 +37,7 @@ struct PieceReport {
 class PieceCheck {
  public:
   PieceCheck(const trajectory::Piece& piece, const vessel::Parameters& vessel,
-             const CheckOptions& options);
+             const SafetyLimits& limits, const Tolerances& tolerances = {});
 
   [[nodiscard]] bool straight() const { return straight_; }
   // The heading at an end of the piece (`t_s` is 0 or the duration), not wrapped.
@@ -55,8 +46,8 @@ class PieceCheck {
 
   // Fills all of the report but the clearance.
   void checkDynamics(PieceReport& report) const;
-  // Needs the report's yaw rate.
-  void checkClearance(const map::DistanceField& field, PieceReport& report) const;
+  // `start_s`: when the piece begins, from the trajectory's start. Needs the report's yaw rate.
+  void checkClearance(const Obstacles& obstacles, double start_s, PieceReport& report) const;
 
  private:
   struct Point;
@@ -68,7 +59,8 @@ class PieceCheck {
   const trajectory::Piece& piece_;
   const vessel::Parameters& vessel_;
   vessel::InverseDynamics inverse_;
-  const CheckOptions& options_;
+  const SafetyLimits limits_;
+  const Tolerances tolerances_;
   bool straight_ = false;
   Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();  // of a straight piece
   Eigen::Matrix<double, 2, 7> velocity_;

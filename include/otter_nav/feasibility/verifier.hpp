@@ -1,8 +1,8 @@
-// Whole-trajectory verification: what leaves the planner as solved has passed this. Continuity,
-// clearance and limits are checked along the whole time, not at samples alone:
-//   clearance  jumps along time by what the distance field leaves over, divided by a bound of the
-//              speed on the piece (the control polygon of its velocity), so no corner is stepped
-//              over; bow and stern are watched in the same way by circles that cover the hull
+// Whole-trajectory verification: what leaves the planner as solved has passed this, and what the
+// vessel brakes or backs off along. Continuity, clearance and limits are checked along the whole
+// time, not at samples alone:
+//   clearance  by the one walk (clearance_walk.hpp), with a bound of the speed on the piece (the
+//              control polygon of its velocity) for the hull's centre and the discs that cover it
 //   thrusts    through the flatness map in steps of `step_s`, each step widened by the parabola
 //              through its neighbours; on straight pieces, where |w| may vanish, exactly
 #pragma once
@@ -10,23 +10,24 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/feasibility/obstacles.hpp"
+#include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/trajectory/boundary.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::feasibility {
 
-struct CheckOptions {
-  double clearance_m = 0.8;  // of the hull's centre from every occupied cell's square
-  bool check_hull = true;    // circles that cover the hull's outline touch nothing
-  double speed_max_mps = 5.0;
-  double yaw_rate_max_radps = 2.0;
-  double thrust_share = 1.0;         // of each thruster's limits
-  double heading_force_min_n = 1.0;  // least |w| where the way is not straight
-  double heading_tolerance_rad = 0.08;
-  double position_tolerance_m = 0.01;
-  double step_s = 0.01;
+// How closely limits and ends are looked at.
+struct Tolerances {
+  double start_s = 0.0;         // when the trajectory begins, on the obstacles' clock
+  bool keep_hull_clear = true;  // the discs that cover the hull touch nothing
+  // Least |w| where the path is not straight, of both thrusters' force ahead: less and the heading
+  // would be undefined there.
+  double heading_force_share = 0.032;
+  double heading_rad = 0.08;  // of an end at rest
+  double position_m = 0.01;   // of both ends
+  double step_s = 0.01;       // of the thrusts
 };
 
 struct Verification {
@@ -38,19 +39,20 @@ struct Verification {
   double thrust_share = 0.0;  // 1: a thruster is at its limit
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
-  double heading_force_n = 0.0;  // least |w| where the way is not straight
+  double heading_force_n = 0.0;  // least |w| where the path is not straight
 };
 
 // Faults: empty or not finite, start or goal not met, a jump at a joint, too near an obstacle or
 // out of the map, thrust, speed or yaw rate out of range, heading undefined or jumping. Allocates
 // for the reason only.
 [[nodiscard]] Verification verify(const trajectory::Trajectory& trajectory,
-                                  const map::DistanceField& field, const vessel::Parameters& vessel,
+                                  const Obstacles& obstacles, const vessel::Parameters& vessel,
                                   const trajectory::Boundary& start,
-                                  const trajectory::Boundary& goal, const CheckOptions& options);
+                                  const trajectory::Boundary& goal, const SafetyLimits& limits,
+                                  const Tolerances& tolerances = {});
 // Without ends to meet: a part of a trajectory, or one sailed already.
 [[nodiscard]] Verification verify(const trajectory::Trajectory& trajectory,
-                                  const map::DistanceField& field, const vessel::Parameters& vessel,
-                                  const CheckOptions& options);
+                                  const Obstacles& obstacles, const vessel::Parameters& vessel,
+                                  const SafetyLimits& limits, const Tolerances& tolerances = {});
 
 }  // namespace otter_nav::feasibility

@@ -1,9 +1,7 @@
-// Answers the supervisor's requests with the planner: one planner for each share of the thrust
-// asked for, as a planner knows its vessel for life.
+// Answers the supervisor's requests with the planner.
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
@@ -24,9 +22,8 @@ class PlanDesk {
                                    const planner::Termination& termination);
 
  private:
-  planner::Options options_;
   vessel::Parameters vessel_;
-  std::map<double, planner::Planner> planners_;
+  planner::Planner planner_;
 };
 
 }  // namespace otter_nav::mission

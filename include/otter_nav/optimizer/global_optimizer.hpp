@@ -28,16 +28,7 @@
 namespace otter_nav::optimizer {
 
 struct GlobalOptions {
-  double clearance_m = 0.8;          // what verification asks for
   double clearance_margin_m = 0.05;  // beyond it, aimed at
-  bool keep_hull_clear = true;
-  double thrust_share = 0.97;   // of each thruster's limits, verified; the rest is for control
-  double thrust_margin = 0.02;  // of the limits, below that share: aimed at
-  double speed_max_mps = 4.85;
-  double yaw_rate_max_radps = 1.8;   // under way; a spin is limited by its thrust alone
-  double heading_force_min_n = 8.0;  // |w| while turning
-  double spin_thrust_share = 0.94;
-  double spin_rate_max_radps = 1.8;
   double spin_angle_rad = 0.4;       // turns at the goal wider than this are spun where it stops
   double drift_mps = 0.3;            // speed left when that begins
   double surge_ramp_s = 0.3;         // to full ahead at the start, and at the stop to nothing
@@ -92,18 +83,18 @@ class GlobalOptimizer {
   GlobalOptimizer& operator=(GlobalOptimizer&&) noexcept;
 
   // Along a polyline from start to goal (a guide path): at least two points; its ends are taken
-  // from the boundaries. `clearance_m` > 0 replaces the options' for this call.
+  // from the boundaries. What is returned has passed the verifier with `limits`.
   [[nodiscard]] Result<Optimized> optimize(const feasibility::Obstacles& obstacles,
                                            const std::vector<Eigen::Vector2d>& way,
                                            const trajectory::Boundary& start,
                                            const trajectory::Boundary& goal, const Budget& budget,
-                                           double clearance_m = 0.0);
+                                           const feasibility::SafetyLimits& limits);
   // From a trajectory: the tree's quintics (any continuity), or one being sailed.
   [[nodiscard]] Result<Optimized> optimize(const feasibility::Obstacles& obstacles,
                                            const trajectory::Trajectory& initial,
                                            const trajectory::Boundary& start,
                                            const trajectory::Boundary& goal, const Budget& budget,
-                                           double clearance_m = 0.0);
+                                           const feasibility::SafetyLimits& limits);
 
   // From rest, straight from point to point of a clear polyline, stopping at each to turn: slow,
   // but sound wherever the hull may turn.
@@ -111,10 +102,7 @@ class GlobalOptimizer {
                                               const std::vector<Eigen::Vector2d>& way,
                                               const trajectory::Boundary& start,
                                               const trajectory::Boundary& goal,
-                                              double clearance_m = 0.0);
-
-  // What results are verified against (for a planner that verifies what it got elsewhere).
-  [[nodiscard]] feasibility::CheckOptions checkOptions(double clearance_m = 0.0) const;
+                                              const feasibility::SafetyLimits& limits);
 
  private:
   class Solver;

@@ -12,7 +12,7 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/feasibility/edge_check.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 #include "otter_nav/trajectory/polynomial/hermite.hpp"
 #include "otter_nav/vessel/parameters.hpp"
@@ -20,13 +20,8 @@
 namespace otter_nav::optimizer {
 
 struct LocalOptions {
-  double clearance_m = 0.8;         // an edge nearer than this fails
   double clearance_margin_m = 0.2;  // guidance points stand this much further off
   double push_max_m = 6.0;          // farther from the edge than this no guidance point is sought
-  double speed_max_mps = 4.8;
-  double force_share = 0.97;         // |w| over the thrusters' joint force
-  double heading_force_min_n = 2.0;  // |w|
-  double yaw_rate_max_radps = 1.5;
   // The paper's weights.
   double weight_smooth = 0.02;
   double weight_clearance = 10.0;
@@ -41,16 +36,8 @@ constexpr int kMaxSegments = 12;
 // config/optimizer.yaml: mapping `local`.
 [[nodiscard]] Result<LocalOptions> readLocalOptions(config::Section section);
 
-// Why an edge fails, and when (s from its start).
-enum class EdgeFault { kNone, kClearance, kSpeed, kForce, kYawRate, kHeading };
-struct EdgeCheck {
-  EdgeFault fault = EdgeFault::kNone;
-  double time_s = 0.0;
-  [[nodiscard]] bool ok() const { return fault == EdgeFault::kNone; }
-};
-
 // An edge after repair: pieces (quintics in time), twice continuously differentiable inside and
-// at the two fixed states.
+// at the two fixed states. Its price is the search's to say.
 struct RepairedEdge {
   std::array<trajectory::Piece, kMaxSegments> pieces;
   int count = 0;
@@ -64,18 +51,10 @@ class LocalOptimizer {
 
   [[nodiscard]] const LocalOptions& options() const { return options_; }
 
-  // What the tree asks of an edge. Clearance is continuous (jumps along time bounded by speed);
-  // speed, |w|, yaw rate and course against heading at steps of `time`: a search's check, the
-  // whole trajectory is verified at its end.
-  [[nodiscard]] EdgeCheck check(const map::DistanceField& field,
-                                const trajectory::Piece& piece) const;
-
-  // Bends the failing edge `edge` (degree 5 or less) between its own end states. True, with the
-  // result in `repaired`, if it passes check().
-  [[nodiscard]] bool repair(const map::DistanceField& field, const trajectory::Piece& edge,
-                            RepairedEdge& repaired) const;
-
-  void setClearance(double clearance_m) { options_.clearance_m = clearance_m; }
+  // Bends the failing edge `edge` (degree 5 or less), which begins at `start_s`, between its own
+  // end states. True, with the result in `repaired`, if it passes checkBent().
+  [[nodiscard]] bool repair(const feasibility::EdgeCheck& check, const trajectory::Piece& edge,
+                            double start_s, RepairedEdge& repaired) const;
 
  private:
   static constexpr int kPoints = 5;  // a segment, where terms are summed
@@ -90,13 +69,14 @@ class LocalOptimizer {
 
   using States = std::array<Eigen::Matrix<double, 2, 3>, kMaxSegments * kPoints>;  // p, v, a
 
-  void guideStretch(const map::DistanceField& field, const States& states, int first, int last,
+  void guideStretch(const feasibility::EdgeCheck& check, const States& states, int first, int last,
                     double weight, Pulls& pulls) const;
-  void pullTowards(const map::DistanceField& field, const Knots& knots, double step_s,
+  void pullTowards(const feasibility::EdgeCheck& check, const Knots& knots, double step_s,
                    double growth, Pulls& pulls) const;
   void solve(const Pulls& pulls, double step_s, Knots& knots) const;
-  [[nodiscard]] bool accept(const map::DistanceField& field, const Knots& knots, double step_s,
-                            RepairedEdge& repaired, EdgeFault& fault) const;
+  [[nodiscard]] feasibility::EdgeFault join(const feasibility::EdgeCheck& check, const Knots& knots,
+                                            double start_s, double step_s,
+                                            RepairedEdge& repaired) const;
 
   LocalOptions options_;
   vessel::Parameters vessel_;

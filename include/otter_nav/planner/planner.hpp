@@ -1,6 +1,6 @@
 // From a query to a trajectory the hull can follow: guide path, two kinodynamic trees in its
 // corridor, local repair of failing edges, global optimisation, verification of the whole (paper,
-// sections IV and V). What is returned as solved has passed trajectory::verify; anything else has
+// sections IV and V). What is returned as solved has passed feasibility::verify; anything else has
 // an outcome and a reason.
 #pragma once
 
@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/feasibility/obstacles.hpp"
+#include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/planner/options.hpp"
+#include "otter_nav/trajectory/boundary.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/types.hpp"
@@ -20,18 +22,16 @@
 namespace otter_nav::planner {
 
 struct Query {
-  // Where the trajectory begins: at rest (all derivatives zero) with any heading, or moving, with
-  // position to jerk taken from the trajectory being sailed.
-  vessel::FlatPoint start;
-  double start_psi_rad = 0.0;
-  Eigen::Vector2d goal = Eigen::Vector2d::Zero();  // reached at rest
-  double goal_psi_rad = 0.0;
+  // At rest (all derivatives zero) with any heading, or moving, with position to jerk taken from
+  // the trajectory being sailed.
+  trajectory::Boundary start;
+  trajectory::Boundary goal;  // at rest
+  // What the plan must keep to: clearance, hull, shares of thrust, speed.
+  feasibility::SafetyLimits limits;
   std::uint64_t seed = 1;
   // What is being sailed, cut to begin at `start`: tried first, kept where nothing better is
-  // found. Not owned; may be null.
-  const trajectory::Trajectory* warm_start = nullptr;
-  // Distance kept by the hull's centre, m; 0 takes the options'.
-  double clearance_m = 0.0;
+  // found. May be empty.
+  trajectory::Trajectory warm_start;
   // Key points from start to goal found elsewhere (a topology node); empty: found here.
   std::vector<Eigen::Vector2d> guide_path;
 };
@@ -48,13 +48,13 @@ struct Termination {
 // The wall clock from now on.
 [[nodiscard]] Termination wallClock(double budget_s, int max_iterations = 20000);
 
-enum class Outcome { kSolved, kStartBlocked, kGoalBlocked, kNoWay, kTimeUp };
+enum class Outcome { kSolved, kStartBlocked, kGoalBlocked, kNoPath, kTimeUp };
 [[nodiscard]] const char* toString(Outcome outcome);
 
 // The paper's table I for one query, and where the time went. Times by the caller's clock; zero
 // without one.
 struct Figures {
-  double first_solution_ms = 0.0;  // the trees joined: a way, not yet smooth
+  double first_solution_ms = 0.0;  // the trees joined: a path, not yet smooth
   double total_ms = 0.0;           // guide path, trees, optimisation and verification
   double guide_ms = 0.0;
   double tree_ms = 0.0;
@@ -73,7 +73,7 @@ struct Figures {
 };
 
 struct Plan {
-  Outcome outcome = Outcome::kNoWay;
+  Outcome outcome = Outcome::kNoPath;
   std::string reason;  // a sentence; empty when solved
   trajectory::Trajectory trajectory;
   Figures figures;
@@ -94,7 +94,8 @@ class Planner {
   Planner(Planner&&) noexcept;
   Planner& operator=(Planner&&) noexcept;
 
-  [[nodiscard]] Plan plan(const map::DistanceField& field, const Query& query,
+  // Times of moving obstacles count from the plan's start.
+  [[nodiscard]] Plan plan(const feasibility::Obstacles& obstacles, const Query& query,
                           const Termination& termination);
 
  private:

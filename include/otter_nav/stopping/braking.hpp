@@ -26,7 +26,7 @@ struct Braking {
 
 // The first time from `from_s` on at which the trajectory's clearance is below `clearance_m`.
 // Continuous: it moves on by what the clearance allows at the piece's speed (the control polygon
-// of its velocity bounds it), by 5 cm at the least.
+// of its velocity bounds it).
 struct Conflict {
   bool found = false;
   double time_s = 0.0;  // from the trajectory's start

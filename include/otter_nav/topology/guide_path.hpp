@@ -1,5 +1,5 @@
 // Guide paths (paper, section IV-A): the Dubins curve from start to goal pose, its colliding
-// stretches led around obstacles, pushed out to a safe distance and drawn taut. Its points are the
+// stretches led around obstacles, pushed out to a safe distance and shortened. Its points are the
 // key topological points, and the free width around them the corridor the planner samples in.
 #pragma once
 
@@ -9,27 +9,27 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/config/section.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/topology/dubins.hpp"
 
 namespace otter_nav::topology {
 
 struct Options {
-  double turning_radius_m = 3.0;     // of the Dubins curve
-  double clearance_m = 0.8;          // every segment keeps this from every occupied square
-  double clearance_margin_m = 0.02;  // on top where there is room, for what rounds the path off
-  double safe_distance_m = 1.6;      // collision points are pushed out to this
-  double corridor_max_m = 6.0;       // corridor radii end here
-  double lattice_m = 1.0;            // spacing of the A* search's nodes
-  double long_way_m = 120.0;         // from this distance on the spacing is twice that
-  double greed = 1.01;           // the search's result may be this much longer than its shortest
-  double local_window_m = 15.0;  // a repair looks this far around its stretch
-  int max_repairs = 2;           // with more colliding stretches the whole way is searched at once
-  double good_ratio = 1.01;      // a repaired path this close to the straight line is not improved
-  int max_expansions = 20000;    // then a flood makes sure that there is a way at all
+  double turning_radius_m = 3.0;
+  double lattice_m = 1.0;
+  int max_expansions = 20000;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("turning_radius_m", o.turning_radius_m, {0.1, 100.0}, "of the Dubins curve");
+    fields("lattice_m", o.lattice_m, {0.01, 20.0}, "spacing of the search's nodes");
+    fields("max_expansions", o.max_expansions, {1.0, 1e8},
+           "of a search; then a flood makes sure that there is a path at all");
+  }
 };
-[[nodiscard]] Result<Options> readOptions(config::Section section);
+
+// For who asks for a guide path without a plan in mind.
+constexpr double kNarrowestM = 0.8;
 
 struct GuidePath {
   // Start to goal; every segment between neighbours keeps the clearance.
@@ -42,11 +42,11 @@ struct GuidePath {
   std::vector<Eigen::Vector2d> collisions_m;
   // Collision points of the curve as pushed out to the safe distance.
   std::vector<Eigen::Vector2d> pushed_points;
-  // Whether stretches were repaired singly (true) or the whole way was searched at once.
+  // Whether stretches were repaired singly (true) or the whole path was searched at once.
   bool repaired_dubins = true;
 };
 
-enum class Failure { kStartBlocked, kGoalBlocked, kNoWay };
+enum class Failure { kStartBlocked, kGoalBlocked, kNoPath };
 struct FindError {
   Failure failure;
   std::string message;
@@ -61,18 +61,20 @@ class GuidePathFinder {
   GuidePathFinder(GuidePathFinder&&) noexcept;
   GuidePathFinder& operator=(GuidePathFinder&&) noexcept;
 
-  // The message names start, goal or the way between them.
+  // The message names start, goal or the path between them.
+  // Every segment keeps `clearance_m` from every occupied square.
   [[nodiscard]] Result<GuidePath> find(const map::DistanceField& field, const Pose& start,
-                                       const Pose& goal);
+                                       const Pose& goal, double clearance_m = kNarrowestM);
   // The same with the kind of failure, into a path whose storage is reused.
   [[nodiscard]] tl::expected<void, FindError> find(const map::DistanceField& field,
                                                    const Pose& start, const Pose& goal,
-                                                   GuidePath& path);
+                                                   GuidePath& path,
+                                                   double clearance_m = kNarrowestM);
 
  private:
   struct Workspace;
-  bool searchWhole(const map::DistanceField& field, double clearance_m, const Pose& start,
-                   const Pose& goal);
+  bool searchWhole(const map::DistanceField& field, double least_m, double clearance_m,
+                   const Pose& start, const Pose& goal);
   void improve(const map::DistanceField& field, double clearance_m, const Pose& start,
                const Pose& goal);
 

@@ -42,8 +42,8 @@ Eigen::Vector2d directionOf(const vessel::FlatPoint& z, double psi_rad) {
 bool EndChooser::clear(const map::DistanceField& field, const Manoeuvre& manoeuvre) const {
   for (const trajectory::Piece& piece : manoeuvre.pieces) {
     feasibility::PieceReport report;
-    report.yaw_rate_radps = check_.yaw_rate_max_radps;
-    feasibility::PieceCheck(piece, vessel_, check_).checkClearance(field, report);
+    report.yaw_rate_radps = safety_.yaw_rate_max_radps;
+    feasibility::PieceCheck(piece, vessel_, safety_).checkClearance(field, 0.0, report);
     if (report.fault != feasibility::Fault::kNone) {
       return false;
     }

@@ -7,8 +7,9 @@
 
 #include "optimizer/ends/end_manoeuvre.hpp"
 #include "optimizer/solve/initial_spline.hpp"
-#include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/trajectory/boundary.hpp"
 
 namespace otter_nav::optimizer {
 
@@ -39,9 +40,9 @@ struct ChosenEnds {
 
 class EndChooser {
  public:
-  EndChooser(const vessel::Parameters& vessel, const feasibility::CheckOptions& check,
+  EndChooser(const vessel::Parameters& vessel, const feasibility::SafetyLimits& safety,
              const EndOptions& options)
-      : vessel_(vessel), check_(check), options_(options) {}
+      : vessel_(vessel), safety_(safety), options_(options) {}
 
   // `way` has at least two points.
   [[nodiscard]] ChosenEnds choose(const map::DistanceField& field,
@@ -71,7 +72,7 @@ class EndChooser {
   [[nodiscard]] bool clear(const map::DistanceField& field, const Manoeuvre& manoeuvre) const;
 
   const vessel::Parameters& vessel_;
-  const feasibility::CheckOptions& check_;
+  const feasibility::SafetyLimits& safety_;
   const EndOptions& options_;
 };
 

@@ -27,9 +27,9 @@ void StopAndSpin::appendStraight(const Eigen::Vector2d& from, const Eigen::Vecto
   const double length = (to - from).norm();
   const Eigen::Vector2d direction = (to - from) / length;
   const vessel::PaperModel& m = vessel_.paper;
-  const double force = 0.95 * check_.thrust_share * 2.0 *
+  const double force = 0.95 * safety_.thrust_share * 2.0 *
                        std::min(vessel_.thrusters.ahead_max_n, vessel_.thrusters.astern_max_n);
-  double duration = std::max(kLeastLegS, kPeakSpeed * length / (0.95 * check_.speed_max_mps));
+  double duration = std::max(kLeastLegS, kPeakSpeed * length / (0.95 * safety_.speed_max_mps));
   // d1 peak_v / T + m1 peak_a / T^2 <= force
   const double b = m.d1_kgps * kPeakSpeed * length;
   const double c = m.m1_kg * kPeakAcceleration * length;

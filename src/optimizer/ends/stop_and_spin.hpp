@@ -5,8 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/optimizer/spin.hpp"
+#include "otter_nav/trajectory/boundary.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -15,8 +16,8 @@ namespace otter_nav::optimizer {
 class StopAndSpin {
  public:
   StopAndSpin(const vessel::Parameters& vessel, const SpinLimits& spin,
-              const feasibility::CheckOptions& check)
-      : vessel_(vessel), spin_(spin), check_(check) {}
+              const feasibility::SafetyLimits& safety)
+      : vessel_(vessel), spin_(spin), safety_(safety) {}
 
   // From rest at `start` to rest at `goal`, headings included; the way's ends are replaced by
   // theirs.
@@ -30,7 +31,7 @@ class StopAndSpin {
 
   vessel::Parameters vessel_;
   SpinLimits spin_;
-  feasibility::CheckOptions check_;
+  feasibility::SafetyLimits safety_;
 };
 
 }  // namespace otter_nav::optimizer

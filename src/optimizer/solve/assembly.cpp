@@ -35,20 +35,22 @@ trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline) {
 }
 
 double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Parameters& vessel,
-                   const feasibility::CheckOptions& check) {
-  feasibility::CheckOptions open = check;
+                   const feasibility::SafetyLimits& safety) {
+  feasibility::SafetyLimits open = safety;
   open.thrust_share = 1e3;
   open.speed_max_mps = 1e3;
   open.yaw_rate_max_radps = 1e3;
-  open.heading_force_min_n = 0.0;
+  feasibility::Tolerances tolerances;
+  tolerances.heading_force_share = 0.0;
   feasibility::PieceReport worst;
   for (const trajectory::Piece& piece : trajectory.pieces()) {
     feasibility::PieceReport report;
-    feasibility::PieceCheck(piece, vessel, open).checkDynamics(report);
+    feasibility::PieceCheck(piece, vessel, open, tolerances).checkDynamics(report);
     worst.thrust_share = std::max(worst.thrust_share, report.thrust_share);
     worst.speed_mps = std::max(worst.speed_mps, report.speed_mps);
   }
-  return std::max(worst.thrust_share / check.thrust_share, worst.speed_mps / check.speed_max_mps) -
+  return std::max(worst.thrust_share / safety.thrust_share,
+                  worst.speed_mps / safety.speed_max_mps) -
          1.0;
 }
 

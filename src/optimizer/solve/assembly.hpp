@@ -3,7 +3,7 @@
 
 #include "optimizer/ends/path_ends.hpp"
 #include "optimizer/objective/spline_problem.hpp"
-#include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 
 namespace otter_nav::optimizer {
@@ -13,7 +13,7 @@ namespace otter_nav::optimizer {
 // The largest share by which a limit of thrust or speed is exceeded anywhere; negative: none is.
 [[nodiscard]] double worstExcess(const trajectory::Trajectory& trajectory,
                                  const vessel::Parameters& vessel,
-                                 const feasibility::CheckOptions& check);
+                                 const feasibility::SafetyLimits& safety);
 
 // Lets time run slower by a factor, which leaves the shape as it is but for the second and last but
 // one pieces: the outermost stay, as their ends are the manoeuvres'.

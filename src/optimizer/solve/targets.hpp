@@ -19,7 +19,7 @@ struct Aims {
 
 // `attempt` counts from 0; `cell_m` is the map's resolution.
 [[nodiscard]] Aims aimsOf(int attempt, const GlobalOptions& options,
-                          const vessel::Parameters& vessel, const feasibility::CheckOptions& check,
+                          const vessel::Parameters& vessel, const feasibility::SafetyLimits& safety,
                           double cell_m);
 
 }  // namespace otter_nav::optimizer

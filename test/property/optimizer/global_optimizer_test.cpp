@@ -50,9 +50,9 @@ TEST(GlobalOptimizer, StraightAheadTakesTheTimeFullThrustDoes) {
   const map::DistanceField field = islands(random, 0);
   const GlobalOptions options;
   GlobalOptimizer optimizer(options, vessel);
-  const auto result =
-      optimizer.optimize(field, std::vector<Eigen::Vector2d>{{-30.0, 0.0}, {30.0, 0.0}},
-                         berth(-30.0, 0.0, 0.0), berth(30.0, 0.0, 0.0), Budget());
+  const auto result = optimizer.optimize(
+      field, std::vector<Eigen::Vector2d>{{-30.0, 0.0}, {30.0, 0.0}}, berth(-30.0, 0.0, 0.0),
+      berth(30.0, 0.0, 0.0), Budget(), feasibility::SafetyLimits());
   ASSERT_TRUE(result.has_value()) << result.error().message;
   EXPECT_NEAR(trajectory::length(result->trajectory), 60.0, 0.05);
   // Bang-bang under the share allowed: no trajectory is quicker.
@@ -96,10 +96,11 @@ TEST(GlobalOptimizer, ReturnsVerifiedTrajectoriesAmongIslands) {
     const double side = trial % 2 == 0 ? 20.0 : -20.0;
     const std::vector<Eigen::Vector2d> way = {
         start.flat.position, {-45.0, side}, {45.0, side}, goal.flat.position};
-    const auto result = optimizer.optimize(field, way, start, goal, Budget());
+    const auto result =
+        optimizer.optimize(field, way, start, goal, Budget(), feasibility::SafetyLimits());
     ASSERT_TRUE(result.has_value()) << trial << ": " << result.error().message;
     const feasibility::Verification again =
-        verify(result->trajectory, field, vessel, start, goal, optimizer.checkOptions());
+        verify(result->trajectory, field, vessel, start, goal, feasibility::SafetyLimits());
     EXPECT_TRUE(again.ok) << again.reason;
     EXPECT_LT(trajectory::length(result->trajectory), 1.05 * lengthOf(way));
     sailed += result->last_resort ? 0 : 1;
@@ -118,7 +119,7 @@ TEST(GlobalOptimizer, FromAMovingStartTakesOverItsMotion) {
   start.flat.jerk = {0.0, 0.02};
   const auto result =
       optimizer.optimize(field, std::vector<Eigen::Vector2d>{{-40.0, 0.0}, {0.0, 8.0}, {40.0, 0.0}},
-                         start, berth(40.0, 0.0, 0.2), Budget());
+                         start, berth(40.0, 0.0, 0.2), Budget(), feasibility::SafetyLimits());
   ASSERT_TRUE(result.has_value()) << result.error().message;
   const vessel::FlatPoint z = result->trajectory.flat(0.0);
   EXPECT_LT((z.velocity - start.flat.velocity).norm(), 1e-9);
@@ -132,7 +133,8 @@ TEST(GlobalOptimizer, SameInputsGiveTheSameTrajectory) {
   const std::vector<Eigen::Vector2d> way = {{-50.0, 0.0}, {0.0, 22.0}, {50.0, 0.0}};
   const auto run = [&] {
     GlobalOptimizer optimizer(GlobalOptions(), vessel);
-    return optimizer.optimize(field, way, berth(-50.0, 0.0, 1.0), berth(50.0, 0.0, -1.0), Budget());
+    return optimizer.optimize(field, way, berth(-50.0, 0.0, 1.0), berth(50.0, 0.0, -1.0), Budget(),
+                              feasibility::SafetyLimits());
   };
   const auto a = run();
   const auto b = run();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "../../unit/planner/planner_ground.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 
 namespace otter_nav::planner {
@@ -20,10 +21,10 @@ Termination byIterations() {
 
 Query across() {
   Query query;
-  query.start.position = {-30.0, -5.0};
-  query.start_psi_rad = 1.0;
-  query.goal = {30.0, 5.0};
-  query.goal_psi_rad = -2.0;
+  query.start.flat.position = {-30.0, -5.0};
+  query.start.psi_rad = 1.0;
+  query.goal.flat.position = {30.0, 5.0};
+  query.goal.psi_rad = -2.0;
   return query;
 }
 
@@ -36,12 +37,8 @@ map::DistanceField islands() {
 
 feasibility::Verification verifyPlan(const Plan& plan, const map::DistanceField& field,
                                      const Query& query) {
-  trajectory::Boundary start{query.start, query.start_psi_rad};
-  trajectory::Boundary goal;
-  goal.flat.position = query.goal;
-  goal.psi_rad = query.goal_psi_rad;
-  return feasibility::verify(plan.trajectory, field, vessel::Parameters{}, start, goal,
-                             feasibility::CheckOptions{});
+  return feasibility::verify(plan.trajectory, field, vessel::Parameters{}, query.start, query.goal,
+                             query.limits);
 }
 
 class EveryMethod : public ::testing::TestWithParam<std::pair<bool, bool>> {};
@@ -74,7 +71,7 @@ TEST(Planner, IsTheSameForASeed) {
   Planner fresh(Options{}, vessel::Parameters{});
   Planner used(Options{}, vessel::Parameters{});
   Query other = across();
-  other.goal = {25.0, -25.0};
+  other.goal.flat.position = {25.0, -25.0};
   (void)used.plan(field, other, byIterations());
   const Plan a = fresh.plan(field, across(), byIterations());
   const Plan b = used.plan(field, across(), byIterations());
@@ -89,16 +86,16 @@ TEST(Planner, SaysWhyThereIsNoPlan) {
   const map::DistanceField field = islands();
   Planner planner(Options{}, vessel::Parameters{});
   Query query = across();
-  query.start.position = {-9.0, 0.0};
+  query.start.flat.position = {-9.0, 0.0};
   EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kStartBlocked);
   query = across();
-  query.goal = {10.0, 5.0};
+  query.goal.flat.position = {10.0, 5.0};
   EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kGoalBlocked);
-  query.goal = {300.0, 5.0};
+  query.goal.flat.position = {300.0, 5.0};
   const Plan outside = planner.plan(field, query, byIterations());
   EXPECT_EQ(outside.outcome, Outcome::kGoalBlocked);
   EXPECT_NE(outside.reason.find("outside the map"), std::string::npos) << outside.reason;
-  query.goal.x() = std::numeric_limits<double>::quiet_NaN();
+  query.goal.flat.position.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kGoalBlocked);
 }
 
@@ -108,8 +105,8 @@ TEST(Planner, GoesNoFartherThanItMustToAGoalNearby) {
   for (const double distance : {0.0, 0.1, 0.29}) {
     for (const double turn : {0.0, -2.5}) {
       Query query = across();
-      query.goal = query.start.position + Eigen::Vector2d(0.0, distance);
-      query.goal_psi_rad = query.start_psi_rad + turn;
+      query.goal.flat.position = query.start.flat.position + Eigen::Vector2d(0.0, distance);
+      query.goal.psi_rad = query.start.psi_rad + turn;
       const Plan plan = planner.plan(field, query, byIterations());
       ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
       EXPECT_TRUE(verifyPlan(plan, field, query).ok) << verifyPlan(plan, field, query).reason;
@@ -124,8 +121,8 @@ TEST(Planner, WastesLittleTimeTurningAtTheEnds) {
   Planner planner(Options{}, vessel::Parameters{});
   for (const double psi : {0.0, 1.6, 3.1}) {
     Query query = across();
-    query.start_psi_rad = psi;
-    query.goal_psi_rad = -psi;
+    query.start.psi_rad = psi;
+    query.goal.psi_rad = -psi;
     const Plan plan = planner.plan(field, query, byIterations());
     ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
     EXPECT_GT(plan.figures.length_m / plan.figures.duration_s, 3.0) << psi;
@@ -137,7 +134,7 @@ TEST(Planner, SaysThatThereIsNoWay) {
   const map::DistanceField wall = test::withObstacle(0.0, -40.0, 2.0, 80.0);
   Planner planner(Options{}, vessel::Parameters{});
   const Plan plan = planner.plan(wall, across(), byIterations());
-  EXPECT_EQ(plan.outcome, Outcome::kNoWay);
+  EXPECT_EQ(plan.outcome, Outcome::kNoPath);
   EXPECT_FALSE(plan.reason.empty());
   EXPECT_TRUE(plan.trajectory.empty());
 }
@@ -158,14 +155,14 @@ TEST(Planner, PlansFromAMovingStartAndKeepsTheJoint) {
   ASSERT_EQ(first.outcome, Outcome::kSolved);
   Query query = across();
   const double when = 0.5 * first.trajectory.duration();
-  query.start = first.trajectory.flat(when);
-  query.start_psi_rad = first.trajectory.sample(when, vessel::Parameters{}).state[vessel::kPsi];
-  ASSERT_GT(query.start.velocity.norm(), 1.0);
+  query.start.flat = first.trajectory.flat(when);
+  query.start.psi_rad = first.trajectory.sample(when, vessel::Parameters{}).state[vessel::kPsi];
+  ASSERT_GT(query.start.flat.velocity.norm(), 1.0);
   const Plan second = planner.plan(field, query, byIterations());
   ASSERT_EQ(second.outcome, Outcome::kSolved) << second.reason;
   const vessel::FlatPoint joint = second.trajectory.flat(0.0);
-  EXPECT_LT((joint.velocity - query.start.velocity).norm(), 1e-6);
-  EXPECT_LT((joint.jerk - query.start.jerk).norm(), 1e-6);
+  EXPECT_LT((joint.velocity - query.start.flat.velocity).norm(), 1e-6);
+  EXPECT_LT((joint.jerk - query.start.flat.jerk).norm(), 1e-6);
   EXPECT_TRUE(verifyPlan(second, field, query).ok);
 }
 
@@ -175,7 +172,7 @@ TEST(Planner, IsNoWorseThanItsWarmStart) {
   const Plan first = planner.plan(field, across(), byIterations());
   ASSERT_EQ(first.outcome, Outcome::kSolved);
   Query query = across();
-  query.warm_start = &first.trajectory;
+  query.warm_start = first.trajectory;
   query.seed = 77;
   const Plan second = planner.plan(field, query, byIterations());
   ASSERT_EQ(second.outcome, Outcome::kSolved);
@@ -185,7 +182,7 @@ TEST(Planner, IsNoWorseThanItsWarmStart) {
 TEST(PlannerOptions, ShippedFilesLoad) {
   const auto options = loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config");
   ASSERT_TRUE(options) << options.error().message;
-  EXPECT_EQ(options->clearance_m, 0.8);
+  EXPECT_EQ(config::toYaml(*options), config::toYaml(Options{}));
 }
 
 }  // namespace

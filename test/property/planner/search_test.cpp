@@ -1,10 +1,10 @@
 // Invariants of both trees after any number of samples.
-#include "otter_nav/planner/search.hpp"
+#include "planner/search.hpp"
 
 #include <gtest/gtest.h>
 
 #include "../../unit/planner/planner_ground.hpp"
-#include "otter_nav/planner/sampler.hpp"
+#include "planner/sampler.hpp"
 
 namespace otter_nav::planner {
 namespace {
@@ -41,13 +41,14 @@ TEST(Search, KeepsItsTreesSoundAndItsWaysContinuous) {
   const vessel::Parameters vessel;
   for (const bool repair : {false, true}) {
     SearchOptions options;
+    options.sigma = 1.0;
     options.repair_edges = repair;
     Search search(options, optimizer::LocalOptions{}, vessel);
     KinoState start;
     start.position = {-25.0, 0.0};
     KinoState goal;
     goal.position = {25.0, 0.0};
-    search.reset(field, start, goal);
+    search.reset(field, feasibility::SafetyLimits{}, start, goal);
     GuideLine line;
     line.build({{-25.0, 0.0}, {0.0, 15.0}, {25.0, 0.0}}, field, vessel, GuideLineOptions{});
     Sampler sampler(SamplerOptions{}, line, field, 5);

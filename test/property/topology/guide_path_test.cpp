@@ -97,7 +97,7 @@ TEST(GuidePathProperty, ClearNearShortestAndFoundWheneverThereIsAWay) {
     const auto found = finder.find(field, task.start, task.goal, path);
     if (!found) {
       ++none;
-      ASSERT_EQ(found.error().failure, Failure::kNoWay);
+      ASSERT_EQ(found.error().failure, Failure::kNoPath);
       ASSERT_TRUE(std::isinf(strict)) << "round " << round;
       continue;
     }

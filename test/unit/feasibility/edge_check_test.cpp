@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../planner/planner_ground.hpp"
-#include "otter_nav/planner/obvp.hpp"
+#include "planner/obvp.hpp"
 
 namespace otter_nav::feasibility {
 namespace {
@@ -20,8 +20,8 @@ KinoState moving(double x, double y, double speed) {
 }
 
 EdgeCheck makeCheck(const map::DistanceField& field) {
-  EdgeCheck check(EdgeLimits{}, vessel::Parameters{});
-  check.setField(field);
+  EdgeCheck check{vessel::Parameters{}};
+  check.begin(field, SafetyLimits{});
   return check;
 }
 
@@ -35,7 +35,7 @@ TEST(EdgeCheck, NamesWhatFails) {
   const map::DistanceField field = test::openWater();
   const EdgeCheck check = makeCheck(field);
   EXPECT_EQ(check.check(quinticPiece(moving(-10, 0, 4), moving(10, 0, 4), 3.0)), EdgeFault::kSpeed);
-  EXPECT_EQ(check.check(quinticPiece(moving(0, 0, 4), moving(2, 0, 0), 1.0)), EdgeFault::kThrust);
+  EXPECT_EQ(check.check(quinticPiece(moving(0, 0, 4), moving(2, 0, 0), 1.0)), EdgeFault::kForce);
 }
 
 TEST(EdgeCheck, SeesAnObstacleThinnerThanItsSteps) {
@@ -43,12 +43,12 @@ TEST(EdgeCheck, SeesAnObstacleThinnerThanItsSteps) {
   const map::DistanceField field = test::withObstacle(0.0, 0.0, 0.25, 0.25);
   const EdgeCheck check = makeCheck(field);
   EXPECT_EQ(check.check(quinticPiece(moving(-10, 0, 4), moving(10, 0, 4), 5.0)),
-            EdgeFault::kCollision);
+            EdgeFault::kClearance);
   // Beside it with the clearance asked for, and a little less.
   EXPECT_EQ(check.check(quinticPiece(moving(-10, -0.95, 4), moving(10, -0.95, 4), 5.0)),
             EdgeFault::kNone);
   EXPECT_EQ(check.check(quinticPiece(moving(-10, -0.75, 4), moving(10, -0.75, 4), 5.0)),
-            EdgeFault::kCollision);
+            EdgeFault::kClearance);
 }
 
 }  // namespace

@@ -36,10 +36,9 @@ class VerificationTest : public ::testing::Test {
     optimizer::GlobalOptimizer optimizer(optimizer::GlobalOptions(), vessel);
     const auto result = optimizer.optimize(
         field, std::vector<Eigen::Vector2d>{{10.0, 30.0}, {30.0, 31.5}, {50.0, 30.0}}, start, goal,
-        optimizer::Budget());
+        optimizer::Budget(), options);
     EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().message);
     pieces = result ? result->trajectory.pieces() : std::vector<Piece>();
-    options = optimizer.checkOptions();
   }
 
   [[nodiscard]] Verification check() const {
@@ -59,7 +58,7 @@ class VerificationTest : public ::testing::Test {
   trajectory::Boundary start = berth(10.0, 30.0, 0.4);
   trajectory::Boundary goal = berth(50.0, 30.0, -2.0);
   std::vector<Piece> pieces;
-  CheckOptions options;
+  SafetyLimits options;
 };
 
 TEST_F(VerificationTest, PassesWhatIsSound) {
@@ -106,7 +105,7 @@ TEST_F(VerificationTest, OutOfTheMap) {
 }
 
 TEST_F(VerificationTest, LimitsOfThrustSpeedAndTurning) {
-  const CheckOptions sound = options;
+  const SafetyLimits sound = options;
   options.thrust_share = 0.7;
   expectFault("thrust");
   options = sound;

@@ -34,7 +34,7 @@ TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
   EXPECT_EQ(mission.supervisor.phase(), Phase::kStopped);
   const Orders next = mission.update(0.1);
   ASSERT_TRUE(next.plan);
-  EXPECT_GE(mission.field.clearance(next.plan->query.start.position),
+  EXPECT_GE(mission.field.clearance(next.plan->query.start.flat.position),
             stopping::turningRoom(vessel::Parameters{}.hull));
 }
 

@@ -27,8 +27,8 @@ TEST(MapEdge, TurnsBackFromRestAndPlansInside) {
     EXPECT_FALSE(next.stop);
   }
   ASSERT_TRUE(next.plan);
-  EXPECT_GE(mission.field.clearance(next.plan->query.start.position), mission.clearance(3));
-  (void)mission.answer(*next.plan, test::eastward(next.plan->query.start.position, 20.0, 3.0));
+  EXPECT_GE(mission.field.clearance(next.plan->query.start.flat.position), mission.clearance(3));
+  (void)mission.answer(*next.plan, test::eastward(next.plan->query.start.flat.position, 20.0, 3.0));
   EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
 }
 

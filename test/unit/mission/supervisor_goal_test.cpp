@@ -37,10 +37,10 @@ TEST(Goal, AsksForAPlanFromRestAtTheWidestClearance) {
   EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
   const PlanRequest& request = *orders->plan;
   EXPECT_FALSE(request.moving);
-  EXPECT_EQ(request.query.start.position, Eigen::Vector2d(-40.0, 3.0));
-  EXPECT_EQ(request.query.start.velocity, Eigen::Vector2d::Zero());
-  EXPECT_EQ(request.query.start_psi_rad, 0.5);
-  EXPECT_EQ(request.query.goal_psi_rad, 1.0);
+  EXPECT_EQ(request.query.start.flat.position, Eigen::Vector2d(-40.0, 3.0));
+  EXPECT_EQ(request.query.start.flat.velocity, Eigen::Vector2d::Zero());
+  EXPECT_EQ(request.query.start.psi_rad, 0.5);
+  EXPECT_EQ(request.query.goal.psi_rad, 1.0);
   EXPECT_DOUBLE_EQ(request.limits.clearance_m, mission.clearance(0));
 }
 
@@ -67,7 +67,7 @@ TEST(Goal, NewOneUnderWayIsPlannedInMotion) {
   ASSERT_TRUE(orders.has_value() && orders->plan);
   EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
   EXPECT_TRUE(orders->plan->moving);
-  EXPECT_NEAR(orders->plan->query.start.velocity.norm(), 4.0, 1e-6);
+  EXPECT_NEAR(orders->plan->query.start.flat.velocity.norm(), 4.0, 1e-6);
   EXPECT_NEAR(orders->plan->start_time_s, mission.now_s + mission.options.planning_latency_s, 1e-9);
 }
 

@@ -13,11 +13,11 @@ using test::ScriptedMission;
 // The trajectory that goes on from a request as the sailed one did, bent to port by a meter.
 trajectory::Trajectory aroundIt(const PlanRequest& request) {
   vessel::FlatPoint beside;
-  beside.position = request.query.start.position + Eigen::Vector2d(20.0, 5.0);
+  beside.position = request.query.start.flat.position + Eigen::Vector2d(20.0, 5.0);
   beside.velocity = {4.0, 0.0};
   vessel::FlatPoint end;
-  end.position = request.query.goal;
-  return trajectory::Trajectory({trajectory::hermitePiece(request.query.start, beside, 5.2),
+  end.position = request.query.goal.flat.position;
+  return trajectory::Trajectory({trajectory::hermitePiece(request.query.start.flat, beside, 5.2),
                                  trajectory::hermitePiece(beside, end, 10.0)});
 }
 
@@ -54,7 +54,8 @@ TEST(Supervisor, ReplansInMotionWhenTheWayIsBlocked) {
   EXPECT_NE(mission.supervisor.reason().find("on the way"), std::string::npos);
   const PlanRequest request = *orders.plan;
   const double joint = request.start_time_s - before.start_time_s;
-  EXPECT_LT((request.query.start.position - before.trajectory.flat(joint).position).norm(), 1e-12);
+  EXPECT_LT((request.query.start.flat.position - before.trajectory.flat(joint).position).norm(),
+            1e-12);
   EXPECT_NEAR(request.warm_start.duration(), before.trajectory.duration() - joint, 1e-9);
 
   mission.now_s += 0.25;
@@ -125,11 +126,11 @@ TEST(Supervisor, LatePlansAreAskedForAgainFurtherAhead) {
   ASSERT_TRUE(first.plan);
   mission.now_s += 1.5;
   // Had it come in time, the vessel would be a meter abeam of where it is.
-  vessel::FlatPoint aside = first.plan->query.start;
+  vessel::FlatPoint aside = first.plan->query.start.flat;
   aside.position += Eigen::Vector2d(4.0, 1.0);
   const Orders second = mission.answer(
       *first.plan,
-      trajectory::Trajectory({trajectory::hermitePiece(first.plan->query.start, aside, 1.2)}));
+      trajectory::Trajectory({trajectory::hermitePiece(first.plan->query.start.flat, aside, 1.2)}));
   EXPECT_FALSE(second.sail);
   ASSERT_TRUE(second.plan);
   EXPECT_GT(second.plan->start_time_s - mission.now_s, 0.6);
@@ -176,8 +177,8 @@ TEST(Supervisor, FarOffTheTrajectoryItPlansFromTheVessel) {
   mission.now_s += 0.1;
   const Orders orders = mission.supervisor.update(mission.now_s, astray, mission.field);
   ASSERT_TRUE(orders.plan);
-  EXPECT_NEAR(orders.plan->query.start.position.y(), 4.0, 1e-6);
-  EXPECT_NEAR(orders.plan->query.start.velocity.x(), 4.0, 0.1);
+  EXPECT_NEAR(orders.plan->query.start.flat.position.y(), 4.0, 1e-6);
+  EXPECT_NEAR(orders.plan->query.start.flat.velocity.x(), 4.0, 0.1);
 }
 
 TEST(Supervisor, CancelBrakesAndIsIdleThen) {
@@ -204,7 +205,7 @@ TEST(Supervisor, PlansAnewWhenItDoesNotSettle) {
   const Orders orders = mission.supervisor.update(mission.now_s, off, mission.field);
   ASSERT_TRUE(orders.plan);
   EXPECT_FALSE(orders.plan->moving);
-  EXPECT_EQ(orders.plan->query.start_psi_rad, 1.0);
+  EXPECT_EQ(orders.plan->query.start.psi_rad, 1.0);
 }
 
 TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
@@ -219,11 +220,11 @@ TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
   const Orders again = mission.update(2.1);
   ASSERT_TRUE(again.plan);
   vessel::FlatPoint end;
-  end.position = again.plan->query.goal;
+  end.position = again.plan->query.goal.flat.position;
   const double quick = 0.8 * again.plan->warm_start.duration();
   EXPECT_TRUE(mission
                   .answer(*again.plan, trajectory::Trajectory({trajectory::hermitePiece(
-                                           again.plan->query.start, end, quick)}))
+                                           again.plan->query.start.flat, end, quick)}))
                   .sail);
 }
 

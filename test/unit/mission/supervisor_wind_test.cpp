@@ -35,10 +35,10 @@ TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
   ASSERT_TRUE(orders.plan);
   EXPECT_NEAR(orders.plan->limits.thrust_share, mission.options.thrust_share - 0.1, 1e-9);
   // It begins where the vessel is, with no more force than the plan may use.
-  EXPECT_LT((orders.plan->query.start.position - behind.state.head<2>()).norm(), 2.0);
+  EXPECT_LT((orders.plan->query.start.flat.position - behind.state.head<2>()).norm(), 2.0);
   const vessel::Parameters otter;
-  const Eigen::Vector2d force = otter.paper.m1_kg * orders.plan->query.start.acceleration +
-                                otter.paper.d2_kgps * orders.plan->query.start.velocity;
+  const Eigen::Vector2d force = otter.paper.m1_kg * orders.plan->query.start.flat.acceleration +
+                                otter.paper.d2_kgps * orders.plan->query.start.flat.velocity;
   EXPECT_LE(force.norm(), 2.0 * otter.thrusters.ahead_max_n * orders.plan->limits.thrust_share);
 }
 
@@ -56,8 +56,8 @@ TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   EXPECT_TRUE(orders.plan->moving);
   EXPECT_NEAR(orders.plan->limits.thrust_share, 0.65, 1e-9);
   ASSERT_TRUE(mission
-                  .answer(*orders.plan, test::eastward(orders.plan->query.start.position, 50.0,
-                                                       orders.plan->query.start.velocity.x()))
+                  .answer(*orders.plan, test::eastward(orders.plan->query.start.flat.position, 50.0,
+                                                       orders.plan->query.start.flat.velocity.x()))
                   .sail);
   windy = mission.situation();
   windy.disturbance_n = 30.0;

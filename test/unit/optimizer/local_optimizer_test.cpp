@@ -28,17 +28,10 @@ trajectory::Piece edge(double y) {
   return piece;
 }
 
-TEST(LocalOptimizer, NamesTheFault) {
-  const LocalOptimizer local{LocalOptions(), vessel::Parameters()};
-  const map::DistanceField field = rockField();
-  EXPECT_TRUE(local.check(field, edge(30.0)).ok());
-  const EdgeCheck hit = local.check(field, edge(20.3));
-  EXPECT_EQ(hit.fault, EdgeFault::kClearance);
-  EXPECT_NEAR(hit.time_s, (19.5 - 0.8 - 11.0) / 3.0, 0.2);
-  trajectory::Piece fast = edge(30.0);
-  fast.position(0, 1) = 4.9;
-  fast.duration_s = 1.0;
-  EXPECT_EQ(local.check(field, fast).fault, EdgeFault::kSpeed);
+feasibility::EdgeCheck checkOn(const map::DistanceField& field) {
+  feasibility::EdgeCheck check{vessel::Parameters()};
+  check.begin(field, feasibility::SafetyLimits());
+  return check;
 }
 
 TEST(LocalOptimizer, BendsAnEdgeAroundARock) {
@@ -46,7 +39,7 @@ TEST(LocalOptimizer, BendsAnEdgeAroundARock) {
   const map::DistanceField field = rockField();
   const trajectory::Piece failing = edge(20.5);
   RepairedEdge repaired;
-  ASSERT_TRUE(local.repair(field, failing, repaired));
+  ASSERT_TRUE(local.repair(checkOn(field), failing, 0.0, repaired));
   ASSERT_GT(repaired.count, 1);
   vessel::FlatPoint before = failing.flat(0.0);
   for (int i = 0; i < repaired.count; ++i) {
@@ -55,7 +48,7 @@ TEST(LocalOptimizer, BendsAnEdgeAroundARock) {
     EXPECT_LT((at.position - before.position).norm(), 1e-9);
     EXPECT_LT((at.velocity - before.velocity).norm(), 1e-9);
     EXPECT_LT((at.acceleration - before.acceleration).norm(), 1e-8);
-    EXPECT_TRUE(local.check(field, piece).ok());
+    EXPECT_EQ(checkOn(field).checkBent(piece), feasibility::EdgeFault::kNone);
     before = piece.flat(piece.duration_s);
   }
   const vessel::FlatPoint end = failing.flat(failing.duration_s);

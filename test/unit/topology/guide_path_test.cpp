@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/config/fields.hpp"
 
 namespace otter_nav::topology {
 namespace {
@@ -47,7 +48,7 @@ TEST(GuidePathFinder, OpenWaterIsTheStraightLine) {
   EXPECT_TRUE(path->collisions_m.empty());
   EXPECT_TRUE(path->repaired_dubins);
   ASSERT_EQ(path->corridor_m.size(), 2U);
-  EXPECT_NEAR(path->corridor_m[0], Options{}.corridor_max_m, 1e-9);
+  EXPECT_NEAR(path->corridor_m[0], 6.0, 1e-9);
 }
 
 // Round a square of 4 m: tangents to arcs of radius clearance + margin about two corners.
@@ -134,7 +135,7 @@ TEST(GuidePathFinder, WalledInGoalHasNoWay) {
   GuidePath path;
   const auto found = finder.find(field, {{-20.0, 0.0}, 0.0}, {{17.5, 0.0}, 0.0}, path);
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().failure, Failure::kNoWay);
+  EXPECT_EQ(found.error().failure, Failure::kNoPath);
 }
 
 TEST(GuidePathFinder, StartNearAnObstacleMayLeave) {
@@ -147,18 +148,23 @@ TEST(GuidePathFinder, StartNearAnObstacleMayLeave) {
   expectClear(field, *path, 0.8);
 }
 
+TEST(GuidePathFinder, KeepsTheClearanceAskedFor) {
+  OccupancyGrid grid = water();
+  fill(grid, -2.0, -2.0, 2.0, 2.0);
+  const map::DistanceField field(grid, {});
+  GuidePathFinder finder({});
+  const auto narrow = finder.find(field, {{-20.0, 0.0}, 0.0}, {{20.0, 0.0}, 0.0});
+  const auto wide = finder.find(field, {{-20.0, 0.0}, 0.0}, {{20.0, 0.0}, 0.0}, 2.5);
+  ASSERT_TRUE(narrow && wide);
+  expectClear(field, *wide, 2.5);
+  EXPECT_GT(wide->length_m, narrow->length_m);
+}
+
 TEST(TopologyOptions, ShippedFileHoldsTheDefaults) {
-  const std::string path = std::string(OTTER_NAV_SOURCE_DIR) + "/config/topology.yaml";
-  const auto node = config::loadFile(path);
-  ASSERT_TRUE(node) << node.error().message;
-  const auto options = readOptions({*node, path});
+  const auto options =
+      config::load<Options>(std::string(OTTER_NAV_SOURCE_DIR) + "/config/topology.yaml");
   ASSERT_TRUE(options) << options.error().message;
-  EXPECT_EQ(options->lattice_m, Options{}.lattice_m);
-  YAML::Node wrong = YAML::Clone(*node);
-  wrong["safe_distance_m"] = 0.1;
-  const auto refused = readOptions({wrong, path});
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("'safe_distance_m'"), std::string::npos);
+  EXPECT_EQ(config::toYaml(*options), config::toYaml(Options{}));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/planner/guide_line.hpp"
-#include "otter_nav/planner/obvp.hpp"
+#include "planner/guide_line.hpp"
+#include "planner/obvp.hpp"
 
 namespace otter_nav::planner {
 

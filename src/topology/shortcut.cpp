@@ -1,4 +1,4 @@
-#include "taut.hpp"
+#include "topology/shortcut.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,12 @@ double lengthOf(const Polyline& path) {
   return length;
 }
 
-bool Tautener::clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+bool Shortener::clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
   return map::segmentIsClear(*field_, a, b, clearance_m_);
 }
 
 // From each vertex kept, on to the farthest found visible by doubling strides and then halving.
-void Tautener::shortcut(Polyline& path) {
+void Shortener::shortcut(Polyline& path) {
   if (path.size() < 3) {
     return;
   }
@@ -55,7 +55,7 @@ void Tautener::shortcut(Polyline& path) {
 }
 
 // Each vertex towards the line between its neighbours, as far as both its segments stay clear.
-void Tautener::pull(Polyline& path) const {
+void Shortener::pull(Polyline& path) const {
   for (std::size_t i = 1; i + 1 < path.size(); ++i) {
     const Eigen::Vector2d a = path[i - 1];
     const Eigen::Vector2d b = path[i + 1];
@@ -81,7 +81,7 @@ void Tautener::pull(Polyline& path) const {
 }
 
 // A corner is cut off where the straight cut is clear: two vertices for one.
-void Tautener::cut(Polyline& path) {
+void Shortener::cut(Polyline& path) {
   scratch_.clear();
   scratch_.push_back(path.front());
   for (std::size_t i = 1; i + 1 < path.size(); ++i) {
@@ -113,7 +113,7 @@ void Tautener::cut(Polyline& path) {
   path.swap(scratch_);
 }
 
-void Tautener::run(const map::DistanceField& field, double clearance_m, Polyline& path) {
+void Shortener::run(const map::DistanceField& field, double clearance_m, Polyline& path) {
   field_ = &field;
   clearance_m_ = clearance_m;
   shortcut(path);

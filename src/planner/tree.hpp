@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "otter_nav/planner/obvp.hpp"
+#include "planner/obvp.hpp"
 
 namespace otter_nav::planner {
 

@@ -1,5 +1,5 @@
 // The bidirectional kinodynamic RRT* of the paper's algorithms 1 and 2: two trees grown towards
-// the same samples, each with its best parent, rewired; a sample in both trees is a way.
+// the same samples, each with its best parent, rewired; a sample in both trees is a path.
 #pragma once
 
 #include <array>
@@ -7,23 +7,17 @@
 #include <vector>
 
 #include "otter_nav/feasibility/edge_check.hpp"
-#include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/optimizer/local_optimizer.hpp"
-#include "otter_nav/planner/tree.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "planner/tree.hpp"
 
 namespace otter_nav::planner {
 
 struct SearchOptions {
-  double sigma = 1.0;
-  int neighbours = 12;         // tried as parents, and for rewiring
-  int max_nodes = 2048;        // a tree
-  double edge_max_m = 30.0;    // between two states
-  bool repair_edges = true;    // the paper's local optimisation
-  int repairs_per_sample = 1;  // and tree
-  feasibility::EdgeLimits limits;
+  double sigma = 10.0;
+  int max_nodes = 2048;      // a tree
+  bool repair_edges = true;  // the paper's local optimisation
 };
-constexpr int kMaxNeighbours = 32;
 
 struct SearchCounts {
   int samples = 0;
@@ -37,19 +31,18 @@ class Search {
   Search(const SearchOptions& options, const optimizer::LocalOptions& local,
          const vessel::Parameters& vessel);
 
-  // Begins a query: `field` must outlive it.
-  void reset(const map::DistanceField& field, const KinoState& start, const KinoState& goal);
-  // Replaces the limits, before reset(): the clearance is each query's own.
-  void setLimits(const feasibility::EdgeLimits& limits);
+  // Begins a query: field and layers of `obstacles` must outlive it.
+  void reset(const feasibility::Obstacles& obstacles, const feasibility::SafetyLimits& limits,
+             const KinoState& start, const KinoState& goal);
   // Tries to join the trees by one edge from root to root, without a sample.
   bool joinRoots();
-  // Grows both trees towards one sample. True if a way, or a cheaper way, is known thereafter.
+  // Grows both trees towards one sample. True if a path, or a cheaper one, is known thereafter.
   bool extend(const KinoState& sample);
 
   [[nodiscard]] bool solved() const { return !meetings_.empty(); }
-  // Cost of the cheapest way; infinite without one.
+  // Cost of the cheapest path; infinite without one.
   [[nodiscard]] double bestCost() const;
-  // Recall: the cheapest way's edges, start to goal. Empty without one.
+  // Recall: the cheapest path's edges, start to goal. Empty without one.
   [[nodiscard]] std::vector<trajectory::Piece> recall() const;
 
   [[nodiscard]] SearchCounts counts() const;
@@ -59,9 +52,10 @@ class Search {
   void appendEdge(const Tree& tree, int node, std::vector<trajectory::Piece>& pieces) const;
 
  private:
+  static constexpr int kNeighbours = 10;  // tried as parents, and for rewiring
   struct Candidate {
     int node = kNone;
-    double bound = 0.0;  // of the way's cost through it; after steering, the cost
+    double bound = 0.0;  // of the path's cost through it; after steering, the cost
     Steer steer;
   };
   struct Meeting {
@@ -80,13 +74,12 @@ class Search {
   SearchOptions options_;
   feasibility::EdgeCheck check_;
   optimizer::LocalOptimizer local_;
-  const map::DistanceField* field_ = nullptr;
   Tree from_start_;
   Tree to_goal_;
   std::vector<trajectory::Piece> pieces_;  // of repaired edges
   std::vector<Meeting> meetings_;
   std::optional<Edge> direct_;  // root to root
-  std::array<Candidate, kMaxNeighbours> candidates_;
+  std::array<Candidate, kNeighbours> candidates_;
   optimizer::RepairedEdge repaired_;
   SearchCounts counts_;
 };

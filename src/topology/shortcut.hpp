@@ -1,4 +1,4 @@
-// Draws a path taut: vertices dropped, pulled inwards and cut until the length no longer falls, so
+// Shortens a path: vertices dropped, pulled inwards and cut until the length no longer falls, so
 // that it is near the shortest of its kind (of those that pass obstacles on the same sides).
 #pragma once
 
@@ -13,7 +13,7 @@ using Polyline = std::vector<Eigen::Vector2d>;
 
 [[nodiscard]] double lengthOf(const Polyline& path);
 
-class Tautener {
+class Shortener {
  public:
   // Every segment of `path` must keep the clearance, and does afterwards. Ends stay.
   void run(const map::DistanceField& field, double clearance_m, Polyline& path);

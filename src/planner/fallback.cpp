@@ -1,4 +1,4 @@
-#include "ways.hpp"
+#include "planner/fallback.hpp"
 
 #include <array>
 #include <cmath>
@@ -13,7 +13,10 @@ using trajectory::Piece;
 using vessel::FlatPoint;
 
 constexpr double kLaunchM = 3.0;
-constexpr double kLaunchSpeedShare = 0.4;  // of the top speed, at the launch's end
+// Of the limits, in spins.
+constexpr double kSpinThrustShare = 0.93;
+constexpr double kSpinRateShare = 0.9;
+constexpr double kLaunchSpeedShare = 0.41;  // of the speed limit, at the launch's end
 
 FlatPoint reversed(const FlatPoint& z) {
   FlatPoint r = z;
@@ -41,7 +44,7 @@ Piece straightPiece(const FlatPoint& from, const FlatPoint& to, const Eigen::Vec
   return piece;
 }
 
-// z(t / slowdown): the same way, each derivative smaller by another power.
+// z(t / slowdown): the same path, each derivative smaller by another power.
 Piece slowed(const Piece& piece, double slowdown) {
   Piece slow = piece;
   slow.duration_s = slowdown * piece.duration_s;
@@ -58,17 +61,17 @@ bool atRest(const FlatPoint& z) {
 }
 
 // Jerks on both sides of each joint averaged, the first one given; next to launch and stop only
-// their part along the way is kept, so that these stay straight.
-std::vector<Piece> smoothed(const std::vector<Piece>& way, const Eigen::Vector2d& start_jerk) {
-  const std::size_t last = way.size() - 1;
-  std::vector<FlatPoint> knots(way.size() + 1);
-  knots.front() = way.front().flat(0.0);
+// their part along the path is kept, so that these stay straight.
+std::vector<Piece> smoothed(const std::vector<Piece>& path, const Eigen::Vector2d& start_jerk) {
+  const std::size_t last = path.size() - 1;
+  std::vector<FlatPoint> knots(path.size() + 1);
+  knots.front() = path.front().flat(0.0);
   knots.front().jerk = start_jerk;
-  knots.back() = way.back().flat(way.back().duration_s);
+  knots.back() = path.back().flat(path.back().duration_s);
   const bool launched = atRest(knots.front());
   for (std::size_t i = 1; i <= last; ++i) {
-    const FlatPoint before = way[i - 1].flat(way[i - 1].duration_s);
-    knots[i] = way[i].flat(0.0);
+    const FlatPoint before = path[i - 1].flat(path[i - 1].duration_s);
+    knots[i] = path[i].flat(0.0);
     knots[i].jerk = 0.5 * (before.jerk + knots[i].jerk);
     if ((launched && i == 1) || i == last) {
       const Eigen::Vector2d along = knots[i].velocity.normalized();
@@ -81,8 +84,8 @@ std::vector<Piece> smoothed(const std::vector<Piece>& way, const Eigen::Vector2d
     const bool straight = (launched && i == 0) || i == last;
     const Eigen::Vector2d& moving = i == 0 ? knots[1].velocity : knots[i].velocity;
     pieces.push_back(
-        straight ? straightPiece(knots[i], knots[i + 1], moving.normalized(), way[i].duration_s)
-                 : trajectory::hermitePiece(knots[i], knots[i + 1], way[i].duration_s));
+        straight ? straightPiece(knots[i], knots[i + 1], moving.normalized(), path[i].duration_s)
+                 : trajectory::hermitePiece(knots[i], knots[i + 1], path[i].duration_s));
   }
   return pieces;
 }
@@ -93,9 +96,12 @@ double course(const Eigen::Vector2d& v) {
 
 trajectory::Trajectory assemble(const std::vector<Piece>& smooth, double slowdown,
                                 const trajectory::Boundary& start, const trajectory::Boundary& goal,
-                                const vessel::Parameters& vessel) {
+                                const vessel::Parameters& vessel,
+                                const feasibility::SafetyLimits& limits) {
   std::vector<Piece> pieces;
-  const optimizer::SpinLimits spin;
+  optimizer::SpinLimits spin;
+  spin.thrust_share = kSpinThrustShare * limits.thrust_share;
+  spin.yaw_rate_max_radps = kSpinRateShare * limits.yaw_rate_max_radps;
   if (trajectory::atRest(start)) {
     const Piece& first = smooth.front();
     const double psi = course(first.flat(first.duration_s).velocity);
@@ -113,21 +119,13 @@ trajectory::Trajectory assemble(const std::vector<Piece>& smooth, double slowdow
 
 }  // namespace
 
-double trajectoryCost(const trajectory::Trajectory& trajectory, double sigma) {
-  double cost = 0.0;
-  for (const Piece& piece : trajectory.pieces()) {
-    cost += pieceCost(piece, sigma);
-  }
-  return cost;
-}
-
 Launch launchFrom(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
-                  double top_speed_mps) {
+                  double speed_max_mps) {
   FlatPoint rest;
   rest.position = position;
   FlatPoint end;
   end.position = position + kLaunchM * direction;
-  end.velocity = kLaunchSpeedShare * top_speed_mps * direction;
+  end.velocity = kLaunchSpeedShare * speed_max_mps * direction;
   Launch launch;
   launch.root.position = end.position;
   launch.root.velocity = end.velocity;
@@ -136,8 +134,8 @@ Launch launchFrom(const Eigen::Vector2d& position, const Eigen::Vector2d& direct
 }
 
 Launch stopAt(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
-              double top_speed_mps) {
-  Launch stop = launchFrom(position, -direction, top_speed_mps);
+              double speed_max_mps) {
+  Launch stop = launchFrom(position, -direction, speed_max_mps);
   FlatPoint rest;
   rest.position = position;
   const FlatPoint moving = reversed(stop.piece.flat(stop.piece.duration_s));
@@ -146,27 +144,28 @@ Launch stopAt(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
   return stop;
 }
 
-Result<trajectory::Trajectory> closeWay(const std::vector<Piece>& way,
-                                        const trajectory::Boundary& start,
-                                        const trajectory::Boundary& goal,
-                                        const map::DistanceField& field,
-                                        const vessel::Parameters& vessel,
-                                        const feasibility::CheckOptions& check) {
+Result<trajectory::Trajectory> closePath(const std::vector<Piece>& path,
+                                         const trajectory::Boundary& start,
+                                         const trajectory::Boundary& goal,
+                                         const feasibility::Obstacles& obstacles,
+                                         const vessel::Parameters& vessel,
+                                         const feasibility::SafetyLimits& limits) {
   constexpr std::array<double, 10> kSlowdown = {1.0, 1.05, 1.1, 1.2, 1.4, 1.7, 2.1, 2.6, 3.2, 4.0};
-  const std::vector<Piece> smooth = smoothed(way, start.flat.jerk);
+  const std::vector<Piece> smooth = smoothed(path, start.flat.jerk);
   std::string reason;
   for (const double slowdown : kSlowdown) {
     if (slowdown > 1.0 && !trajectory::atRest(start)) {
       break;
     }
-    trajectory::Trajectory trajectory = assemble(smooth, slowdown, start, goal, vessel);
-    const auto verification = feasibility::verify(trajectory, field, vessel, start, goal, check);
+    trajectory::Trajectory trajectory = assemble(smooth, slowdown, start, goal, vessel, limits);
+    const auto verification =
+        feasibility::verify(trajectory, obstacles, vessel, start, goal, limits);
     if (verification.ok) {
       return trajectory;
     }
     reason = verification.reason;
   }
-  return failure("the trees' way can't be made sound: " + reason);
+  return failure("the trees' path can't be made feasible: " + reason);
 }
 
 }  // namespace otter_nav::planner

@@ -1,0 +1,68 @@
+// The hull among obstacles. Every check of a path sees it as the same three discs; where a place is
+// too tight for these, its outline is looked at itself.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "otter_nav/feasibility/obstacles.hpp"
+#include "otter_nav/vessel/hull.hpp"
+
+namespace otter_nav::feasibility {
+
+// Three discs of `radius_m` that cover the hull's rectangle: at its centre and `offset_m` ahead and
+// astern of it.
+struct HullCover {
+  double offset_m = 0.0;
+  double radius_m = 0.0;
+
+  explicit HullCover(const vessel::Hull& hull)
+      : offset_m(hull.length_m / 3.0),
+        radius_m(std::hypot(hull.length_m / 6.0, hull.beam_m / 2.0)) {}
+
+  // Of the circle around all discs.
+  [[nodiscard]] double reach() const { return offset_m + radius_m; }
+
+  // How far the hull at `position` may still move before its centre is nearer than
+  // `centre_clearance_m` or a disc touches anything, m; negative where that is so already. Far from
+  // everything a lower bound. `bow` gives the unit vector ahead, and is asked near obstacles only.
+  // `centre` gets the clearance of the hull's centre.
+  template <typename Bow>
+  [[nodiscard]] double slack(const Obstacles& obstacles, const Eigen::Vector2d& position,
+                             double time_s, double centre_clearance_m, const Bow& bow,
+                             double& centre_m) const {
+    centre_m = obstacles.clearance(position, time_s);
+    const double left = centre_m - centre_clearance_m;
+    const double around = centre_m - reach();
+    if (left <= 0.0 || around >= 0.5 * left) {
+      return std::min(left, around);
+    }
+    const Eigen::Vector2d end = offset_m * bow();
+    const double ends = std::min(obstacles.clearance(position + end, time_s),
+                                 obstacles.clearance(position - end, time_s));
+    return std::min(left, std::min(ends, centre_m) - radius_m);
+  }
+};
+
+// The least `clearance(point)` along the rectangle's outline, looked at every few centimetres.
+template <typename Clearance>
+[[nodiscard]] double outlineClearance(const vessel::Hull& hull, const Eigen::Vector2d& position,
+                                      double psi_rad, const Clearance& clearance) {
+  constexpr int kSteps = 20;
+  const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
+  const Eigen::Vector2d port(-ahead.y(), ahead.x());
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = -kSteps; k <= kSteps; ++k) {
+    const Eigen::Vector2d along = 0.5 * hull.length_m * k / kSteps * ahead;
+    const Eigen::Vector2d across = 0.5 * hull.beam_m * k / kSteps * port;
+    for (const double side : {-0.5, 0.5}) {
+      least = std::min({least, clearance(position + along + side * hull.beam_m * port),
+                        clearance(position + across + side * hull.length_m * ahead)});
+    }
+  }
+  return least;
+}
+
+}  // namespace otter_nav::feasibility
