@@ -78,7 +78,7 @@ class Planner::Pipeline {
 
   Plan plan(const feasibility::Obstacles& obstacles, const Query& query,
             const Termination& termination) {
-    Run run{obstacles, query, termination};
+    Run run{obstacles, query, termination, {}};
     run.samples_left = termination.max_iterations;
     const double began = run.now();
     if (checkEnds(run) && !planNearby(run) && findGuide(run)) {

@@ -18,7 +18,7 @@ Search::Search(const SearchOptions& options, const optimizer::LocalOptions& loca
                const vessel::Parameters& vessel)
     : options_(options),
       check_(vessel),
-      local_(local),
+      local_(local, vessel),
       from_start_(Direction::kFromRoot, options.max_nodes),
       to_goal_(Direction::kToRoot, options.max_nodes) {
   pieces_.reserve(static_cast<std::size_t>(options.max_nodes) * kPiecesPerNode);

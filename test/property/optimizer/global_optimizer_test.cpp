@@ -56,7 +56,7 @@ TEST(GlobalOptimizer, StraightAheadTakesTheTimeFullThrustDoes) {
   ASSERT_TRUE(result.has_value()) << result.error().message;
   EXPECT_NEAR(trajectory::length(result->trajectory), 60.0, 0.05);
   // Bang-bang under the share allowed: no trajectory is quicker.
-  const double force = 100.0 * options.thrust_share;
+  const double force = 100.0 * feasibility::SafetyLimits().thrust_share;
   double best = 0.0;
   double s = 0.0;
   double v = 0.0;
@@ -75,7 +75,7 @@ TEST(GlobalOptimizer, StraightAheadTakesTheTimeFullThrustDoes) {
     }
     best = before;
     s += 1e-3 * v;
-    v = std::min(v + 1e-3 * (force - 20.0 * v) / 35.0, options.speed_max_mps);
+    v = std::min(v + 1e-3 * (force - 20.0 * v) / 35.0, 4.85);
   }
   EXPECT_GT(result->trajectory.duration(), best);
   EXPECT_LT(result->trajectory.duration(), 1.2 * best);

@@ -20,12 +20,14 @@ using trajectory::Trajectory;
 constexpr double kSpeed = 4.3;
 constexpr double kClearanceM = 0.8;
 
-feasibility::CheckOptions limits() {
-  feasibility::CheckOptions check;
-  check.clearance_m = kClearanceM;
-  check.thrust_share = 1.1;
-  check.speed_max_mps = 10.0;
-  return check;
+feasibility::Verification verify(const Trajectory& stop, const map::DistanceField& field) {
+  feasibility::SafetyLimits limits;
+  limits.clearance_m = kClearanceM;
+  limits.thrust_share = 1.1;
+  limits.speed_max_mps = 10.0;
+  feasibility::Tolerances tolerances;
+  tolerances.heading_force_share = 0.01;
+  return feasibility::verify(stop, field, vessel::Parameters{}, limits, tolerances);
 }
 
 void expectRest(const Trajectory& stop) {
@@ -63,7 +65,7 @@ TEST(Braking, IsHardInFrontOfAWall) {
   EXPECT_LT(stop.trajectory.duration(), 4.0);
   EXPECT_LT(stop.trajectory.flat(100.0).position.x(), here.x() + 10.0 - 0.8);
   expectRest(stop.trajectory);
-  EXPECT_TRUE(feasibility::verify(stop.trajectory, field, vessel::Parameters{}, limits()).ok);
+  EXPECT_TRUE(verify(stop.trajectory, field).ok);
 }
 
 TEST(Braking, StraightensOutOfACurve) {
@@ -76,7 +78,7 @@ TEST(Braking, StraightensOutOfACurve) {
   ASSERT_TRUE(stop.clear);
   expectRest(stop.trajectory);
   expectContinues(sailed, 5.0, stop.trajectory);
-  const auto verified = feasibility::verify(stop.trajectory, field, vessel::Parameters{}, limits());
+  const auto verified = verify(stop.trajectory, field);
   EXPECT_TRUE(verified.ok) << verified.reason;
 }
 
