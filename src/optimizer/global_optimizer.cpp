@@ -250,19 +250,8 @@ class GlobalOptimizer::Solver {
   const Budget* budget_ = nullptr;
 };
 
-namespace {
-
-// No faster than the vessel is, less what it steers with.
-GlobalOptions within(GlobalOptions options, const vessel::Parameters& vessel) {
-  constexpr double kSpeedShare = 0.97;
-  options.speed_max_mps = std::min(options.speed_max_mps, kSpeedShare * vessel.top_speed_mps);
-  return options;
-}
-
-}  // namespace
-
 GlobalOptimizer::GlobalOptimizer(const GlobalOptions& options, const vessel::Parameters& vessel)
-    : solver_(std::make_unique<Solver>(within(options, vessel), vessel)) {}
+    : solver_(std::make_unique<Solver>(options, vessel)) {}
 GlobalOptimizer::~GlobalOptimizer() = default;
 GlobalOptimizer::GlobalOptimizer(GlobalOptimizer&&) noexcept = default;
 GlobalOptimizer& GlobalOptimizer::operator=(GlobalOptimizer&&) noexcept = default;

@@ -25,8 +25,6 @@ Eigen::Matrix<double, 6, 1> powers(double T) {
 
 LocalOptimizer::LocalOptimizer(const LocalOptions& options, const vessel::Parameters& vessel)
     : options_(options), vessel_(vessel), jerk_(trajectory::quinticJerk()) {
-  constexpr double kSpeedShare = 0.96;  // of the vessel's own
-  options_.speed_max_mps = std::min(options_.speed_max_mps, kSpeedShare * vessel.top_speed_mps);
   options_.segments = std::clamp(options_.segments, 2, kMaxSegments);
   for (int i = 0; i < kPoints; ++i) {
     basis_[static_cast<std::size_t>(i)] = trajectory::quinticBasis((i + 0.5) / kPoints);
