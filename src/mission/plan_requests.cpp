@@ -56,7 +56,7 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
   request.query.start.flat = sample.flat;
   request.query.start.psi_rad = sample.state[vessel::kPsi];
   request.start_time_s = sailed.start_time_s + *at;
-  request.warm_start = stopping::remainder(sailed.trajectory, *at);
+  request.query.warm_start = stopping::remainder(sailed.trajectory, *at);
   // The force it begins with is one of the plan being sailed.
   return ask(now_s, std::move(request), goal, thrust_share, From::kSailed, obstacles);
 }
@@ -85,7 +85,8 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   request.query.goal.flat.position = goal.position;
   request.query.goal.psi_rad = goal.psi_rad;
   request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
-  request.limits = safety.limits(thrust_share, room);
+  request.query.limits = safety.limits(thrust_share, room);
+  request.thrust_share = thrust_share;
   request.moving = from != From::kRest;
   asked_ = Asked{request, from, false, now_s};
   return request;

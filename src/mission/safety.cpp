@@ -55,11 +55,9 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
          clearanceOf(vessel_.hull, options_.side_clearances_m[levels_.level()]) > room_m) {
     levels_.narrower();
   }
-  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel_);
-  limits.thrust_share = thrust_share;
-  limits.clearance_m = planClearance(options_, levels_.level(), disturbance_share_, thrust_share,
-                                     vessel_.hull, room_m);
-  return limits;
+  const double clearance = planClearance(options_, levels_.level(), disturbance_share_,
+                                         thrust_share, vessel_.hull, room_m);
+  return feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
 }
 
 double Safety::freeThrustShare() const {

@@ -154,7 +154,7 @@ class Supervisor::Impl {
   // is no ground for another plan.
   bool isNarrow(const Moment& m) {
     constexpr double kSlackM = 0.3;
-    conflict_ = firstBelow(m, std::max(safety().critical(), kept_.clearance_m - kSlackM));
+    conflict_ = firstBelow(m, std::max(safety().critical(), planned_clearance_m_ - kSlackM));
     return conflict_.found;
   }
   bool isClearAgain(const Moment& m) { return for_clearance_ && !isNarrow(m); }
@@ -172,7 +172,7 @@ class Supervisor::Impl {
   // At once the first time, then not for each gust again.
   bool lacksThrust(const Moment& m) {
     constexpr double kAgainS = 3.0;
-    return safety().countsOnTooMuch(kept_.thrust_share) &&
+    return safety().countsOnTooMuch(planned_thrust_share_) &&
            (replans_ == 0 || m.now_s - plan_time_s_ >= kAgainS);
   }
   bool mayImprove(const Moment& m) {
@@ -215,7 +215,8 @@ class Supervisor::Impl {
   // Nothing if the vessel is about to come to rest: what comes then is for the rules at the
   // trajectory's end, or for the brake.
   Orders planFromSailed(const Moment& m) {
-    return {plans_.fromSailed(m.now_s, sailed_, kept_.thrust_share, goal_, m.obstacles), {}, false};
+    return {
+        plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles), {}, false};
   }
   Orders planFromFarOff(const Moment& m) {
     safety().leftBehind();
@@ -393,9 +394,10 @@ class Supervisor::Impl {
     reason_ = std::move(reason);
     return {};
   }
-  Orders sail(const Moment& m, TimedTrajectory plan, const feasibility::SafetyLimits& limits) {
+  Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequest& request) {
     sailed_ = std::move(plan);
-    kept_ = limits;
+    planned_clearance_m_ = request.query.limits.clearance_m;
+    planned_thrust_share_ = request.thrust_share;
     plan_time_s_ = m.now_s;
     safety().planTaken();
     enter(Phase::kSailing);
@@ -442,7 +444,7 @@ class Supervisor::Impl {
       return planFromRest(m);
     }
     replans_ += phase_ == Phase::kStopped ? 1 : 0;
-    return sail(m, {plan.trajectory, m.now_s}, asked.request.limits);
+    return sail(m, {plan.trajectory, m.now_s}, asked.request);
   }
   Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
     constexpr double kLateM = 0.3;
@@ -461,10 +463,9 @@ class Supervisor::Impl {
     ++replans_;
     plans_.latency.onTime();
     if (asked.from == From::kVessel) {
-      return sail(m, {plan.trajectory, starts}, asked.request.limits);
+      return sail(m, {plan.trajectory, starts}, asked.request);
     }
-    return sail(m, stopping::splice(sailed_, m.now_s, {plan.trajectory, starts}),
-                asked.request.limits);
+    return sail(m, stopping::splice(sailed_, m.now_s, {plan.trajectory, starts}), asked.request);
   }
   Orders planFailed(const Moment& m, const std::string& why, const PlanRequests::Asked& asked) {
     if (asked.improves) {
@@ -485,7 +486,7 @@ class Supervisor::Impl {
     }
     return enter(Phase::kFailed,
                  text("no plan after %d rounds: ", retries_.rounds()) + why +
-                     text(" (at %.2f m clearance)", asked.request.limits.clearance_m));
+                     text(" (at %.2f m clearance)", asked.request.query.limits.clearance_m));
   }
 
   SupervisorOptions options_;
@@ -495,12 +496,13 @@ class Supervisor::Impl {
   std::string reason_;
   vessel::Pose goal_;
   TimedTrajectory sailed_;
-  feasibility::SafetyLimits kept_;  // what the sailed trajectory was planned for
-  stopping::Conflict conflict_;     // what the last condition found on the way
-  double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for
-  double stop_time_s_ = 0.0;        // when the vessel began to come to rest
-  bool cancelled_ = false;          // the mission ends with the stop
-  bool for_clearance_ = false;      // replanning because of the clearance ahead, nothing else
+  double planned_clearance_m_ = 0.0;   // what the sailed trajectory was planned for
+  double planned_thrust_share_ = 1.0;  // and with
+  stopping::Conflict conflict_;        // what the last condition found on the way
+  double plan_time_s_ = 0.0;           // when the plan was taken, or an improvement asked for
+  double stop_time_s_ = 0.0;           // when the vessel began to come to rest
+  bool cancelled_ = false;             // the mission ends with the stop
+  bool for_clearance_ = false;         // replanning because of the clearance ahead, nothing else
   int replans_ = 0;
   PlanRequests plans_;
   RetryBudget retries_;

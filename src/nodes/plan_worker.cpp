@@ -37,7 +37,7 @@ geometry_msgs::PoseStamped poseMessage(const Eigen::Vector2d& position, double p
 
 PlanWorker::PlanWorker(const Options& options, const vessel::Parameters& vessel, OnDone on_done)
     : options_(options),
-      desk_(options.planner, vessel),
+      planner_(options.planner, vessel),
       on_done_(std::move(on_done)),
       thread_([this] { run(); }) {}
 
@@ -81,7 +81,8 @@ void PlanWorker::plan(Task& task) {
   } else {
     termination.max_iterations = options_.max_iterations;
   }
-  planner::Plan plan = desk_.plan(task.request, task.field, guidePath(task), termination);
+  task.request.query.guide_path = guidePath(task);
+  planner::Plan plan = planner_.plan(task.field, task.request.query, termination);
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   ros::getGlobalCallbackQueue()->addCallback(
       boost::make_shared<Delivery>([this, request = std::move(task.request), plan = std::move(plan),
@@ -99,7 +100,7 @@ std::vector<Eigen::Vector2d> PlanWorker::guidePath(const Task& task) {
   FindGuidePath call;
   call.request.start = poseMessage(query.start.flat.position, query.start.psi_rad);
   call.request.goal = poseMessage(query.goal.flat.position, query.goal.psi_rad);
-  call.request.clearance = task.request.limits.clearance_m;
+  call.request.clearance = query.limits.clearance_m;
   call.request.map_stamp = task.map_stamp;
   if (!topology_.isValid() || !topology_.call(call)) {
     ROS_WARN_THROTTLE(10.0, "find_guide_path does not answer; the planner finds its own way");

@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/mission/plan_desk.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/planner/planner.hpp"
 
@@ -51,7 +50,7 @@ class PlanWorker {
   [[nodiscard]] std::vector<Eigen::Vector2d> guidePath(const Task& task);
 
   Options options_;
-  mission::PlanDesk desk_;
+  planner::Planner planner_;
   OnDone on_done_;
   ros::NodeHandle node_;
   ros::ServiceClient topology_;

@@ -151,7 +151,7 @@ void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner:
                              double wall_ms) {
   publisher_.publishPlan(plan, wall_ms);
   if (plan.outcome != planner::Outcome::kSolved) {
-    ROS_INFO_STREAM("No plan at clearance " << request.limits.clearance_m << " m: " << plan.reason);
+    ROS_INFO_STREAM("No plan at clearance " << request.query.limits.clearance_m << " m: " << plan.reason);
   }
   if (plan_under_way_ == request.id) {
     plan_under_way_ = 0;

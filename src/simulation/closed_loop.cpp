@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "otter_nav/mission/plan_desk.hpp"
+#include "otter_nav/planner/planner.hpp"
 #include "otter_nav/plant/simulator.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/tracker/tracker.hpp"
@@ -33,7 +33,7 @@ class ClosedLoop::Impl {
       : options_(options),
         plant_(std::move(plant)),
         sensing_(std::move(chart), options),
-        desk_(options.planner, options.vessel),
+        planner_(options.planner, options.vessel),
         tracker_(options.tracker, options.vessel),
         supervisor_(options.supervisor, options.vessel, seed),
         goal_(mission.goal) {
@@ -56,7 +56,7 @@ class ClosedLoop::Impl {
   void start();
   void control();
   void judge();
-  void obey(const mission::Orders& orders);
+  void carryOut(const mission::Orders& orders);
   [[nodiscard]] mission::Situation situation() const;
   void finish(scenario::Outcome outcome, std::string reason) {
     outcome_ = outcome;
@@ -66,7 +66,7 @@ class ClosedLoop::Impl {
   LoopOptions options_;
   plant::Simulator plant_;
   Sensing sensing_;
-  mission::PlanDesk desk_;
+  planner::Planner planner_;
   tracker::Tracker tracker_;
   mission::Supervisor supervisor_;
   vessel::Pose goal_;
@@ -94,7 +94,7 @@ bool ClosedLoop::Impl::step() {
   if (reply_ && time() >= reply_time_s_) {
     const Reply reply = std::move(*reply_);
     reply_.reset();
-    obey(supervisor_.planFinished(time(), reply.id, reply.plan, situation(), sensing_.field()));
+    carryOut(supervisor_.planFinished(time(), reply.id, reply.plan, situation(), sensing_.field()));
   }
   control();
   judge();
@@ -115,7 +115,7 @@ void ClosedLoop::Impl::sense() {
     start();
     return;
   }
-  obey(supervisor_.update(time(), situation(), sensing_.field()));
+  carryOut(supervisor_.update(time(), situation(), sensing_.field()));
 }
 
 void ClosedLoop::Impl::start() {
@@ -123,7 +123,7 @@ void ClosedLoop::Impl::start() {
   const Result<mission::Orders> orders =
       supervisor_.setGoal(time(), goal_, situation(), sensing_.field());
   if (orders) {
-    obey(*orders);
+    carryOut(*orders);
   } else {
     finish(scenario::Outcome::kError, orders.error().message);
   }
@@ -154,7 +154,7 @@ void ClosedLoop::Impl::judge() {
   }
 }
 
-void ClosedLoop::Impl::obey(const mission::Orders& orders) {
+void ClosedLoop::Impl::carryOut(const mission::Orders& orders) {
   if (orders.stop) {
     stop_ordered_ = true;
     tracker_.requestStop("stop ordered");
@@ -172,7 +172,7 @@ void ClosedLoop::Impl::obey(const mission::Orders& orders) {
     const Stopwatch watch;
     planner::Termination termination;
     termination.max_iterations = options_.planning_iterations;
-    planner::Plan plan = desk_.plan(*orders.plan, sensing_.field(), {}, termination);
+    planner::Plan plan = planner_.plan(sensing_.field(), orders.plan->query, termination);
     recorder_.addPlanning(watch.milliseconds());
     reply_ = Reply{orders.plan->id, std::move(plan)};
     // A little before the new trajectory begins, as in life.

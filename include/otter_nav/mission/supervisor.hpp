@@ -18,7 +18,6 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
-#include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/planner/planner.hpp"
 #include "otter_nav/trajectory/timed_trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
@@ -101,11 +100,9 @@ struct Situation {
 struct PlanRequest {
   int id = 0;
   planner::Query query;
-  feasibility::SafetyLimits limits;
+  double thrust_share = 1.0;  // the query's limits, of what plans may usually take
   bool moving = false;        // false: from rest, whenever the answer comes
   double start_time_s = 0.0;  // moving: when the vessel passes the query's start
-  // What is left of the sailed trajectory from the start on; empty if there is none.
-  trajectory::Trajectory warm_start;
 };
 
 struct Orders {

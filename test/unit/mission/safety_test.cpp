@@ -62,7 +62,7 @@ TEST(Safety, ClearancesGrowWithTheBeam) {
   const feasibility::SafetyLimits limits = safety.limits(0.95, kWideWater);
   EXPECT_NEAR(limits.clearance_m, 1.22 + 1.06, 1e-12);
   EXPECT_EQ(limits.hull.length_m, 4.9);
-  EXPECT_EQ(limits.speed_max_mps, feasibility::SafetyLimits::of(wam_v).speed_max_mps);
+  EXPECT_LT(limits.speed_max_mps, 0.95 * wam_v.top_speed_mps);
 }
 
 TEST(Safety, TakesTheFirstLevelThatStartAndGoalHaveRoomFor) {

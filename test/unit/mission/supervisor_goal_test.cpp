@@ -41,7 +41,7 @@ TEST(Goal, AsksForAPlanFromRestAtTheWidestClearance) {
   EXPECT_EQ(request.query.start.flat.velocity, Eigen::Vector2d::Zero());
   EXPECT_EQ(request.query.start.psi_rad, 0.5);
   EXPECT_EQ(request.query.goal.psi_rad, 1.0);
-  EXPECT_DOUBLE_EQ(request.limits.clearance_m, mission.clearance(0));
+  EXPECT_DOUBLE_EQ(request.query.limits.clearance_m, mission.clearance(0));
 }
 
 TEST(Goal, NarrowPlacesLowerTheClearance) {
@@ -49,7 +49,7 @@ TEST(Goal, NarrowPlacesLowerTheClearance) {
   mission.put({41.5, -1.0}, {43.0, 1.0});
   const auto orders = mission.goTo({40.0, 0.0});
   ASSERT_TRUE(orders.has_value() && orders->plan);
-  EXPECT_DOUBLE_EQ(orders->plan->limits.clearance_m, mission.clearance(1));
+  EXPECT_DOUBLE_EQ(orders->plan->query.limits.clearance_m, mission.clearance(1));
 }
 
 TEST(Goal, RefusalLeavesTheMissionUntouched) {
@@ -78,7 +78,7 @@ TEST(Goal, PlansThatFailAreTriedNarrowerThenGivenUpWithTheReason) {
   std::vector<double> tried;
   for (int k = 0; k < 100 && mission.supervisor.phase() != Phase::kFailed; ++k) {
     if (request) {
-      tried.push_back(request->limits.clearance_m);
+      tried.push_back(request->query.limits.clearance_m);
       (void)mission.refuse(*request, "no way at all");
     }
     request = mission.update(0.1).plan;
@@ -109,7 +109,7 @@ TEST(Goal, PlannerThatStaysSilentCountsAsFailed) {
   (void)mission.update(2.0);
   const Orders again = mission.update(0.1);
   ASSERT_TRUE(again.plan);
-  EXPECT_LT(again.plan->limits.clearance_m, orders->plan->limits.clearance_m);
+  EXPECT_LT(again.plan->query.limits.clearance_m, orders->plan->query.limits.clearance_m);
 }
 
 TEST(Options, ShippedFileLoads) {

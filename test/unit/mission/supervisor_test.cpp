@@ -56,7 +56,7 @@ TEST(Supervisor, ReplansInMotionWhenTheWayIsBlocked) {
   const double joint = request.start_time_s - before.start_time_s;
   EXPECT_LT((request.query.start.flat.position - before.trajectory.flat(joint).position).norm(),
             1e-12);
-  EXPECT_NEAR(request.warm_start.duration(), before.trajectory.duration() - joint, 1e-9);
+  EXPECT_NEAR(request.query.warm_start.duration(), before.trajectory.duration() - joint, 1e-9);
 
   mission.now_s += 0.25;
   const Orders answered = mission.answer(request, aroundIt(request));
@@ -216,12 +216,12 @@ TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
   const Orders orders = mission.update(1.0);
   ASSERT_TRUE(orders.plan);
   EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
-  EXPECT_FALSE(mission.answer(*orders.plan, orders.plan->warm_start).sail);
+  EXPECT_FALSE(mission.answer(*orders.plan, orders.plan->query.warm_start).sail);
   const Orders again = mission.update(2.1);
   ASSERT_TRUE(again.plan);
   vessel::FlatPoint end;
   end.position = again.plan->query.goal.flat.position;
-  const double quick = 0.8 * again.plan->warm_start.duration();
+  const double quick = 0.8 * again.plan->query.warm_start.duration();
   EXPECT_TRUE(mission
                   .answer(*again.plan, trajectory::Trajectory({trajectory::hermitePiece(
                                            again.plan->query.start.flat, end, quick)}))

@@ -15,14 +15,14 @@ TEST(SupervisorInWind, KeepsThrustAndDistanceForTheDisturbance) {
   ScriptedMission mission;
   const auto calm = mission.goTo({20.0, 0.0});
   ASSERT_TRUE(calm && calm->plan);
-  EXPECT_DOUBLE_EQ(calm->plan->limits.thrust_share, mission.options.thrust_share);
+  EXPECT_DOUBLE_EQ(calm->plan->thrust_share, mission.options.thrust_share);
   Situation windy = mission.situation();
   windy.disturbance_n = 22.0;  // of 100 N
   const auto orders =
       mission.supervisor.setGoal(mission.now_s, {{20.0, 0.0}, 0.0}, windy, mission.field);
   ASSERT_TRUE(orders && orders->plan);
-  EXPECT_NEAR(orders->plan->limits.thrust_share, 0.5, 1e-9);
-  EXPECT_GT(orders->plan->limits.clearance_m, calm->plan->limits.clearance_m + 1.0);
+  EXPECT_NEAR(orders->plan->thrust_share, 0.5, 1e-9);
+  EXPECT_GT(orders->plan->query.limits.clearance_m, calm->plan->query.limits.clearance_m + 1.0);
 }
 
 TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
@@ -33,13 +33,13 @@ TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
   behind.tracking_error_m = 2.0;
   const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
   ASSERT_TRUE(orders.plan);
-  EXPECT_NEAR(orders.plan->limits.thrust_share, mission.options.thrust_share - 0.1, 1e-9);
+  EXPECT_NEAR(orders.plan->thrust_share, mission.options.thrust_share - 0.1, 1e-9);
   // It begins where the vessel is, with no more force than the plan may use.
   EXPECT_LT((orders.plan->query.start.flat.position - behind.state.head<2>()).norm(), 2.0);
   const vessel::Parameters otter;
   const Eigen::Vector2d force = otter.paper.m1_kg * orders.plan->query.start.flat.acceleration +
                                 otter.paper.d2_kgps * orders.plan->query.start.flat.velocity;
-  EXPECT_LE(force.norm(), 2.0 * otter.thrusters.ahead_max_n * orders.plan->limits.thrust_share);
+  EXPECT_LE(force.norm(), 2.0 * otter.thrusters.ahead_max_n * orders.plan->thrust_share);
 }
 
 // A new plan from where the vessel is, with less thrust; not for each gust again.
@@ -54,7 +54,7 @@ TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   ASSERT_TRUE(orders.plan);
   EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
   EXPECT_TRUE(orders.plan->moving);
-  EXPECT_NEAR(orders.plan->limits.thrust_share, 0.65, 1e-9);
+  EXPECT_NEAR(orders.plan->thrust_share, 0.65, 1e-9);
   ASSERT_TRUE(mission
                   .answer(*orders.plan, test::eastward(orders.plan->query.start.flat.position, 50.0,
                                                        orders.plan->query.start.flat.velocity.x()))
@@ -75,7 +75,7 @@ TEST(SupervisorInWind, AllowsMoreThrustWhereThereIsNoPlanWithLess) {
   for (int k = 0; k < 9; ++k) {
     const Orders orders = mission.supervisor.update(mission.now_s, windy, mission.field);
     ASSERT_TRUE(orders.plan);
-    shares.push_back(orders.plan->limits.thrust_share);
+    shares.push_back(orders.plan->thrust_share);
     (void)mission.refuse(*orders.plan, "too fast");
   }
   for (std::size_t k = 0; k < shares.size(); ++k) {  // once for each clearance
