@@ -42,7 +42,7 @@ void addOptions(CLI::App& app, Request& request, std::string& out, bool& profile
   app.add_option("--vessel", request.vessel, "name in config/vessels or a YAML file")
       ->capture_default_str();
   app.add_option("--config", request.config,
-                 "folder of planner.yaml, optimizer.yaml, topology.yaml (default: the package's)");
+                 "folder of planner.yaml and topology.yaml (default: the package's)");
   app.add_option("--out", out, "JSON file to write");
   app.add_option("--dump", request.dump, "folder for trajectories, one CSV a case");
   app.add_flag("--profile", profile, "print where the time went");

@@ -11,10 +11,7 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   const auto supervisor = mission::readSupervisorOptions(section.child("supervisor"));
   const auto planner = config::read<planner::Options>(section.child("planner"));
   const auto topology = config::read<topology::Options>(section.child("topology"));
-  config::Section optimizer = section.child("optimizer");
-  const auto local = optimizer::readLocalOptions(optimizer.child("local"));
-  const auto global = optimizer::readGlobalOptions(optimizer.child("global"));
-  for (const Status& status : {node, section.finish(), optimizer.finish()}) {
+  for (const Status& status : {node, section.finish()}) {
     if (!status) {
       return failure(status.error().message);
     }
@@ -31,18 +28,10 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   if (!topology) {
     return failure(topology.error().message);
   }
-  if (!local) {
-    return failure(local.error().message);
-  }
-  if (!global) {
-    return failure(global.error().message);
-  }
   setup.field = *field;
   setup.supervisor = *supervisor;
   setup.planner = *planner;
   setup.planner.topology = *topology;
-  setup.planner.local = *local;
-  setup.planner.global = *global;
   return config::vesselFile(setup.node.vessel)
       .and_then([](const std::string& path) { return vessel::loadParameters(path); })
       .map([&](const vessel::Parameters& vessel) {

@@ -8,9 +8,9 @@
 #include "optimizer/ends/stop_and_spin.hpp"
 #include "optimizer/objective/spline_problem.hpp"
 #include "optimizer/solve/assembly.hpp"
+#include "optimizer/solve/attempt.hpp"
 #include "optimizer/solve/initial_spline.hpp"
 #include "optimizer/solve/spline_solver.hpp"
-#include "optimizer/solve/targets.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
 
 namespace otter_nav::optimizer {
@@ -23,6 +23,19 @@ constexpr double kHopeless = 0.5;
 constexpr double kSpinShare = 0.97;
 constexpr double kTurnShare = 0.905;
 
+constexpr int kRounds = 5;
+constexpr int kIterationsPerRound = 12;
+constexpr double kWeightGrowth = 1.5;  // of the weights of what fails, from round to round
+// A trajectory that asks for this share too much of a thruster is slowed down to suit.
+constexpr double kDilationMax = 0.06;
+// After the first feasible result.
+constexpr int kQuickenRounds = 2;
+constexpr double kQuickenGrowth = 2.0;  // of the weight of time
+// While the first shape is found.
+constexpr double kFirstWeightOriginal = 0.3;
+constexpr double kFirstWeightSmooth = 0.1;
+constexpr double kFirstDynamics = 1e-3;  // of their weight later
+
 }  // namespace
 
 class GlobalOptimizer::Solver {
@@ -31,11 +44,11 @@ class GlobalOptimizer::Solver {
       : options_(options), vessel_(vessel), problem_(vessel), initial_(vessel) {}
 
   Result<Optimized> run(const feasibility::Obstacles& obstacles,
-                        const std::vector<Eigen::Vector2d>& way, const trajectory::Boundary& start,
+                        const std::vector<Eigen::Vector2d>& path, const trajectory::Boundary& start,
                         const trajectory::Boundary& goal, const Budget& budget,
                         const feasibility::SafetyLimits& limits) {
-    if (way.size() < 2) {
-      return failure("the way to optimise has " + std::to_string(way.size()) +
+    if (path.size() < 2) {
+      return failure("the path to optimise has " + std::to_string(path.size()) +
                      " points, at least 2 are needed");
     }
     obstacles_ = &obstacles;
@@ -45,7 +58,7 @@ class GlobalOptimizer::Solver {
     limits_ = limits;
     result_ = Optimized();
     for (int i = 0; i < std::min(budget.max_attempts, kAttempts); ++i) {
-      if (attempt(way, i)) {
+      if (attempt(path, i)) {
         return std::move(result_);
       }
       if (outOfTime()) {
@@ -55,20 +68,20 @@ class GlobalOptimizer::Solver {
     if (budget.max_attempts < kAttempts) {
       return failure("optimisation failed: " + result_.verification.reason);
     }
-    return lastResort(way);
+    return lastResort(path);
   }
 
   Result<Optimized> stopAndSpin(const feasibility::Obstacles& obstacles,
-                                const std::vector<Eigen::Vector2d>& way,
+                                const std::vector<Eigen::Vector2d>& path,
                                 const trajectory::Boundary& start, const trajectory::Boundary& goal,
                                 const feasibility::SafetyLimits& limits) const {
     Optimized plain;
-    plain.trajectory = StopAndSpin(vessel_, spinLimits(limits), limits).follow(way, start, goal);
+    plain.trajectory = StopAndSpin(vessel_, spinLimits(limits), limits).follow(path, start, goal);
     plain.verification =
         feasibility::verify(plain.trajectory, obstacles, vessel_, start, goal, limits);
     plain.last_resort = true;
     if (!plain.verification.ok) {
-      return failure("following the way from stop to stop failed: " + plain.verification.reason);
+      return failure("following the path from stop to stop failed: " + plain.verification.reason);
     }
     return plain;
   }
@@ -86,32 +99,32 @@ class GlobalOptimizer::Solver {
     return spin;
   }
 
-  void aim(int attempt) {
-    const Aims aims =
-        aimsOf(attempt, options_, vessel_, limits_, obstacles_->field().geometry().resolution_m);
-    problem_.targets.limits = aims.limits;
-    problem_.targets.weights = aims.weights;
+  void prepare(int number) {
+    const Attempt attempt =
+        attemptOf(number, options_, vessel_, limits_, obstacles_->field().geometry().resolution_m);
+    problem_.targets.limits = attempt.limits;
+    problem_.targets.weights = attempt.weights;
     problem_.targets.obstacles = obstacles_;
-    initial_.options = aims.initial;
-    end_options_ = aims.ends;
+    initial_.options = attempt.initial;
+    end_options_ = attempt.ends;
   }
 
-  bool attempt(const std::vector<Eigen::Vector2d>& way, int number) {
-    aim(number);
-    chosen_ = chooser_.choose(obstacles_->field(), way, *start_, *goal_);
+  bool attempt(const std::vector<Eigen::Vector2d>& path, int number) {
+    prepare(number);
+    chosen_ = chooser_.choose(obstacles_->field(), path, *start_, *goal_);
     solver_.restart();
     problem_.targets.start_s = chosen_.start.manoeuvre.duration_s;
-    initial_.build(*obstacles_, way, chooser_.splineEnds(chosen_, *start_), spline_);
+    initial_.build(*obstacles_, path, chooser_.splineEnds(chosen_, *start_), spline_);
     SplineSolver::Stop stop;
-    stop.max_iterations = options_.iterations_per_round;
+    stop.max_iterations = kIterationsPerRound;
     stop.out_of_time = [this] { return outOfTime(); };
     smoothFirst(stop);
     chooser_.guide(chosen_, spline_);
-    for (int round = 0; round < options_.rounds; ++round) {
+    for (int round = 0; round < kRounds; ++round) {
       result_.iterations += solver_.improve(problem_, stop, spline_);
       chooser_.follow(spline_, chosen_);
-      const bool last = round + 1 == options_.rounds;
-      verifyDilated(last ? 2.0 * options_.dilation_max : options_.dilation_max);
+      const bool last = round + 1 == kRounds;
+      verifyDilated(last ? 2.0 * kDilationMax : kDilationMax);
       if (result_.verification.ok) {
         quicken(stop);
         return true;
@@ -126,18 +139,18 @@ class GlobalOptimizer::Solver {
     return false;
   }
 
-  // A sound trajectory gets quicker: time weighs more, and what verifies and is better is kept.
+  // A feasible trajectory gets quicker: time weighs more, and what verifies and is better is kept.
   void quicken(const SplineSolver::Stop& stop) {
     Optimized best = std::move(result_);
-    for (int round = 0; round < options_.quicken_rounds; ++round) {
+    for (int round = 0; round < kQuickenRounds; ++round) {
       result_.iterations = best.iterations;
       if (outOfTime()) {
         break;
       }
-      problem_.targets.weights.time *= options_.quicken_growth;
+      problem_.targets.weights.time *= kQuickenGrowth;
       best.iterations += solver_.improve(problem_, stop, spline_);
       chooser_.follow(spline_, chosen_);
-      verifyDilated(options_.dilation_max);
+      verifyDilated(kDilationMax);
       if (result_.verification.ok && rank(result_.trajectory) < rank(best.trajectory)) {
         best.trajectory = std::move(result_.trajectory);
         best.verification = result_.verification;
@@ -149,11 +162,10 @@ class GlobalOptimizer::Solver {
   }
 
   [[nodiscard]] double rank(const trajectory::Trajectory& trajectory) const {
-    return options_.weight_time * trajectory.duration() +
-           options_.weight_length * trajectory::length(trajectory);
+    return trajectory.duration() + options_.weight_length * trajectory::length(trajectory);
   }
 
-  // The first shape: durations held, limits of thrust left out, near the way. Nearly quadratic.
+  // The first shape: durations held, limits of thrust left out, near the path. Nearly quadratic.
   void smoothFirst(SplineSolver::Stop stop) {
     originals_.resize(spline_.spans.size());
     for (std::size_t i = 0; i < spline_.spans.size(); ++i) {
@@ -167,15 +179,15 @@ class GlobalOptimizer::Solver {
                            spline_.knots[i + 1].state * basis.row(0).tail<4>().transpose();
       }
     }
-    const SplineWeights aimed = problem_.targets.weights;
-    problem_.targets.weights.dynamics = options_.weight_dynamics * 1e-3;
-    problem_.targets.weights.original = options_.weight_original;
-    problem_.targets.weights.smooth = options_.weight_smooth_first;
+    const SplineWeights later = problem_.targets.weights;
+    problem_.targets.weights.dynamics = kFirstDynamics * later.dynamics;
+    problem_.targets.weights.original = kFirstWeightOriginal;
+    problem_.targets.weights.smooth = kFirstWeightSmooth;
     problem_.targets.originals = &originals_;
     stop.max_iterations = 4;
     stop.relative_decrease = 0.05;
     result_.iterations += solver_.improve(problem_, stop, spline_);
-    problem_.targets.weights = aimed;
+    problem_.targets.weights = later;
     problem_.targets.originals = nullptr;
     for (Span& span : spline_.spans) {
       span.duration_free = true;
@@ -201,30 +213,30 @@ class GlobalOptimizer::Solver {
     spline_ = shape;
   }
 
-  // What failed is aimed at more strictly, and its weight raised.
+  // What failed is wanted more strictly, and its weight raised.
   void tighten() {
     const feasibility::Verification& v = result_.verification;
     if (v.thrust_share > limits_.thrust_share) {
       const double excess = std::min(v.thrust_share - limits_.thrust_share, 0.04);
       problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
       problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
-      problem_.targets.weights.dynamics *= options_.weight_growth;
+      problem_.targets.weights.dynamics *= kWeightGrowth;
     } else {
       const double missing = limits_.clearance_m - v.clearance_m;
       problem_.targets.limits.clearance_m += std::clamp(missing + 0.02, 0.02, 0.2);
       problem_.targets.limits.hull_clearance_m += 0.03;
-      problem_.targets.weights.clearance *= options_.weight_growth;
-      problem_.targets.weights.dynamics *= options_.weight_growth;
+      problem_.targets.weights.clearance *= kWeightGrowth;
+      problem_.targets.weights.dynamics *= kWeightGrowth;
     }
   }
 
-  Result<Optimized> lastResort(const std::vector<Eigen::Vector2d>& way) {
+  Result<Optimized> lastResort(const std::vector<Eigen::Vector2d>& path) {
     const std::string reason = result_.verification.reason;
     if (!trajectory::atRest(*start_)) {
       return failure("optimisation from a moving start failed: " + reason);
     }
     const int iterations = result_.iterations;
-    auto plain = stopAndSpin(*obstacles_, way, *start_, *goal_, limits_);
+    auto plain = stopAndSpin(*obstacles_, path, *start_, *goal_, limits_);
     if (!plain) {
       return failure("optimisation failed: " + reason + "; " + plain.error().message);
     }
@@ -257,11 +269,11 @@ GlobalOptimizer::GlobalOptimizer(GlobalOptimizer&&) noexcept = default;
 GlobalOptimizer& GlobalOptimizer::operator=(GlobalOptimizer&&) noexcept = default;
 
 Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstacles,
-                                            const std::vector<Eigen::Vector2d>& way,
+                                            const std::vector<Eigen::Vector2d>& path,
                                             const trajectory::Boundary& start,
                                             const trajectory::Boundary& goal, const Budget& budget,
                                             const feasibility::SafetyLimits& limits) {
-  return solver_->run(obstacles, way, start, goal, budget, limits);
+  return solver_->run(obstacles, path, start, goal, budget, limits);
 }
 
 Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstacles,
@@ -269,23 +281,23 @@ Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstac
                                             const trajectory::Boundary& start,
                                             const trajectory::Boundary& goal, const Budget& budget,
                                             const feasibility::SafetyLimits& limits) {
-  std::vector<Eigen::Vector2d> way;
+  std::vector<Eigen::Vector2d> path;
   for (const trajectory::Piece& piece : initial.pieces()) {
     constexpr int kParts = 6;
     for (int i = 0; i < kParts && piece.kind == trajectory::PieceKind::kSail; ++i) {
-      way.push_back(piece.flat(piece.duration_s * i / kParts).position);
+      path.push_back(piece.flat(piece.duration_s * i / kParts).position);
     }
   }
-  way.push_back(goal.flat.position);
-  return solver_->run(obstacles, way, start, goal, budget, limits);
+  path.push_back(goal.flat.position);
+  return solver_->run(obstacles, path, start, goal, budget, limits);
 }
 
 Result<Optimized> GlobalOptimizer::stopAndSpin(const feasibility::Obstacles& obstacles,
-                                               const std::vector<Eigen::Vector2d>& way,
+                                               const std::vector<Eigen::Vector2d>& path,
                                                const trajectory::Boundary& start,
                                                const trajectory::Boundary& goal,
                                                const feasibility::SafetyLimits& limits) {
-  return solver_->stopAndSpin(obstacles, way, start, goal, limits);
+  return solver_->stopAndSpin(obstacles, path, start, goal, limits);
 }
 
 }  // namespace otter_nav::optimizer

@@ -12,7 +12,16 @@ namespace {
 
 constexpr double kStretch = 1.15;  // of the edge's time when its dynamics fail
 constexpr double kLeastPushM = 0.1;
-constexpr double kSquareCells = 0.7;  // from a cell's centre to what its square reaches
+constexpr double kPushMaxM = 6.0;  // farther from the edge than this no guidance point is sought
+constexpr double kMarginM = 0.2;   // beyond the clearance, that guidance points stand off
+constexpr int kAttempts = 4;       // solutions with raised weights
+// The paper's weights.
+constexpr double kWeightSmooth = 0.02;
+constexpr double kWeightClearance = 10.0;
+constexpr double kWeightDynamics = 2.0;
+constexpr double kWeightOriginal = 0.05;
+constexpr double kWeightGrowth = 4.0;  // of clearance and dynamics, from attempt to attempt
+constexpr double kSquareCells = 0.7;   // from a cell's centre to what its square reaches
 
 // T^k of the end values [p v a p v a].
 Eigen::Matrix<double, 6, 1> powers(double T) {
@@ -23,9 +32,8 @@ Eigen::Matrix<double, 6, 1> powers(double T) {
 
 }  // namespace
 
-LocalOptimizer::LocalOptimizer(const LocalOptions& options, const vessel::Parameters& vessel)
-    : options_(options), vessel_(vessel), jerk_(trajectory::quinticJerk()) {
-  options_.segments = std::clamp(options_.segments, 2, kMaxSegments);
+LocalOptimizer::LocalOptimizer(const vessel::Parameters& vessel)
+    : vessel_(vessel), jerk_(trajectory::quinticJerk()) {
   for (int i = 0; i < kPoints; ++i) {
     basis_[static_cast<std::size_t>(i)] = trajectory::quinticBasis((i + 0.5) / kPoints);
   }
@@ -36,13 +44,12 @@ LocalOptimizer::LocalOptimizer(const LocalOptions& options, const vessel::Parame
 void LocalOptimizer::guideStretch(const feasibility::EdgeCheck& check, const States& states,
                                   int first, int last, double weight, Pulls& pulls) const {
   const map::DistanceField& field = check.obstacles().field();
-  const double safe = check.clearance() + options_.clearance_margin_m +
-                      kSquareCells * field.geometry().resolution_m;
-  std::array<Eigen::Vector2d, kMaxSegments * kPoints> best;
-  double best_m = options_.push_max_m;
+  const double safe = check.clearance() + kMarginM + kSquareCells * field.geometry().resolution_m;
+  std::array<Eigen::Vector2d, kSegments * kPoints> best;
+  double best_m = kPushMaxM;
   bool found = false;
   for (const double side : {1.0, -1.0}) {
-    std::array<Eigen::Vector2d, kMaxSegments * kPoints> guided;
+    std::array<Eigen::Vector2d, kSegments * kPoints> guided;
     double farthest = 0.0;
     for (int i = first; i <= last && farthest < best_m; ++i) {
       const auto index = static_cast<std::size_t>(i);
@@ -77,14 +84,14 @@ void LocalOptimizer::guideStretch(const feasibility::EdgeCheck& check, const Sta
 void LocalOptimizer::pullTowards(const feasibility::EdgeCheck& check, const Knots& knots,
                                  double step_s, double growth, Pulls& pulls) const {
   const map::DistanceField& field = check.obstacles().field();
-  const double need = check.clearance() + 0.5 * options_.clearance_margin_m +
-                      kSquareCells * field.geometry().resolution_m;
+  const double need =
+      check.clearance() + 0.5 * kMarginM + kSquareCells * field.geometry().resolution_m;
   const double force = check.forceMax();
   const vessel::InverseDynamics inverse(vessel_);
   const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
   States states;
   int stretch = -1;  // first point of the colliding stretch
-  const int count = options_.segments * kPoints;
+  const int count = kSegments * kPoints;
   for (int i = 0; i < count; ++i) {
     const auto segment = static_cast<std::size_t>(i / kPoints);
     const auto point = static_cast<std::size_t>(i % kPoints);
@@ -95,38 +102,37 @@ void LocalOptimizer::pullTowards(const feasibility::EdgeCheck& check, const Knot
     z.col(1) /= step_s;
     z.col(2) /= step_s * step_s;
     Pull& pull = pulls[segment][point];
-    pull.weight[0] = std::max(pull.weight[0], options_.weight_original);
+    pull.weight[0] = std::max(pull.weight[0], kWeightOriginal);
     const bool collides = field.smooth(z.col(0)).distance_m < need;
     if (collides && stretch < 0) {
       stretch = i;
     }
     if (stretch >= 0 && (!collides || i + 1 == count)) {
-      guideStretch(check, states, stretch, collides ? i : i - 1, options_.weight_clearance * growth,
-                   pulls);
+      guideStretch(check, states, stretch, collides ? i : i - 1, kWeightClearance * growth, pulls);
       stretch = -1;
     }
     const double speed = z.col(1).norm();
     if (speed > check.speedMax()) {
       pull.target.col(1) = 0.95 * check.speedMax() / speed * z.col(1);
-      pull.weight[1] = options_.weight_dynamics * growth;
+      pull.weight[1] = kWeightDynamics * growth;
     }
     const double asked = inverse.surgeForce(z.col(1), z.col(2)).norm();
     if (asked > force) {
       pull.target.col(2) = z.col(2) * (force / asked);
-      pull.weight[2] = options_.weight_dynamics * growth;
+      pull.weight[2] = kWeightDynamics * growth;
     }
   }
 }
 
 // The minimum of F in the inner knots: x and y share the matrix, 3 by 3 blocks on three diagonals.
 void LocalOptimizer::solve(const Pulls& pulls, double step_s, Knots& knots) const {
-  const auto n = static_cast<std::size_t>(options_.segments);
+  const auto n = std::size_t{kSegments};
   trajectory::BlockTridiagonal<3, 2, kKnots> system;  // block k is of knot k + 1
   system.reset(n - 1);
   const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
   const Eigen::Vector3d rate(1.0, 1.0 / step_s, 1.0 / (step_s * step_s));
-  const Eigen::Matrix<double, 6, 6> smooth = options_.weight_smooth / std::pow(step_s, 5) *
-                                             scale.asDiagonal() * jerk_ * scale.asDiagonal();
+  const Eigen::Matrix<double, 6, 6> smooth =
+      kWeightSmooth / std::pow(step_s, 5) * scale.asDiagonal() * jerk_ * scale.asDiagonal();
   for (std::size_t i = 0; i < n; ++i) {
     Eigen::Matrix<double, 6, 6> hessian = smooth;
     Eigen::Matrix<double, 6, 2> linear = Eigen::Matrix<double, 6, 2>::Zero();
@@ -167,9 +173,8 @@ void LocalOptimizer::solve(const Pulls& pulls, double step_s, Knots& knots) cons
 feasibility::EdgeFault LocalOptimizer::join(const feasibility::EdgeCheck& check, const Knots& knots,
                                             double start_s, double step_s,
                                             RepairedEdge& repaired) const {
-  repaired.count = options_.segments;
-  repaired.duration_s = step_s * options_.segments;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(options_.segments); ++i) {
+  repaired.duration_s = step_s * kSegments;
+  for (std::size_t i = 0; i < std::size_t{kSegments}; ++i) {
     repaired.pieces[i] = trajectory::quinticPiece(knots[i], knots[i + 1], step_s);
     const feasibility::EdgeFault fault =
         check.checkBent(repaired.pieces[i], start_s + step_s * static_cast<double>(i));
@@ -182,7 +187,7 @@ feasibility::EdgeFault LocalOptimizer::join(const feasibility::EdgeCheck& check,
 
 bool LocalOptimizer::repair(const feasibility::EdgeCheck& check, const trajectory::Piece& edge,
                             double start_s, RepairedEdge& repaired) const {
-  const auto n = static_cast<std::size_t>(options_.segments);
+  const auto n = std::size_t{kSegments};
   double step = edge.duration_s / static_cast<double>(n);
   Knots knots;
   for (std::size_t k = 0; k <= n; ++k) {
@@ -199,7 +204,7 @@ bool LocalOptimizer::repair(const feasibility::EdgeCheck& check, const trajector
     }
   }
   double growth = 1.0;
-  for (int attempt = 0; attempt < options_.attempts; ++attempt) {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
     pullTowards(check, knots, step, growth, pulls);
     solve(pulls, step, knots);
     const feasibility::EdgeFault fault = join(check, knots, start_s, step, repaired);
@@ -209,7 +214,7 @@ bool LocalOptimizer::repair(const feasibility::EdgeCheck& check, const trajector
     if (fault != feasibility::EdgeFault::kClearance) {
       step *= kStretch;
     }
-    growth *= options_.weight_growth;
+    growth *= kWeightGrowth;
   }
   return false;
 }

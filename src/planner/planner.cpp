@@ -72,9 +72,8 @@ class Planner::Pipeline {
       : options_(options),
         vessel_(vessel),
         finder_(options.topology),
-        search_({options.sigma, options.max_nodes, options.local_optimization}, options.local,
-                vessel),
-        optimizer_(options.global, vessel) {}
+        search_({options.sigma, options.max_nodes, options.local_optimization}, vessel),
+        optimizer_(options.optimizer, vessel) {}
 
   Plan plan(const feasibility::Obstacles& obstacles, const Query& query,
             const Termination& termination) {

@@ -14,11 +14,10 @@ constexpr double kWorthRewiring = 1e-6;
 
 }  // namespace
 
-Search::Search(const SearchOptions& options, const optimizer::LocalOptions& local,
-               const vessel::Parameters& vessel)
+Search::Search(const SearchOptions& options, const vessel::Parameters& vessel)
     : options_(options),
       check_(vessel),
-      local_(local, vessel),
+      local_(vessel),
       from_start_(Direction::kFromRoot, options.max_nodes),
       to_goal_(Direction::kToRoot, options.max_nodes) {
   pieces_.reserve(static_cast<std::size_t>(options.max_nodes) * kPiecesPerNode);
@@ -170,17 +169,16 @@ std::optional<Edge> Search::repairedEdge(const KinoState& from, const KinoState&
   if (!local_.repair(check_, failing, 0.0, repaired_)) {
     return std::nullopt;
   }
-  const auto count = static_cast<std::size_t>(repaired_.count);
-  if (pieces_.size() + count > pieces_.capacity()) {
+  if (pieces_.size() + repaired_.pieces.size() > pieces_.capacity()) {
     return std::nullopt;
   }
   double cost = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    cost += pieceCost(repaired_.pieces[i], options_.sigma);
+  for (const trajectory::Piece& piece : repaired_.pieces) {
+    cost += pieceCost(piece, options_.sigma);
   }
-  const Edge edge{repaired_.duration_s, cost, static_cast<int>(pieces_.size()), repaired_.count};
-  pieces_.insert(pieces_.end(), repaired_.pieces.begin(),
-                 repaired_.pieces.begin() + static_cast<std::ptrdiff_t>(count));
+  const Edge edge{repaired_.duration_s, cost, static_cast<int>(pieces_.size()),
+                  optimizer::RepairedEdge::kPieces};
+  pieces_.insert(pieces_.end(), repaired_.pieces.begin(), repaired_.pieces.end());
   return edge;
 }
 

@@ -28,8 +28,7 @@ struct SearchCounts {
 
 class Search {
  public:
-  Search(const SearchOptions& options, const optimizer::LocalOptions& local,
-         const vessel::Parameters& vessel);
+  Search(const SearchOptions& options, const vessel::Parameters& vessel);
 
   // Begins a query: field and layers of `obstacles` must outlive it.
   void reset(const feasibility::Obstacles& obstacles, const feasibility::SafetyLimits& limits,

@@ -1,4 +1,4 @@
-// The paper's global optimisation (section V-A) carried further: from a way (polyline, tree of
+// The paper's global optimisation (section V-A) carried further: from a path (polyline, tree of
 // quintics, or the trajectory being sailed) to a trajectory of degree 7, continuous to the third
 // derivative, within both thrusters' limits and clear of obstacles, in little time.
 //
@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/config/section.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
@@ -27,34 +26,18 @@
 
 namespace otter_nav::optimizer {
 
+// What a trajectory is worth beside its seconds; what it must keep to comes with each call.
 struct GlobalOptions {
-  double clearance_margin_m = 0.05;  // beyond it, aimed at
-  double spin_angle_rad = 0.4;       // turns at the goal wider than this are spun where it stops
-  double drift_mps = 0.3;            // speed left when that begins
-  double surge_ramp_s = 0.3;         // to full ahead at the start, and at the stop to nothing
-  double brake_ramp_s = 0.4;         // from ahead to astern
-  double astern_share = 0.9;         // of the force, while braking
-  double arrival_speed_share = 0.6;  // of the speed aimed at, when the brake begins
-  // A trajectory that asks for this share too much of a thruster is slowed down to suit.
-  double dilation_max = 0.06;
-  double piece_length_m = 17.0;
-  // Weights: of a second, of a metre of way, and the paper's.
-  double weight_time = 1.0;
   double weight_length = 0.1;
-  double weight_smooth = 0.1;        // ls, on the integral of squared jerk
-  double weight_clearance = 20.0;    // lc
-  double weight_dynamics = 5.0;      // ld
-  double weight_original = 0.3;      // lo, while the first shape is found
-  double weight_smooth_first = 0.1;  // ls then
-  double weight_growth = 1.5;        // of lc and ld from round to round where they fail
-  int rounds = 5;
-  int quicken_rounds = 2;       // after the first sound result
-  double quicken_growth = 2.0;  // of weight_time, in each of them
-  int iterations_per_round = 12;
-};
+  double weight_smooth = 0.1;
 
-// config/optimizer.yaml: mapping `global`.
-[[nodiscard]] Result<GlobalOptions> readGlobalOptions(config::Section section);
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("weight_length", o.weight_length, {0.0, 1e3}, "seconds a metre of path is worth");
+    fields("weight_smooth", o.weight_smooth, {1e-6, 1e3},
+           "seconds that a unit of the integral of squared jerk, m^2/s^5, is worth");
+  }
+};
 
 // When to stop improving. A first feasible trajectory is sought within `max_iterations` steps and
 // the time; without a clock (empty `elapsed_s`) the result is the same on every machine.
@@ -62,7 +45,7 @@ struct Budget {
   std::function<double()> elapsed_s;
   double budget_s = 0.1;
   int max_iterations = 300;
-  // Attempts along the way given, each more careful than the one before; with fewer than all there
+  // Attempts along the path given, each more careful than the one before; with fewer than all there
   // is no last resort either.
   int max_attempts = 4;
 };
@@ -85,7 +68,7 @@ class GlobalOptimizer {
   // Along a polyline from start to goal (a guide path): at least two points; its ends are taken
   // from the boundaries. What is returned has passed the verifier with `limits`.
   [[nodiscard]] Result<Optimized> optimize(const feasibility::Obstacles& obstacles,
-                                           const std::vector<Eigen::Vector2d>& way,
+                                           const std::vector<Eigen::Vector2d>& path,
                                            const trajectory::Boundary& start,
                                            const trajectory::Boundary& goal, const Budget& budget,
                                            const feasibility::SafetyLimits& limits);
@@ -97,9 +80,9 @@ class GlobalOptimizer {
                                            const feasibility::SafetyLimits& limits);
 
   // From rest, straight from point to point of a clear polyline, stopping at each to turn: slow,
-  // but sound wherever the hull may turn.
+  // but feasible wherever the hull may turn.
   [[nodiscard]] Result<Optimized> stopAndSpin(const feasibility::Obstacles& obstacles,
-                                              const std::vector<Eigen::Vector2d>& way,
+                                              const std::vector<Eigen::Vector2d>& path,
                                               const trajectory::Boundary& start,
                                               const trajectory::Boundary& goal,
                                               const feasibility::SafetyLimits& limits);

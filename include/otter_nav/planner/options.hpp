@@ -5,7 +5,6 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
-#include "otter_nav/optimizer/local_optimizer.hpp"
 #include "otter_nav/topology/guide_path.hpp"
 
 namespace otter_nav::planner {
@@ -24,10 +23,10 @@ struct Options {
   bool global_optimization = true;
   bool keep_trees = false;  // copy guide path and trees into the plan for display
 
-  // Read from their own files.
+  optimizer::GlobalOptions optimizer;
+
+  // Read from a file of its own.
   topology::Options topology;
-  optimizer::LocalOptions local;
-  optimizer::GlobalOptions global;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
@@ -42,10 +41,11 @@ struct Options {
     fields("local_optimization", o.local_optimization, "bend failing edges, not discard them");
     fields("global_optimization", o.global_optimization, "smooth and speed up the whole");
     fields("keep_trees", o.keep_trees, "copy guide path and trees into the plan for display");
+    fields.group("optimizer", o.optimizer, "what a trajectory is worth beside its seconds");
   }
 };
 
-// planner.yaml, optimizer.yaml and topology.yaml of a folder.
+// planner.yaml and topology.yaml of a folder.
 [[nodiscard]] Result<Options> loadOptions(const std::string& folder);
 
 }  // namespace otter_nav::planner

@@ -21,7 +21,7 @@ struct ManoeuvreLimits {
   double thrust_share = 0.94;  // of each thruster's limits
   double yaw_rate_max_radps = 1.8;
   double ramp_s = 0.12;       // in which the moment goes from one value to the next
-  double drift_mps = 1.2;     // speed left when the arrival's turn begins; 0: it turns at rest
+  double drift_mps = 0.3;     // speed left when the arrival's turn begins; 0: it turns at rest
   double surge_ramp_s = 0.3;  // to full ahead, and from full astern to nothing
   double brake_ramp_s = 0.4;  // from ahead to full astern
   double astern_share = 0.9;  // of the force, while braking
@@ -30,7 +30,7 @@ struct ManoeuvreLimits {
 
 struct Manoeuvre {
   std::vector<trajectory::Piece> pieces;
-  vessel::FlatPoint joint;  // where it meets the rest of the way, under way
+  vessel::FlatPoint joint;  // where it meets the rest of the path, under way
   double duration_s = 0.0;
 };
 
@@ -44,7 +44,7 @@ struct Manoeuvre {
                                 double speed_mps, const vessel::Parameters& vessel,
                                 const ManoeuvreLimits& limits);
 
-// The length of way, m, that an arrival with `speed_mps` takes, roughly.
+// The length of path, m, that an arrival with `speed_mps` takes, roughly.
 [[nodiscard]] double arrivalLength(double speed_mps, const vessel::Parameters& vessel,
                                    const ManoeuvreLimits& limits);
 

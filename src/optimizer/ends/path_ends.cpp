@@ -9,7 +9,7 @@
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr double kLookAheadM = 5.0;  // beyond a manoeuvre, that the way's direction is taken over
+constexpr double kLookAheadM = 5.0;  // beyond a manoeuvre, that the path's direction is taken over
 constexpr int kAimRounds = 4;
 constexpr double kAimedRad = 0.03;
 constexpr double kSlowestMps = 0.5;
@@ -17,7 +17,7 @@ constexpr double kReachRad = 0.3;  // steps of a manoeuvre's parameters that are
 constexpr double kReachMps = 0.8;
 constexpr double kStep = 1e-3;          // of parameters, for differences
 constexpr double kLeastTurnRad = 0.02;  // that a turn shrinks to
-constexpr double kLongestShare = 0.3;   // of the way, for the arrival
+constexpr double kLongestShare = 0.3;   // of the path, for the arrival
 
 double angleOf(const Eigen::Vector2d& v) {
   return std::atan2(v.y(), v.x());
@@ -58,9 +58,9 @@ void EndChooser::make(End& end) const {
           : arrival(end.position, end.psi_rad, end.turn_rad, end.speed_mps, vessel_, end.limits);
 }
 
-// The course is led from where the manoeuvre ends to a point of the way ahead.
-void EndChooser::leaveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const {
-  const Eigen::Vector2d ahead = trajectory::pointAlong(way, kLookAheadM);
+// The course is led from where the manoeuvre ends to a point of the path ahead.
+void EndChooser::leaveAlong(const std::vector<Eigen::Vector2d>& path, End& end) const {
+  const Eigen::Vector2d ahead = trajectory::pointAlong(path, kLookAheadM);
   const double drifts_s = vessel_.paper.m1_kg / vessel_.paper.d2_kgps;
   double leave = angleOf(ahead - end.position);
   for (int round = 0; round < kAimRounds; ++round) {
@@ -78,10 +78,10 @@ void EndChooser::leaveAlong(const std::vector<Eigen::Vector2d>& way, End& end) c
   }
 }
 
-// The course is led from a point of the way to where the manoeuvre begins.
-void EndChooser::arriveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const {
-  const Eigen::Vector2d behind =
-      trajectory::pointAlong(way, -kLookAheadM - arrivalLength(end.speed_mps, vessel_, end.limits));
+// The course is led from a point of the path to where the manoeuvre begins.
+void EndChooser::arriveAlong(const std::vector<Eigen::Vector2d>& path, End& end) const {
+  const Eigen::Vector2d behind = trajectory::pointAlong(
+      path, -kLookAheadM - arrivalLength(end.speed_mps, vessel_, end.limits));
   end.turn_rad = wrapAngle(end.psi_rad - angleOf(end.position - behind));
   if (std::abs(end.turn_rad) < options_.turn_least_rad && !options_.careful) {
     end.turn_rad = 0.0;
@@ -99,7 +99,7 @@ void EndChooser::arriveAlong(const std::vector<Eigen::Vector2d>& way, End& end) 
 }
 
 End EndChooser::chooseStart(const map::DistanceField& field,
-                            const std::vector<Eigen::Vector2d>& way,
+                            const std::vector<Eigen::Vector2d>& path,
                             const trajectory::Boundary& start) const {
   End end;
   end.manoeuvre.joint = start.flat;
@@ -111,20 +111,21 @@ End EndChooser::chooseStart(const map::DistanceField& field,
   end.psi_rad = start.psi_rad;
   end.limits = options_.limits;
   end.limits.settle = options_.careful;
-  leaveAlong(way, end);
+  leaveAlong(path, end);
   if (!end.limits.settle && !clear(field, end.manoeuvre)) {
     end.limits.settle = true;
-    leaveAlong(way, end);
+    leaveAlong(path, end);
   }
   return end;
 }
 
-End EndChooser::chooseGoal(const map::DistanceField& field, const std::vector<Eigen::Vector2d>& way,
+End EndChooser::chooseGoal(const map::DistanceField& field,
+                           const std::vector<Eigen::Vector2d>& path,
                            const trajectory::Boundary& goal) const {
   struct Choice {
     double speed_share, drift_share;
   };
-  const double longest = kLongestShare * trajectory::lengthOf(way);
+  const double longest = kLongestShare * trajectory::lengthOf(path);
   End end;
   end.kind = End::Kind::kArrival;
   end.position = goal.flat.position;
@@ -137,7 +138,7 @@ End EndChooser::chooseGoal(const map::DistanceField& field, const std::vector<Ei
            arrivalLength(end.speed_mps, vessel_, end.limits) > longest) {
       end.speed_mps *= 0.9;
     }
-    arriveAlong(way, end);
+    arriveAlong(path, end);
     if (clear(field, end.manoeuvre)) {
       break;
     }
@@ -146,10 +147,10 @@ End EndChooser::chooseGoal(const map::DistanceField& field, const std::vector<Ei
 }
 
 ChosenEnds EndChooser::choose(const map::DistanceField& field,
-                              const std::vector<Eigen::Vector2d>& way,
+                              const std::vector<Eigen::Vector2d>& path,
                               const trajectory::Boundary& start,
                               const trajectory::Boundary& goal) const {
-  return {chooseStart(field, way, start), chooseGoal(field, way, goal)};
+  return {chooseStart(field, path, start), chooseGoal(field, path, goal)};
 }
 
 SplineEnds EndChooser::splineEnds(const ChosenEnds& chosen,

@@ -1,5 +1,5 @@
-// How a way leaves its start and reaches its goal: manoeuvres at ends at rest, chosen so that they
-// point along the way and are clear of obstacles.
+// How a path leaves its start and reaches its goal: manoeuvres at ends at rest, chosen so that they
+// point along the path and are clear of obstacles.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ struct EndOptions {
   ManoeuvreLimits limits;
   double arrival_speed_mps = 3.0;      // when full astern begins, at first
   double arrival_speed_max_mps = 4.2;  // and after it was moved
-  double turn_least_rad = 0.3;         // turns at the goal narrower than this are made on the way
-  bool careful = false;                // turns at rest, slow arrival
+  double turn_least_rad = 0.4;  // turns at the goal narrower than this are made on the way there
+  bool careful = false;         // turns at rest, slow arrival
 };
 
 // A manoeuvre with what it was made from, so that it can be made again a little different.
@@ -44,12 +44,12 @@ class EndChooser {
              const EndOptions& options)
       : vessel_(vessel), safety_(safety), options_(options) {}
 
-  // `way` has at least two points.
+  // `path` has at least two points.
   [[nodiscard]] ChosenEnds choose(const map::DistanceField& field,
-                                  const std::vector<Eigen::Vector2d>& way,
+                                  const std::vector<Eigen::Vector2d>& path,
                                   const trajectory::Boundary& start,
                                   const trajectory::Boundary& goal) const;
-  // The ends' states for the way between.
+  // The ends' states for the spline between.
   [[nodiscard]] SplineEnds splineEnds(const ChosenEnds& chosen,
                                       const trajectory::Boundary& start) const;
   // Lets the spline's ends move with their manoeuvres.
@@ -59,13 +59,13 @@ class EndChooser {
 
  private:
   [[nodiscard]] End chooseStart(const map::DistanceField& field,
-                                const std::vector<Eigen::Vector2d>& way,
+                                const std::vector<Eigen::Vector2d>& path,
                                 const trajectory::Boundary& start) const;
   [[nodiscard]] End chooseGoal(const map::DistanceField& field,
-                               const std::vector<Eigen::Vector2d>& way,
+                               const std::vector<Eigen::Vector2d>& path,
                                const trajectory::Boundary& goal) const;
-  void leaveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const;
-  void arriveAlong(const std::vector<Eigen::Vector2d>& way, End& end) const;
+  void leaveAlong(const std::vector<Eigen::Vector2d>& path, End& end) const;
+  void arriveAlong(const std::vector<Eigen::Vector2d>& path, End& end) const;
   void make(End& end) const;
   [[nodiscard]] std::optional<EndFamily> familyOf(const End& end) const;
   void follow(Knot& knot, End& end) const;

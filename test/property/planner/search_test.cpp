@@ -43,7 +43,7 @@ TEST(Search, KeepsItsTreesSoundAndItsWaysContinuous) {
     SearchOptions options;
     options.sigma = 1.0;
     options.repair_edges = repair;
-    Search search(options, optimizer::LocalOptions{}, vessel);
+    Search search(options, vessel);
     KinoState start;
     start.position = {-25.0, 0.0};
     KinoState goal;

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "otter_nav/optimizer/global_optimizer.hpp"
-
 namespace otter_nav::optimizer {
 namespace {
 
@@ -35,15 +33,13 @@ feasibility::EdgeCheck checkOn(const map::DistanceField& field) {
 }
 
 TEST(LocalOptimizer, BendsAnEdgeAroundARock) {
-  const LocalOptimizer local{LocalOptions(), vessel::Parameters()};
+  const LocalOptimizer local{vessel::Parameters()};
   const map::DistanceField field = rockField();
   const trajectory::Piece failing = edge(20.5);
   RepairedEdge repaired;
   ASSERT_TRUE(local.repair(checkOn(field), failing, 0.0, repaired));
-  ASSERT_GT(repaired.count, 1);
   vessel::FlatPoint before = failing.flat(0.0);
-  for (int i = 0; i < repaired.count; ++i) {
-    const trajectory::Piece& piece = repaired.pieces[static_cast<std::size_t>(i)];
+  for (const trajectory::Piece& piece : repaired.pieces) {
     const vessel::FlatPoint at = piece.flat(0.0);
     EXPECT_LT((at.position - before.position).norm(), 1e-9);
     EXPECT_LT((at.velocity - before.velocity).norm(), 1e-9);
@@ -68,20 +64,6 @@ TEST(SquaredJerk, IsTheIntegral) {
   }
   EXPECT_NEAR(trajectory::squaredJerk(piece), sum * piece.duration_s / kSteps,
               1e-5 * trajectory::squaredJerk(piece));
-}
-
-TEST(OptimizerOptions, ShippedFileIsRead) {
-  const auto node = config::loadFile(std::string(OTTER_NAV_SOURCE_DIR) + "/config/optimizer.yaml");
-  ASSERT_TRUE(node.has_value());
-  config::Section section(*node, "optimizer.yaml");
-  const auto global = readGlobalOptions(section.child("global"));
-  const auto local = readLocalOptions(section.child("local"));
-  ASSERT_TRUE(global.has_value()) << global.error().message;
-  ASSERT_TRUE(local.has_value()) << local.error().message;
-  // The defaults in the code are those shipped.
-  EXPECT_EQ(global->weight_smooth, GlobalOptions().weight_smooth);
-  EXPECT_EQ(global->piece_length_m, GlobalOptions().piece_length_m);
-  EXPECT_EQ(local->segments, LocalOptions().segments);
 }
 
 }  // namespace

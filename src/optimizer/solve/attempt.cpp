@@ -1,0 +1,93 @@
+#include "optimizer/solve/attempt.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "otter_nav/feasibility/hull_cover.hpp"
+
+namespace otter_nav::optimizer {
+namespace {
+
+// A cell's square reaches this far beyond its centre, in cells (DistanceField::smooth measures to
+// centres), as seen from most directions.
+constexpr double kSquareCells = 0.7;
+constexpr double kHullMarginM = 0.03;
+constexpr double kClearanceMarginM = 0.05;
+constexpr double kPieceLengthM = 17.0;
+constexpr double kWeightClearance = 20.0;   // of squared metres too near
+constexpr double kWeightDynamics = 5.0;     // of squared shares of a thruster too much
+constexpr double kArrivalSpeedShare = 0.6;  // of the speed wanted, when the brake begins
+constexpr double kArrivalSpeedMaxShare = 0.9;
+
+// Wanted, of the limits that are verified.
+constexpr double kThrustShare = 0.979;
+constexpr double kSpeedShare = 0.99;
+constexpr double kYawRateShare = 0.905;
+constexpr double kHeadingForceShare = 0.08;  // least |w| while turning, of both thrusters ahead
+
+struct Care {
+  bool careful;
+  double thrust_factor;
+  double weight_factor;
+  double length_factor;   // of the pieces
+  double arrival_factor;  // of the speed at which the arrival begins
+};
+
+constexpr std::array<Care, kAttempts> kCares = {{{false, 1.0, 1.0, 1.0, 1.0},
+                                                 {false, 1.0, 1.0, 0.7, 0.7},
+                                                 {true, 1.0, 3.0, 0.9, 0.5},
+                                                 {true, 0.8, 10.0, 0.7, 0.3}}};
+
+SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
+                      const feasibility::SafetyLimits& safety, double cell_m) {
+  SplineLimits limits;
+  limits.clearance_m = safety.clearance_m + kClearanceMarginM + kSquareCells * cell_m;
+  const feasibility::HullCover hull(safety.hull);
+  limits.hull_offset_m = hull.offset_m;
+  limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
+  const double share = kThrustShare * safety.thrust_share * care.thrust_factor;
+  limits.thrust_ahead_n = share * vessel.thrusters.ahead_max_n;
+  limits.thrust_astern_n = share * vessel.thrusters.astern_max_n;
+  limits.speed_mps = kSpeedShare * safety.speed_max_mps * care.thrust_factor;
+  limits.yaw_rate_radps = kYawRateShare * safety.yaw_rate_max_radps;
+  limits.heading_force_n = kHeadingForceShare * 2.0 * vessel.thrusters.ahead_max_n;
+  return limits;
+}
+
+EndOptions endsOf(const Care& care, const vessel::Parameters& vessel,
+                  const feasibility::SafetyLimits& safety, double thrust_share) {
+  EndOptions ends;
+  ends.limits.thrust_share = thrust_share;
+  ends.limits.yaw_rate_max_radps = kYawRateShare * safety.yaw_rate_max_radps;
+  ends.careful = care.careful;
+  const double top =
+      std::min(2.0 * thrust_share * vessel.thrusters.ahead_max_n / vessel.paper.d1_kgps,
+               kSpeedShare * safety.speed_max_mps);
+  ends.arrival_speed_mps = kArrivalSpeedShare * care.arrival_factor * top;
+  ends.arrival_speed_max_mps = kArrivalSpeedMaxShare * top;
+  return ends;
+}
+
+}  // namespace
+
+Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parameters& vessel,
+                  const feasibility::SafetyLimits& safety, double cell_m) {
+  const Care& care = kCares[static_cast<std::size_t>(number)];
+  const double share = kThrustShare * safety.thrust_share * care.thrust_factor;
+  Attempt attempt;
+  attempt.limits = limitsOf(care, vessel, safety, cell_m);
+  attempt.weights.time = 1.0;
+  attempt.weights.length = options.weight_length;
+  attempt.weights.smooth = options.weight_smooth;
+  attempt.weights.clearance = kWeightClearance * care.weight_factor;
+  attempt.weights.dynamics = kWeightDynamics * care.weight_factor;
+  attempt.weights.original = 0.0;
+  attempt.initial.piece_length_m = kPieceLengthM * care.length_factor;
+  attempt.initial.force_share = 0.9 * share;
+  attempt.initial.speed_max_mps = 0.97 * attempt.limits.speed_mps;
+  attempt.initial.clearance_m = attempt.limits.clearance_m;
+  attempt.ends = endsOf(care, vessel, safety, share);
+  return attempt;
+}
+
+}  // namespace otter_nav::optimizer
