@@ -20,9 +20,9 @@ constexpr double kArrivalSpeedShare = 0.6;  // of the speed wanted, when the bra
 constexpr double kArrivalSpeedMaxShare = 0.9;
 
 // Wanted, of the limits that are verified.
-constexpr double kThrustShare = 0.979;
-constexpr double kSpeedShare = 0.99;
-constexpr double kYawRateShare = 0.905;
+constexpr double kThrustShare = 0.95 / 0.97;
+constexpr double kSpeedShare = 4.85 / 4.9;
+constexpr double kYawRateShare = 1.8 / 1.989;
 constexpr double kHeadingForceShare = 0.08;  // least |w| while turning, of both thrusters ahead
 
 struct Care {
