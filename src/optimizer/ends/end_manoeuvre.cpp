@@ -68,17 +68,18 @@ class Placed {
   Eigen::Matrix2d matrix_;
 };
 
-// A glide followed backward from rest at the origin, joint by joint.
-class BackwardGlide {
+// A forced motion followed backward from rest at the origin, joint by joint.
+class BackwardMotion {
  public:
-  BackwardGlide(const Glide& glide, double end_s) : glide_(glide), times_{end_s}, motions_{{}} {}
+  BackwardMotion(const ForcedMotion& forced, double end_s)
+      : forced_(forced), times_{end_s}, motions_{{}} {}
 
-  [[nodiscard]] const Glide::Motion& motion() const { return motions_.back(); }
+  [[nodiscard]] const ForcedMotion::Motion& motion() const { return motions_.back(); }
 
   void reach(double t_s) {
-    const std::vector<double> joints = glide_.joints(t_s, times_.back());
+    const std::vector<double> joints = forced_.joints(t_s, times_.back());
     for (std::size_t k = joints.size() - 1; k > 0; --k) {
-      motions_.push_back(glide_.integrate(motions_.back(), joints[k], joints[k - 1]));
+      motions_.push_back(forced_.integrate(motions_.back(), joints[k], joints[k - 1]));
       times_.push_back(joints[k - 1]);
     }
   }
@@ -87,14 +88,14 @@ class BackwardGlide {
               std::vector<trajectory::Piece>& pieces) const {
     for (std::size_t k = times_.size() - 1; k > 0; --k) {
       pieces.push_back(placed.piece(
-          glide_.piece(motions_[k], times_[k], motions_[k - 1], times_[k - 1]), offset));
+          forced_.piece(motions_[k], times_[k], motions_[k - 1], times_[k - 1]), offset));
     }
   }
 
  private:
-  const Glide& glide_;
+  const ForcedMotion& forced_;
   std::vector<double> times_;
-  std::vector<Glide::Motion> motions_;
+  std::vector<ForcedMotion::Motion> motions_;
 };
 
 // The astern force under which a drift ends just with the turn.
@@ -139,19 +140,19 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
     ramp = {ahead_s, ahead_s + limits.surge_ramp_s, 0.0, most};
     end = ramp.to_s;
   }
-  const Glide glide(vessel, turn ? &*turn : nullptr, {ramp});
+  const ForcedMotion forced(vessel, turn ? &*turn : nullptr, {ramp});
   const Placed placed(psi_rad, turn_rad >= 0.0);
   Manoeuvre manoeuvre;
   manoeuvre.duration_s = end;
-  Glide::Motion motion;
-  const std::vector<double> times = glide.joints(0.0, end);
+  ForcedMotion::Motion motion;
+  const std::vector<double> times = forced.joints(0.0, end);
   for (std::size_t k = 1; k < times.size(); ++k) {
-    const Glide::Motion next = glide.integrate(motion, times[k - 1], times[k]);
+    const ForcedMotion::Motion next = forced.integrate(motion, times[k - 1], times[k]);
     manoeuvre.pieces.push_back(
-        placed.piece(glide.piece(motion, times[k - 1], next, times[k]), position));
+        placed.piece(forced.piece(motion, times[k - 1], next, times[k]), position));
     motion = next;
   }
-  manoeuvre.joint = placed.point(glide.flat(motion, end), position);
+  manoeuvre.joint = placed.point(forced.flat(motion, end), position);
   return manoeuvre;
 }
 
@@ -177,8 +178,8 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   } else {
     ramps.push_back({kLongAgoS, kLongAgoS, -brake_n, -brake_n});
   }
-  Glide glide(vessel, turn ? &*turn : nullptr, std::move(ramps));
-  BackwardGlide back(glide, end_s);
+  ForcedMotion forced(vessel, turn ? &*turn : nullptr, std::move(ramps));
+  BackwardMotion back(forced, end_s);
   back.reach(braked_s);
   // Full astern: v = (v_0 + F / d1) exp(-(t - t_0) d1 / m1) - F / d1, here backward.
   const double slip = brake_n / vessel.paper.d1_kgps;
@@ -188,16 +189,16 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   back.reach(braked_s - brakes_s);
   const double begin_s = braked_s - brakes_s - limits.brake_ramp_s;
   if (!turn) {
-    glide.clearRamps();
+    forced.clearRamps();
   }
-  glide.addFirst({begin_s, begin_s + limits.brake_ramp_s, kAheadShare * thrust.ahead_n, -brake_n});
+  forced.addFirst({begin_s, begin_s + limits.brake_ramp_s, kAheadShare * thrust.ahead_n, -brake_n});
   back.reach(begin_s);
 
   const bool left = turn_rad >= 0.0;
   const Placed placed(psi_rad - turn_rad, left);
   Manoeuvre manoeuvre;
   back.append(placed, position, manoeuvre.pieces);
-  manoeuvre.joint = placed.point(glide.flat(back.motion(), begin_s), position);
+  manoeuvre.joint = placed.point(forced.flat(back.motion(), begin_s), position);
   manoeuvre.duration_s = end_s - begin_s;
   return manoeuvre;
 }

@@ -12,7 +12,7 @@ constexpr double kShortestS = 1e-4;  // joints nearer than this are one
 
 }  // namespace
 
-Glide::Surge Glide::surge(double t_s) const {
+ForcedMotion::Surge ForcedMotion::surge(double t_s) const {
   double held = ramps_.front().from_n;
   for (const SurgeRamp& ramp : ramps_) {
     if (t_s < ramp.from_s) {
@@ -29,11 +29,11 @@ Glide::Surge Glide::surge(double t_s) const {
   return {held, 0.0};
 }
 
-Eigen::Vector4d Glide::heading(double t_s, double within_s) const {
+Eigen::Vector4d ForcedMotion::heading(double t_s, double within_s) const {
   return turn_ == nullptr ? Eigen::Vector4d(Eigen::Vector4d::Zero()) : turn_->at(t_s, within_s);
 }
 
-vessel::FlatPoint Glide::pushed(const Motion& motion, double t_s, double within_s) const {
+vessel::FlatPoint ForcedMotion::pushed(const Motion& motion, double t_s, double within_s) const {
   const Eigen::Vector4d turned = heading(t_s, within_s);
   const Surge force = surge(t_s);
   vessel::FlatPoint z;
@@ -43,7 +43,8 @@ vessel::FlatPoint Glide::pushed(const Motion& motion, double t_s, double within_
   return z;
 }
 
-Glide::Motion Glide::integrate(const Motion& motion, double from_s, double to_s) const {
+ForcedMotion::Motion ForcedMotion::integrate(const Motion& motion, double from_s,
+                                             double to_s) const {
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to_s - from_s) / kStepS)));
   const double h = (to_s - from_s) / steps;
   const double within = 0.5 * (from_s + to_s);
@@ -67,11 +68,11 @@ Glide::Motion Glide::integrate(const Motion& motion, double from_s, double to_s)
   return now;
 }
 
-vessel::FlatPoint Glide::flat(const Motion& motion, double t_s) const {
+vessel::FlatPoint ForcedMotion::flat(const Motion& motion, double t_s) const {
   return pushed(motion, t_s, t_s);
 }
 
-std::vector<double> Glide::joints(double from_s, double to_s) const {
+std::vector<double> ForcedMotion::joints(double from_s, double to_s) const {
   std::vector<double> changes = turn_ == nullptr ? std::vector<double>() : turn_->joints();
   for (const SurgeRamp& ramp : ramps_) {
     changes.push_back(ramp.from_s);
@@ -94,8 +95,8 @@ std::vector<double> Glide::joints(double from_s, double to_s) const {
   return times;
 }
 
-trajectory::Piece Glide::piece(const Motion& from, double from_s, const Motion& to,
-                               double to_s) const {
+trajectory::Piece ForcedMotion::piece(const Motion& from, double from_s, const Motion& to,
+                                      double to_s) const {
   const double within = 0.5 * (from_s + to_s);
   const auto turned = [&](double t_s) {
     const Eigen::Vector4d h = heading(t_s, within);

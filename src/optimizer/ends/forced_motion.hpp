@@ -20,7 +20,7 @@ struct SurgeRamp {
   double to_n = 0.0;
 };
 
-class Glide {
+class ForcedMotion {
  public:
   struct Motion {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
@@ -28,7 +28,8 @@ class Glide {
   };
 
   // `turn` may be null: no turn. Ramps in order of time; before and between them the force is held.
-  Glide(const vessel::Parameters& vessel, const TurnProfile* turn, std::vector<SurgeRamp> ramps)
+  ForcedMotion(const vessel::Parameters& vessel, const TurnProfile* turn,
+               std::vector<SurgeRamp> ramps)
       : inverse_(vessel), turn_(turn), ramps_(std::move(ramps)) {}
 
   void clearRamps() { ramps_.clear(); }
