@@ -13,8 +13,8 @@
 #include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/config/share.hpp"
 #include "tracker/ocp/rti_solver.hpp"
-#include "tracker/oracle/ipopt_solver.hpp"
 #include "tracking/nmpc_cases.hpp"
+#include "tracking/oracle/ipopt_solver.hpp"
 #include "tracking/percentiles.hpp"
 
 namespace {

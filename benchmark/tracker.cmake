@@ -1,3 +1,13 @@
+# The tracker's problem solved by Ipopt, apart: what benchmark and tests compare the tracker with.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
+otter_nav_room(tracker_oracle
+  SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/tracking/oracle/ipopt_solver.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracking/oracle/shooting_problem.cpp
+  ROOMS tracker
+  LIBRARIES PkgConfig::IPOPT)
+target_include_directories(otter_nav_tracker_oracle PUBLIC ${CMAKE_CURRENT_LIST_DIR})
 otter_nav_program(tracking_benchmark
   SOURCES
     ${CMAKE_CURRENT_LIST_DIR}/tracking_benchmark.cpp

@@ -4,7 +4,7 @@
 
 #include "otter_nav/base/rk4.hpp"
 #include "problem.hpp"
-#include "tracker/oracle/ipopt_solver.hpp"
+#include "tracking/oracle/ipopt_solver.hpp"
 
 namespace otter_nav::tracker {
 namespace {

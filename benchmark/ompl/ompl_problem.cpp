@@ -17,10 +17,10 @@
 
 #include <memory>
 
+#include "ompl_planner.hpp"
 #include "ompl_recorder.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/rk4.hpp"
-#include "otter_nav/planner/ompl_planner.hpp"
 #include "otter_nav/vessel/model.hpp"
 
 namespace otter_nav::benchmark {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "ompl_planner.hpp"
 #include "ompl_problem.hpp"
-#include "otter_nav/planner/ompl_planner.hpp"
 
 namespace otter_nav::benchmark {
 

@@ -1,4 +1,4 @@
-#include "otter_nav/planner/ompl_planner.hpp"
+#include "ompl_planner.hpp"
 
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/spaces/SE2StateSpace.h>

@@ -1,10 +1,10 @@
-#include "tracker/oracle/ipopt_solver.hpp"
+#include "tracking/oracle/ipopt_solver.hpp"
 
 #include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>
 #include <string>
 
-#include "tracker/oracle/shooting_problem.hpp"
+#include "tracking/oracle/shooting_problem.hpp"
 
 namespace otter_nav::tracker {
 

@@ -1,5 +1,5 @@
 // This project's planner in OMPL's clothes, so that ompl::tools::Benchmark can run it beside
-// OMPL's own on the same problem definitions. A library apart: the planner itself needs no OMPL.
+// OMPL's own on the same problem definitions. The planner itself needs no OMPL.
 #pragma once
 
 #include <ompl/base/Planner.h>

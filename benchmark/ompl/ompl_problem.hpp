@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "../shortest_way.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/planner/options.hpp"
 #include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/vessel/parameters.hpp"
-#include "shortest_way.hpp"
 
 namespace otter_nav::benchmark {
 

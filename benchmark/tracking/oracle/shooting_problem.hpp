@@ -4,7 +4,7 @@
 
 #include <IpTNLP.hpp>
 
-#include "tracker/oracle/ipopt_solver.hpp"
+#include "tracking/oracle/ipopt_solver.hpp"
 
 namespace otter_nav::tracker {
 

@@ -1,4 +1,4 @@
-#include "tracker/oracle/shooting_problem.hpp"
+#include "tracking/oracle/shooting_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
