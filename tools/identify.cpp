@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "identify/bag_reader.hpp"
+#include "identify/report.hpp"
 #include "number_in.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/identification/csv.hpp"
-#include "otter_nav/identification/report.hpp"
-#include "otter_nav/ros/bag_reader.hpp"
 
 namespace {
 

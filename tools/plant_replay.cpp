@@ -7,7 +7,7 @@
 
 #include "number_in.hpp"
 #include "otter_nav/config/share.hpp"
-#include "otter_nav/plant/replay.hpp"
+#include "replay/replay.hpp"
 
 namespace {
 

@@ -4,4 +4,4 @@ otter_nav_test(property_plant
     ${CMAKE_CURRENT_LIST_DIR}/plant/energy_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/plant/lidar_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/plant/reference_test.cpp
-  ROOMS plant)
+  ROOMS plant_replay)

@@ -10,4 +10,4 @@ otter_nav_test(unit_plant
     ${CMAKE_CURRENT_LIST_DIR}/plant/replay_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/plant/simulator_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/plant/waves_test.cpp
-  ROOMS plant)
+  ROOMS plant_replay)

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "identification/prediction.hpp"
+#include "identify/report.hpp"
 #include "otter_nav/identification/identify.hpp"
 #include "otter_nav/identification/manoeuvres.hpp"
-#include "otter_nav/identification/report.hpp"
 #include "otter_nav/plant/simulator.hpp"
 
 namespace otter_nav::identification {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/plant/replay.hpp"
 #include "plant/otter_model.hpp"
+#include "replay/replay.hpp"
 
 namespace otter_nav::plant {
 namespace {

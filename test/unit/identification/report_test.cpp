@@ -1,4 +1,4 @@
-#include "otter_nav/identification/report.hpp"
+#include "identify/report.hpp"
 
 #include <gtest/gtest.h>
 

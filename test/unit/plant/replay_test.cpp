@@ -1,4 +1,4 @@
-#include "otter_nav/plant/replay.hpp"
+#include "replay/replay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "otter_nav/base/csv.hpp"
-#include "otter_nav/plant/replay.hpp"
+#include "replay/replay.hpp"
 
 namespace otter_nav::plant {
 namespace {

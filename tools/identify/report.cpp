@@ -1,4 +1,4 @@
-#include "otter_nav/identification/report.hpp"
+#include "identify/report.hpp"
 
 #include <array>
 #include <cstdio>
@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "plots.hpp"
-#include "prediction.hpp"
+#include "identification/prediction.hpp"
+#include "identify/plots.hpp"
 
 namespace otter_nav::identification {
 namespace {

@@ -1,5 +1,5 @@
 // Stands in for the bag reader where the core is built without ROS.
-#include "otter_nav/ros/bag_reader.hpp"
+#include "identify/bag_reader.hpp"
 
 namespace otter_nav::ros_bridge {
 

@@ -1,4 +1,4 @@
-#include "otter_nav/ros/bag_reader.hpp"
+#include "identify/bag_reader.hpp"
 
 #include <nav_msgs/Odometry.h>
 #include <otter_nav/ThrusterCommand.h>

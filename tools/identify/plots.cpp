@@ -1,11 +1,11 @@
-#include "plots.hpp"
+#include "identify/plots.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <sstream>
 
-#include "prediction.hpp"
+#include "identification/prediction.hpp"
 
 namespace otter_nav::identification {
 namespace {
