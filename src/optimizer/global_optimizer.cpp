@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "optimizer/ends/path_ends.hpp"
@@ -35,6 +36,10 @@ constexpr double kQuickenGrowth = 2.0;  // of the weight of time
 constexpr double kFirstWeightOriginal = 0.3;
 constexpr double kFirstWeightSmooth = 0.1;
 constexpr double kFirstDynamics = 1e-3;  // of their weight later
+// A path in two parts: a corner's turn is what the path turns within so far to both sides.
+constexpr double kCornerM = 3.0;
+constexpr int kAttemptsOfParts = 2;
+constexpr double kPauseS = 0.5;
 
 }  // namespace
 
@@ -232,16 +237,83 @@ class GlobalOptimizer::Solver {
 
   Result<Optimized> lastResort(const std::vector<Eigen::Vector2d>& path) {
     const std::string reason = result_.verification.reason;
-    if (!trajectory::atRest(*start_)) {
+    const trajectory::Boundary start = *start_;
+    const trajectory::Boundary goal = *goal_;
+    if (auto parts = inTwoParts(path, start, goal)) {
+      return std::move(*parts);
+    }
+    if (!trajectory::atRest(start)) {
       return failure("optimisation from a moving start failed: " + reason);
     }
-    const int iterations = result_.iterations;
-    auto plain = stopAndSpin(*obstacles_, path, *start_, *goal_, limits_);
+    auto plain = stopAndSpin(*obstacles_, path, start, goal, limits_);
     if (!plain) {
       return failure("optimisation failed: " + reason + "; " + plain.error().message);
     }
-    plain->iterations = iterations;
     return plain;
+  }
+
+  // Where nothing leads round the sharpest corner under way: a stop there, and a turn on the spot.
+  std::optional<Optimized> inTwoParts(const std::vector<Eigen::Vector2d>& path,
+                                      const trajectory::Boundary& start,
+                                      const trajectory::Boundary& goal) {
+    const std::size_t corner = sharpestCorner(path);
+    if (corner == 0 || outOfTime()) {
+      return std::nullopt;
+    }
+    const auto middle = path.begin() + static_cast<std::ptrdiff_t>(corner);
+    trajectory::Boundary stop;
+    stop.flat.position = *middle;
+    const Eigen::Vector2d onward = trajectory::pointAlong({middle, path.end()}, kCornerM) - *middle;
+    stop.psi_rad = std::atan2(onward.y(), onward.x());
+    Budget budget = *budget_;
+    budget.max_attempts = kAttemptsOfParts;
+    const auto part = [&](const std::vector<Eigen::Vector2d>& points,
+                          const trajectory::Boundary& from, const trajectory::Boundary& to) {
+      auto optimized = run(*obstacles_, points, from, to, budget, limits_);
+      return optimized || !trajectory::atRest(from)
+                 ? std::move(optimized)
+                 : stopAndSpin(*obstacles_, points, from, to, limits_);
+    };
+    const auto first = part({path.begin(), middle + 1}, start, stop);
+    const auto second = first ? part({middle, path.end()}, stop, goal) : first;
+    if (!second || (first->last_resort && second->last_resort)) {
+      return std::nullopt;
+    }
+    Optimized whole;
+    // At rest, but for what is left of the thrust: that dies away in a moment's pause.
+    std::vector<trajectory::Piece> pieces = first->trajectory.pieces();
+    trajectory::Piece pause =
+        trajectory::spinPiece(stop.flat.position, stop.psi_rad, stop.psi_rad, kPauseS);
+    pause.position = trajectory::hermitePiece(pieces.back().flat(pieces.back().duration_s),
+                                              second->trajectory.flat(0.0), kPauseS)
+                         .position;
+    pieces.push_back(pause);
+    pieces.insert(pieces.end(), second->trajectory.pieces().begin(),
+                  second->trajectory.pieces().end());
+    whole.trajectory = trajectory::Trajectory(std::move(pieces));
+    whole.iterations = first->iterations + second->iterations;
+    whole.last_resort = true;
+    whole.verification =
+        feasibility::verify(whole.trajectory, *obstacles_, vessel_, start, goal, limits_);
+    return whole.verification.ok ? std::optional<Optimized>(std::move(whole)) : std::nullopt;
+  }
+
+  // The inner point at which `path` turns most within kCornerM to both sides; 0 without any.
+  static std::size_t sharpestCorner(const std::vector<Eigen::Vector2d>& path) {
+    std::size_t sharpest = 0;
+    double least_cosine = 1.0;
+    for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+      const auto at = path.begin() + static_cast<std::ptrdiff_t>(k);
+      const Eigen::Vector2d before =
+          path[k] - trajectory::pointAlong({path.begin(), at + 1}, -kCornerM);
+      const Eigen::Vector2d after = trajectory::pointAlong({at, path.end()}, kCornerM) - path[k];
+      const double cosine = before.normalized().dot(after.normalized());
+      if (cosine < least_cosine) {
+        least_cosine = cosine;
+        sharpest = k;
+      }
+    }
+    return sharpest;
   }
 
   GlobalOptions options_;
