@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/random.hpp"
 
 namespace otter_nav::optimizer {
@@ -144,6 +145,42 @@ TEST(GlobalOptimizer, SameInputsGiveTheSameTrajectory) {
     EXPECT_EQ(a->trajectory.pieces()[i].position, b->trajectory.pieces()[i].position);
     EXPECT_EQ(a->trajectory.pieces()[i].duration_s, b->trajectory.pieces()[i].duration_s);
   }
+}
+
+// A wall with a channel on both sides, too narrow to turn in but at its end: whatever comes back
+// has stopped there, and nowhere else.
+TEST(GlobalOptimizer, StopsAtTheSharpestCornerAloneWhereNothingLeadsRoundIt) {
+  map::OccupancyGrid grid;
+  grid.geometry = {320, 160, 0.25, {-40.0, -20.0}};
+  grid.cells.assign(320 * 160, map::Cell::kOccupied);
+  const auto free = [&](double x0, double x1, double y0, double y1) {
+    for (int row = 0; row < 160; ++row) {
+      for (int column = 0; column < 320; ++column) {
+        const Eigen::Vector2d p = grid.geometry.centreOf(column, row);
+        if (p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1) {
+          grid.cells[grid.geometry.index(column, row)] = map::Cell::kFree;
+        }
+      }
+    }
+  };
+  free(-35.0, 22.0, 0.0, 3.0);
+  free(19.0, 22.0, 0.0, 15.0);
+  free(-35.0, 22.0, 12.0, 15.0);
+  const map::DistanceField field(grid, {});
+  const std::vector<Eigen::Vector2d> path = {
+      {-30.0, 1.5}, {20.5, 1.5}, {20.5, 13.5}, {-30.0, 13.5}};
+  const vessel::Parameters vessel;
+  GlobalOptimizer optimizer(GlobalOptions(), vessel);
+  const feasibility::SafetyLimits limits;
+  const trajectory::Boundary start = berth(-30.0, 1.5, 0.0);
+  const trajectory::Boundary goal = berth(-30.0, 13.5, kPi);
+  const auto stops = optimizer.stopAndSpin(field, path, start, goal, limits);
+  ASSERT_TRUE(stops.has_value()) << stops.error().message;
+  const auto result = optimizer.optimize(field, path, start, goal, Budget(), limits);
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  EXPECT_TRUE(result->verification.ok);
+  EXPECT_LT(result->trajectory.duration(), 0.85 * stops->trajectory.duration())
+      << "last resort: " << result->last_resort;
 }
 
 }  // namespace
