@@ -17,6 +17,7 @@ constexpr double kWorthRewiring = 1e-6;
 Search::Search(const SearchOptions& options, const vessel::Parameters& vessel)
     : options_(options),
       check_(vessel),
+      still_(vessel),
       local_(vessel),
       from_start_(Direction::kFromRoot, options.max_nodes),
       to_goal_(Direction::kToRoot, options.max_nodes) {
@@ -27,12 +28,18 @@ Search::Search(const SearchOptions& options, const vessel::Parameters& vessel)
 void Search::reset(const feasibility::Obstacles& obstacles, const feasibility::SafetyLimits& limits,
                    const KinoState& start, const KinoState& goal) {
   check_.begin(obstacles, limits);
+  still_.begin(obstacles.field(), limits);
   from_start_.reset(start);
   to_goal_.reset(goal);
   pieces_.clear();
   meetings_.clear();
   direct_.reset();
   counts_ = SearchCounts{};
+}
+
+Search::Occasion Search::occasionOf(const Tree& tree, int parent) const {
+  return tree.direction() == Direction::kFromRoot ? Occasion{check_, tree.node(parent).time_s}
+                                                  : Occasion{still_, 0.0};
 }
 
 bool Search::joinRoots() {
@@ -43,7 +50,7 @@ bool Search::joinRoots() {
   }
   const auto steered = steer(start, goal, options_.sigma);
   if (steered) {
-    direct_ = feasibleEdge(start, goal, *steered);
+    direct_ = feasibleEdge(start, goal, *steered, occasionOf(from_start_, 0));
   }
   if (direct_) {
     meetings_.push_back({kNone, kNone});
@@ -53,7 +60,7 @@ bool Search::joinRoots() {
 
 bool Search::extend(const KinoState& sample) {
   ++counts_.samples;
-  if (from_start_.full() || to_goal_.full() || !check_.isFree(sample.position)) {
+  if (from_start_.full() || to_goal_.full() || !still_.isFree(sample.position)) {
     return false;
   }
   const double before = bestCost();
@@ -127,8 +134,8 @@ int Search::grow(Tree& tree, const KinoState& sample) {
   for (int i = 0; i < found; ++i) {
     const Candidate& candidate = candidates_[static_cast<std::size_t>(i)];
     const KinoState& state = tree.node(candidate.node).state;
-    const auto edge =
-        feasibleEdge(tree.from(state, sample), tree.to(state, sample), candidate.steer);
+    const auto edge = feasibleEdge(tree.from(state, sample), tree.to(state, sample),
+                                   candidate.steer, occasionOf(tree, candidate.node));
     if (edge) {
       return tree.add(sample, candidate.node, *edge);
     }
@@ -139,8 +146,8 @@ int Search::grow(Tree& tree, const KinoState& sample) {
   for (int i = 0; i < std::min(found, kRepairsPerSample); ++i) {
     const Candidate& candidate = candidates_[static_cast<std::size_t>(i)];
     const KinoState& state = tree.node(candidate.node).state;
-    const auto edge =
-        repairedEdge(tree.from(state, sample), tree.to(state, sample), candidate.steer);
+    const auto edge = repairedEdge(tree.from(state, sample), tree.to(state, sample),
+                                   candidate.steer, occasionOf(tree, candidate.node));
     if (edge) {
       ++counts_.repairs;
       return tree.add(sample, candidate.node, *edge);
@@ -150,8 +157,9 @@ int Search::grow(Tree& tree, const KinoState& sample) {
 }
 
 std::optional<Edge> Search::feasibleEdge(const KinoState& from, const KinoState& to,
-                                         const Steer& steer) {
-  if (check_.check(quinticPiece(from, to, steer.duration_s)) != feasibility::EdgeFault::kNone) {
+                                         const Steer& steer, const Occasion& occasion) {
+  if (occasion.check.check(quinticPiece(from, to, steer.duration_s), occasion.start_s) !=
+      feasibility::EdgeFault::kNone) {
     return std::nullopt;
   }
   return Edge{steer.duration_s, steer.cost, kNone, 0};
@@ -160,13 +168,13 @@ std::optional<Edge> Search::feasibleEdge(const KinoState& from, const KinoState&
 // An edge that asks for too much speed or thrust is first given more time, which leaves it one
 // quintic; one that collides is bent.
 std::optional<Edge> Search::repairedEdge(const KinoState& from, const KinoState& to,
-                                         const Steer& steer) {
-  const auto slower = slowerEdge(from, to, steer);
+                                         const Steer& steer, const Occasion& occasion) {
+  const auto slower = slowerEdge(from, to, steer, occasion);
   if (slower) {
     return slower;
   }
   const trajectory::Piece failing = quinticPiece(from, to, steer.duration_s);
-  if (!local_.repair(check_, failing, 0.0, repaired_)) {
+  if (!local_.repair(occasion.check, failing, occasion.start_s, repaired_)) {
     return std::nullopt;
   }
   if (pieces_.size() + repaired_.pieces.size() > pieces_.capacity()) {
@@ -183,12 +191,13 @@ std::optional<Edge> Search::repairedEdge(const KinoState& from, const KinoState&
 }
 
 std::optional<Edge> Search::slowerEdge(const KinoState& from, const KinoState& to,
-                                       const Steer& steer) {
+                                       const Steer& steer, const Occasion& occasion) {
   constexpr std::array<double, 4> kStretch = {1.1, 1.25, 1.45, 1.75};
   const SteerCost cost(from, to, options_.sigma);
   for (const double stretch : kStretch) {
     const double duration = stretch * steer.duration_s;
-    const feasibility::EdgeFault fault = check_.check(quinticPiece(from, to, duration));
+    const feasibility::EdgeFault fault =
+        occasion.check.check(quinticPiece(from, to, duration), occasion.start_s);
     if (fault == feasibility::EdgeFault::kNone) {
       return Edge{duration, cost.at(duration), kNone, 0};
     }
@@ -218,7 +227,7 @@ void Search::rewire(Tree& tree, int added) {
     if (!best || cost + best->cost >= node.cost - kWorthRewiring || tree.isBelow(added, index)) {
       continue;
     }
-    if (const auto edge = feasibleEdge(from, to, *best)) {
+    if (const auto edge = feasibleEdge(from, to, *best, occasionOf(tree, added))) {
       tree.rewire(index, added, *edge);
     }
   }

@@ -62,16 +62,29 @@ class Search {
     int in_goal = kNone;
   };
 
+  // By which check an edge is judged, and when it begins. In the start's tree obstacles are where
+  // they will be by then; what leads to the goal is sailed at a time not known yet, so there only
+  // what lies still counts, and the verifier judges the whole.
+  struct Occasion {
+    const feasibility::EdgeCheck& check;
+    double start_s;
+  };
+  [[nodiscard]] Occasion occasionOf(const Tree& tree, int parent) const;
+
   int findNeighbours(const Tree& tree, const KinoState& sample);
   int steerNeighbours(const Tree& tree, const KinoState& sample, int found);
   int grow(Tree& tree, const KinoState& sample);
-  std::optional<Edge> feasibleEdge(const KinoState& from, const KinoState& to, const Steer& steer);
-  std::optional<Edge> repairedEdge(const KinoState& from, const KinoState& to, const Steer& steer);
-  std::optional<Edge> slowerEdge(const KinoState& from, const KinoState& to, const Steer& steer);
+  std::optional<Edge> feasibleEdge(const KinoState& from, const KinoState& to, const Steer& steer,
+                                   const Occasion& occasion);
+  std::optional<Edge> repairedEdge(const KinoState& from, const KinoState& to, const Steer& steer,
+                                   const Occasion& occasion);
+  std::optional<Edge> slowerEdge(const KinoState& from, const KinoState& to, const Steer& steer,
+                                 const Occasion& occasion);
   void rewire(Tree& tree, int added);
 
   SearchOptions options_;
   feasibility::EdgeCheck check_;
+  feasibility::EdgeCheck still_;  // without what moves
   optimizer::LocalOptimizer local_;
   Tree from_start_;
   Tree to_goal_;

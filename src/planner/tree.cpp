@@ -20,6 +20,7 @@ int Tree::add(const KinoState& state, int parent, const Edge& edge) {
   node.edge = edge;
   node.parent = parent;
   node.cost = at(parent).cost + edge.cost;
+  node.time_s = at(parent).time_s + edge.duration_s;
   node.next_sibling = at(parent).first_child;
   at(parent).first_child = size();
   nodes_.push_back(node);
@@ -47,6 +48,7 @@ void Tree::rewire(int index, int parent, const Edge& edge) {
     Node& node = at(stack_.back());
     stack_.pop_back();
     node.cost = at(node.parent).cost + node.edge.cost;
+    node.time_s = at(node.parent).time_s + node.edge.duration_s;
     for (int child = node.first_child; child != kNone; child = at(child).next_sibling) {
       stack_.push_back(child);
     }

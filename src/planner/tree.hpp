@@ -24,8 +24,9 @@ struct Edge {
 
 struct Node {
   KinoState state;
-  Edge edge;          // to the parent; meaningless at the root
-  double cost = 0.0;  // of the way to or from the root
+  Edge edge;            // to the parent; meaningless at the root
+  double cost = 0.0;    // of the path to or from the root
+  double time_s = 0.0;  // that path takes
   int parent = kNone;
   int first_child = kNone;
   int next_sibling = kNone;
@@ -45,7 +46,7 @@ class Tree {
 
   // The new node's index; the tree must not be full.
   int add(const KinoState& state, int parent, const Edge& edge);
-  // Hangs `index` and all below it under another parent and passes the saving on. The new parent
+  // Hangs `index` and all below it under another parent and passes cost and time on. The new parent
   // must not be below it.
   void rewire(int index, int parent, const Edge& edge);
   [[nodiscard]] bool isBelow(int index, int ancestor) const;

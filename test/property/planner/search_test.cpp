@@ -9,11 +9,12 @@
 namespace otter_nav::planner {
 namespace {
 
-void expectSound(const Search& search, const Tree& tree) {
+void expectSound(const Search& search, const Tree& tree, double sigma) {
   for (int i = 1; i < tree.size(); ++i) {
     const Node& node = tree.node(i);
     ASSERT_TRUE(tree.isBelow(i, 0)) << i;
     EXPECT_NEAR(node.cost, tree.node(node.parent).cost + node.edge.cost, 1e-9);
+    EXPECT_NEAR(node.time_s, tree.node(node.parent).time_s + node.edge.duration_s, 1e-9);
     int seen = 0;
     for (int c = tree.node(node.parent).first_child; c != kNone; c = tree.node(c).next_sibling) {
       seen += c == i ? 1 : 0;
@@ -26,7 +27,7 @@ void expectSound(const Search& search, const Tree& tree) {
     const KinoState& to = tree.to(parent, node.state);
     double cost = 0.0;
     for (const auto& piece : pieces) {
-      cost += pieceCost(piece, 1.0);
+      cost += pieceCost(piece, sigma);
     }
     EXPECT_NEAR(cost, node.edge.cost, 1e-6 * cost);
     EXPECT_LT((pieces.front().flat(0.0).position - from.position).norm(), 1e-6);
@@ -39,9 +40,10 @@ void expectSound(const Search& search, const Tree& tree) {
 TEST(Search, KeepsItsTreesSoundAndItsWaysContinuous) {
   const map::DistanceField field = test::withObstacle(-5.0, -12.0, 10.0, 24.0);
   const vessel::Parameters vessel;
-  for (const bool repair : {false, true}) {
+  for (const double sigma : {1.0, 10.0}) {
+    const bool repair = sigma > 1.0;  // edges that are quick have to be bent
     SearchOptions options;
-    options.sigma = 1.0;
+    options.sigma = sigma;
     options.repair_edges = repair;
     Search search(options, vessel);
     KinoState start;
@@ -58,13 +60,14 @@ TEST(Search, KeepsItsTreesSoundAndItsWaysContinuous) {
       EXPECT_LE(search.bestCost(), cost + 1e-9);
       cost = search.bestCost();
     }
-    expectSound(search, search.fromStart());
-    expectSound(search, search.toGoal());
+    expectSound(search, search.fromStart(), sigma);
+    expectSound(search, search.toGoal(), sigma);
+    EXPECT_EQ(search.counts().repairs > 0, repair);
     ASSERT_TRUE(search.solved());
     const auto way = search.recall();
     double total = 0.0;
     for (std::size_t i = 0; i < way.size(); ++i) {
-      total += pieceCost(way[i], 1.0);
+      total += pieceCost(way[i], sigma);
       if (i > 0) {
         const auto before = way[i - 1].flat(way[i - 1].duration_s);
         const auto after = way[i].flat(0.0);
@@ -76,6 +79,66 @@ TEST(Search, KeepsItsTreesSoundAndItsWaysContinuous) {
     EXPECT_NEAR(total, search.bestCost(), 1e-6 * total);
     EXPECT_LE(search.counts().joined, search.counts().samples);
   }
+}
+
+// A small disc that moves north and is at `where` at time `when_s`.
+class Crossing : public feasibility::ObstacleLayer {
+ public:
+  Crossing(const Eigen::Vector2d& where, double when_s) : where_(where), when_s_(when_s) {}
+  [[nodiscard]] double clearance(const Eigen::Vector2d& p, double time_s) const override {
+    return std::max(0.0, smooth(p, time_s).distance_m);
+  }
+  [[nodiscard]] double rateBound() const override { return kSpeedMps; }
+  [[nodiscard]] map::DistanceField::Smooth smooth(const Eigen::Vector2d& p,
+                                                  double time_s) const override {
+    const Eigen::Vector2d off = p - where_ - Eigen::Vector2d(0.0, kSpeedMps * (time_s - when_s_));
+    return {off.norm() - 0.5, off.normalized()};
+  }
+
+ private:
+  static constexpr double kSpeedMps = 2.0;
+  Eigen::Vector2d where_;
+  double when_s_;
+};
+
+TEST(Search, TheStartsTreeMeetsWhatMovesWhereItWillBeByThen) {
+  const map::DistanceField field = test::openWater();
+  KinoState start;
+  start.position = {-25.0, 0.0};
+  KinoState goal;
+  goal.position = {30.0, 30.0};
+  KinoState first;
+  first.position = {-12.0, 0.0};
+  first.velocity = {3.0, 0.0};
+  KinoState second;
+  second.position = {5.0, 0.0};
+  second.velocity = {3.0, 0.0};
+  SearchOptions options;
+  options.sigma = 1.0;
+  options.repair_edges = false;
+  Search search(options, vessel::Parameters{});
+  const auto grow = [&](const feasibility::Obstacles& obstacles) -> const Tree& {
+    search.reset(obstacles, feasibility::SafetyLimits{}, start, goal);
+    search.extend(first);
+    search.extend(second);
+    return search.fromStart();
+  };
+  const Tree& tree = grow(field);
+  ASSERT_EQ(tree.size(), 3);
+  ASSERT_EQ(tree.node(2).parent, 1);
+  std::vector<trajectory::Piece> edge;
+  search.appendEdge(tree, 2, edge);
+  const double half_s = 0.5 * edge.front().duration_s;
+  ASSERT_GT(tree.node(1).time_s, 2.0);
+  const Crossing met(edge.front().flat(half_s).position, tree.node(1).time_s + half_s);
+  const Crossing missed(edge.front().flat(half_s).position, half_s);
+  feasibility::Obstacles meeting(field);
+  meeting.add(met);
+  const Tree& barred = grow(meeting);
+  EXPECT_FALSE(barred.size() == 3 && barred.node(2).parent == 1);
+  feasibility::Obstacles passed(field);
+  passed.add(missed);
+  EXPECT_EQ(grow(passed).node(2).parent, 1);
 }
 
 }  // namespace
