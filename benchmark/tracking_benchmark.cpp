@@ -68,7 +68,7 @@ Result<benchmark::RunSetup> buildSetup(const Arguments& a) {
       return failure(file->error().message);
     }
   }
-  const auto options = tracker::loadOptions(*tracker_file);
+  const auto options = config::load<tracker::Options>(*tracker_file);
   if (!options) {
     return failure(options.error().message);
   }

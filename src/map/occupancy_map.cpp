@@ -51,25 +51,6 @@ std::string whyRefused(const GridGeometry& grid, const SensorPose& sensor, const
   return "";
 }
 
-// Grows over changed cells.
-class Changed {
- public:
-  void add(int column, int row) {
-    low_ = low_.cwiseMin(Eigen::Vector2i(column, row));
-    high_ = high_.cwiseMax(Eigen::Vector2i(column, row));
-  }
-  [[nodiscard]] CellRectangle rectangle() const {
-    if (low_.x() > high_.x()) {
-      return {};
-    }
-    return {low_.x(), low_.y(), high_.x() - low_.x() + 1, high_.y() - low_.y() + 1};
-  }
-
- private:
-  Eigen::Vector2i low_ = Eigen::Vector2i::Constant(1 << 30);
-  Eigen::Vector2i high_ = Eigen::Vector2i::Constant(-1);
-};
-
 }  // namespace
 
 struct OccupancyMap::Sensed {
@@ -82,10 +63,11 @@ struct OccupancyMap::Sensed {
         layers(chart.geometry, the_options) {}
 
   // A column that changed: what it is now.
-  void project(std::size_t index, Changed& changed);
+  void project(std::size_t index, CellRectangle& changed);
   [[nodiscard]] bool onOwnHull(const HullPose& own, const Eigen::Vector2d& p) const;
-  void clearOwnHull(const HullPose& own, Changed& changed);
-  void insert(const SensorPose& sensor, const HullPose& own, const Scan& scan, Changed& changed);
+  void clearOwnHull(const HullPose& own, CellRectangle& changed);
+  void insert(const SensorPose& sensor, const HullPose& own, const Scan& scan,
+              CellRectangle& changed);
 
   vessel::Hull hull;
   double hull_margin_m;
@@ -94,7 +76,7 @@ struct OccupancyMap::Sensed {
   SensedLayers layers;
 };
 
-void OccupancyMap::Sensed::project(std::size_t index, Changed& changed) {
+void OccupancyMap::Sensed::project(std::size_t index, CellRectangle& changed) {
   Cell cell = chart.cells[index];
   if (layers.occupied(index)) {
     cell = Cell::kOccupied;
@@ -104,7 +86,7 @@ void OccupancyMap::Sensed::project(std::size_t index, Changed& changed) {
   if (cell != projection.cells[index]) {
     projection.cells[index] = cell;
     const auto width = static_cast<std::size_t>(chart.geometry.width);
-    changed.add(static_cast<int>(index % width), static_cast<int>(index / width));
+    changed.include(static_cast<int>(index % width), static_cast<int>(index / width));
   }
 }
 
@@ -115,7 +97,7 @@ bool OccupancyMap::Sensed::onOwnHull(const HullPose& own, const Eigen::Vector2d&
 }
 
 // Where the vessel is, nothing else is.
-void OccupancyMap::Sensed::clearOwnHull(const HullPose& own, Changed& changed) {
+void OccupancyMap::Sensed::clearOwnHull(const HullPose& own, CellRectangle& changed) {
   const GridGeometry& g = chart.geometry;
   const double reach = vessel::circumscribedRadius(hull) + 2.0 * hull_margin_m;
   const Eigen::Vector2i low = g.cellAt(own.position - Eigen::Vector2d::Constant(reach));
@@ -133,7 +115,7 @@ void OccupancyMap::Sensed::clearOwnHull(const HullPose& own, Changed& changed) {
 
 // Hits first, so that a beam passing close by an obstacle does not take from what another met.
 void OccupancyMap::Sensed::insert(const SensorPose& sensor, const HullPose& own, const Scan& scan,
-                                  Changed& changed) {
+                                  CellRectangle& changed) {
   const GridGeometry& g = chart.geometry;
   const Eigen::Matrix3d rotation = rotationOf(sensor);
   const auto direction = [&](std::size_t i) -> Eigen::Vector3d {
@@ -198,19 +180,19 @@ Result<CellRectangle> OccupancyMap::insertScan(const SensorPose& sensor, const H
   if (!why.empty()) {
     return failure("scan refused: " + why);
   }
-  Changed changed;
+  CellRectangle changed;
   sensed_->insert(sensor, own, scan, changed);
   sensed_->clearOwnHull(own, changed);
-  return changed.rectangle();
+  return changed;
 }
 
 CellRectangle OccupancyMap::reset() {
-  Changed changed;
+  CellRectangle changed;
   sensed_->layers.reset();
   for (std::size_t i = 0; i < sensed_->projection.cells.size(); ++i) {
     sensed_->project(i, changed);
   }
-  return changed.rectangle();
+  return changed;
 }
 
 // The tree that is saved also holds the chart, in its lowest layer, so that it stands alone.

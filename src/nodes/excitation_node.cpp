@@ -22,7 +22,7 @@ Result<std::unique_ptr<ExcitationNode>> ExcitationNode::create(config::Section s
     return failure(manoeuvres.error().message);
   }
   return config::vesselFile(options.vessel)
-      .and_then([](const std::string& path) { return vessel::loadParameters(path); })
+      .and_then(vessel::loadParameters)
       .map([&](const vessel::Parameters& vessel) {
         return std::unique_ptr<ExcitationNode>(
             new ExcitationNode(options, *std::move(manoeuvres), vessel));

@@ -24,7 +24,6 @@ class GoalServer {
 
   GoalServer(ros::NodeHandle& node, OnGoal on_goal, OnCancel on_cancel);
 
-  [[nodiscard]] bool active() const { return under_way_.has_value(); }
   void succeed(const std::string& text);
   void abort(const std::string& reason);
   void feedback(const vessel::Pose& pose, const ros::Time& stamp);

@@ -1,6 +1,7 @@
 #include "map_node.hpp"
 
 #include "map_node_options.hpp"
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
@@ -34,13 +35,8 @@ Result<std::unique_ptr<MapNode>> MapNode::create(config::Section section) {
   const Status fields = config::readFields(section, node);
   const Result<map::OccupancyMapOptions> options =
       map::readOccupancyMapOptions(section.child("map"));
-  for (const Status& status : {section.finish(), fields}) {
-    if (!status) {
-      return failure(status.error().message);
-    }
-  }
-  if (!options) {
-    return failure(options.error().message);
+  if (const Status status = firstFailure(section.finish(), fields, options); !status) {
+    return failure(status.error().message);
   }
   if (node.chart.empty() == node.scenario.empty()) {
     return failure(section.where() + ": give one of the parameters 'chart' and 'scenario'");

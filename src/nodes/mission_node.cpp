@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/ros/conversions.hpp"
@@ -47,20 +48,12 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   if (!options) {
     return failure(options.error().message);
   }
-  const Result<scenario::Scenario> scenario = scenario::loadScenario(options->scenario);
-  if (!scenario) {
-    return failure(scenario.error().message);
-  }
-  const Result<scenario::Mission> mission = scenario::missionOf(*scenario, options->mission);
-  if (!mission) {
-    return failure(mission.error().message);
-  }
-  const Result<vessel::Parameters> vessel =
-      config::vesselFile(options->vessel).and_then([](const std::string& path) {
-        return vessel::loadParameters(path);
-      });
-  if (!vessel) {
-    return failure(vessel.error().message);
+  const auto scenario = scenario::loadScenario(options->scenario);
+  const auto mission = scenario.and_then(
+      [&](const scenario::Scenario& all) { return scenario::missionOf(all, options->mission); });
+  const auto vessel = config::vesselFile(options->vessel).and_then(vessel::loadParameters);
+  if (const Status status = firstFailure(mission, vessel); !status) {
+    return failure(status.error().message);
   }
   std::optional<scenario::TrackWriter> track;
   if (!options->result.empty()) {

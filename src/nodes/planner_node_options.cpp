@@ -1,4 +1,5 @@
 #include "map_options.hpp"
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/share.hpp"
 #include "planner_node.hpp"
@@ -11,33 +12,18 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   const auto supervisor = mission::readSupervisorOptions(section.child("supervisor"));
   const auto planner = config::read<planner::Options>(section.child("planner"));
   const auto topology = config::read<topology::Options>(section.child("topology"));
-  for (const Status& status : {node, section.finish()}) {
-    if (!status) {
-      return failure(status.error().message);
-    }
+  const auto vessel = config::vesselFile(setup.node.vessel).and_then(vessel::loadParameters);
+  if (const Status status =
+          firstFailure(node, section.finish(), field, supervisor, planner, topology, vessel);
+      !status) {
+    return failure(status.error().message);
   }
-  if (!field) {
-    return failure(field.error().message);
-  }
-  if (!supervisor) {
-    return failure(supervisor.error().message);
-  }
-  if (!planner) {
-    return failure(planner.error().message);
-  }
-  if (!topology) {
-    return failure(topology.error().message);
-  }
+  setup.vessel = *vessel;
   setup.field = *field;
   setup.supervisor = *supervisor;
   setup.planner = *planner;
   setup.planner.topology = *topology;
-  return config::vesselFile(setup.node.vessel)
-      .and_then([](const std::string& path) { return vessel::loadParameters(path); })
-      .map([&](const vessel::Parameters& vessel) {
-        setup.vessel = vessel;
-        return setup;
-      });
+  return setup;
 }
 
 Result<std::unique_ptr<PlannerNode>> PlannerNode::create(config::Section section) {

@@ -1,5 +1,6 @@
 #include "plant_node_options.hpp"
 
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/scenario/scenario.hpp"
@@ -8,11 +9,9 @@ namespace otter_nav::nodes {
 namespace {
 
 Status takeScenario(PlantNodeOptions& options) {
-  const Result<scenario::Scenario> scenario = scenario::loadScenario(options.scenario);
-  if (!scenario) {
-    return failure(scenario.error().message);
-  }
-  const Result<scenario::Mission> mission = scenario::missionOf(*scenario, options.mission);
+  const auto scenario = scenario::loadScenario(options.scenario);
+  const auto mission = scenario.and_then(
+      [&](const scenario::Scenario& all) { return scenario::missionOf(all, options.mission); });
   if (!mission) {
     return failure(mission.error().message);
   }
@@ -28,11 +27,8 @@ Result<PlantNodeSetup> readPlantNodeSetup(config::Section section) {
   PlantNodeOptions& node = setup.node;
   const Status fields = config::readFields(section, node);
   Result<plant::Options> plant = config::read<plant::Options>(section.child("plant"));
-  if (const Status status = section.finish(); !status) {
+  if (const Status status = firstFailure(section.finish(), fields, plant); !status) {
     return failure(status.error().message);
-  }
-  if (!fields || !plant) {
-    return failure(fields ? plant.error().message : fields.error().message);
   }
   if (!node.lockstep && node.speed <= 0.0) {
     return failure(section.where() +

@@ -4,6 +4,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "map_options.hpp"
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -33,14 +34,8 @@ Result<std::unique_ptr<TopologyNode>> TopologyNode::create(config::Section secti
       readDistanceFieldOptions(section.child("distance_field"));
   const Result<topology::Options> options =
       config::read<topology::Options>(section.child("topology"));
-  if (const Status status = section.finish(); !status) {
+  if (const Status status = firstFailure(section.finish(), field, options); !status) {
     return failure(status.error().message);
-  }
-  if (!field) {
-    return failure(field.error().message);
-  }
-  if (!options) {
-    return failure(options.error().message);
   }
   return std::unique_ptr<TopologyNode>(new TopologyNode(*field, *options));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/trajectories.hpp"
@@ -42,18 +43,12 @@ Result<TrackerNodeOptions> readNodeOptions(config::Section& section) {
 
 Result<std::unique_ptr<TrackerNode>> TrackerNode::create(config::Section section) {
   const Result<TrackerNodeOptions> options = readNodeOptions(section);
-  const Result<tracker::Options> tracker = tracker::readOptions(section.child("tracker"));
-  if (const Status status = section.finish(); !status) {
+  const Result<tracker::Options> tracker = config::read<tracker::Options>(section.child("tracker"));
+  if (const Status status = firstFailure(section.finish(), options, tracker); !status) {
     return failure(status.error().message);
   }
-  if (!options) {
-    return failure(options.error().message);
-  }
-  if (!tracker) {
-    return failure(tracker.error().message);
-  }
   return config::vesselFile(options->vessel)
-      .and_then([](const std::string& path) { return vessel::loadParameters(path); })
+      .and_then(vessel::loadParameters)
       .map([&](const vessel::Parameters& vessel) {
         return std::unique_ptr<TrackerNode>(new TrackerNode(*options, *tracker, vessel));
       });

@@ -29,20 +29,6 @@ map::Cell toCell(std::int8_t value) {
   return value >= kOccupiedFrom ? map::Cell::kOccupied : map::Cell::kFree;
 }
 
-// The window grown to hold the cell.
-void include(int column, int row, map::CellRectangle& window) {
-  if (window.empty()) {
-    window = {column, row, 1, 1};
-    return;
-  }
-  const int right = std::max(window.column + window.width, column + 1);
-  const int top = std::max(window.row + window.height, row + 1);
-  window.column = std::min(window.column, column);
-  window.row = std::min(window.row, row);
-  window.width = right - window.column;
-  window.height = top - window.row;
-}
-
 Status checkInfo(const nav_msgs::OccupancyGrid& message, const std::string& frame) {
   const nav_msgs::MapMetaData& info = message.info;
   if (message.header.frame_id != frame) {
@@ -145,7 +131,7 @@ Result<map::CellRectangle> applyUpdate(const map_msgs::OccupancyGridUpdate& upda
       const map::Cell value = toCell(update.data[next++]);
       if (cell != value) {
         cell = value;
-        include(column, row, changed);
+        changed.include(column, row);
       }
     }
   }

@@ -4,10 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "otter_nav/planner/planner.hpp"
-#include "otter_nav/plant/simulator.hpp"
 #include "otter_nav/stopping/splice.hpp"
-#include "otter_nav/tracker/tracker.hpp"
 #include "simulation/sensing.hpp"
 
 namespace otter_nav::simulation {
@@ -26,88 +23,53 @@ class Stopwatch {
 
 }  // namespace
 
-class ClosedLoop::Impl {
- public:
-  Impl(const LoopOptions& options, plant::Simulator plant, map::OccupancyGrid chart,
-       const scenario::Mission& mission, std::uint64_t seed)
-      : options_(options),
-        plant_(std::move(plant)),
-        sensing_(std::move(chart), options),
-        planner_(options.planner, options.vessel),
-        tracker_(options.tracker, options.vessel),
-        supervisor_(options.supervisor, options.vessel, seed),
-        goal_(mission.goal) {
-    plant_.placeAt(mission.start.position, mission.start.psi_rad);
+ClosedLoop::ClosedLoop(const LoopOptions& options, plant::Simulator plant, map::OccupancyGrid chart,
+                       const scenario::Mission& mission, std::uint64_t seed)
+    : options_(options),
+      plant_(std::move(plant)),
+      sensing_(std::make_unique<Sensing>(std::move(chart), options)),
+      planner_(options.planner, options.vessel),
+      tracker_(options.tracker, options.vessel),
+      supervisor_(options.supervisor, options.vessel, seed),
+      goal_(mission.goal) {
+  plant_.placeAt(mission.start.position, mission.start.psi_rad);
+}
+ClosedLoop::~ClosedLoop() = default;
+ClosedLoop::ClosedLoop(ClosedLoop&&) noexcept = default;
+ClosedLoop& ClosedLoop::operator=(ClosedLoop&&) noexcept = default;
+
+Result<ClosedLoop> ClosedLoop::create(const LoopOptions& options, Waters waters,
+                                      const scenario::Mission& mission, std::uint64_t seed) {
+  Result<plant::Simulator> plant = plant::Simulator::create(options.plant, waters.world, seed);
+  if (!plant) {
+    return failure(plant.error().message);
   }
+  return ClosedLoop(options, std::move(*plant), std::move(waters.chart), mission, seed);
+}
 
-  bool step();
-  [[nodiscard]] bool over() const { return outcome_.has_value(); }
-  [[nodiscard]] double time() const { return plant_.time(); }
-  [[nodiscard]] const mission::Supervisor& supervisor() const { return supervisor_; }
-  [[nodiscard]] scenario::MotionSample motion() const;
-  [[nodiscard]] scenario::Progress progress() const;
-  [[nodiscard]] scenario::MissionResult result(const scenario::MissionLabel& label) const {
-    return recorder_.result(label, outcome_.value_or(scenario::Outcome::kTimeout), reason_,
-                            supervisor_.replans());
-  }
-
- private:
-  void sense();
-  void start();
-  void control();
-  void judge();
-  void carryOut(const mission::Orders& orders);
-  [[nodiscard]] mission::Situation situation() const;
-  void finish(scenario::Outcome outcome, std::string reason) {
-    outcome_ = outcome;
-    reason_ = std::move(reason);
-  }
-
-  LoopOptions options_;
-  plant::Simulator plant_;
-  Sensing sensing_;
-  planner::Planner planner_;
-  tracker::Tracker tracker_;
-  mission::Supervisor supervisor_;
-  vessel::Pose goal_;
-  scenario::Recorder recorder_;
-  tracker::Command command_;
-  bool started_ = false;
-  bool stop_ordered_ = false;
-  // The answer to the last request, and when the vessel gets it.
-  struct Reply {
-    int id = 0;
-    planner::Plan plan;
-  };
-  std::optional<Reply> reply_;
-  double reply_time_s_ = 0.0;
-  double last_record_s_ = -1e9;
-  std::optional<scenario::Outcome> outcome_;
-  std::string reason_;
-};
-
-bool ClosedLoop::Impl::step() {
-  if (over()) {
+bool ClosedLoop::step() {
+  if (outcome_) {
     return false;
   }
   sense();
   if (reply_ && time() >= reply_time_s_) {
     const Reply reply = std::move(*reply_);
     reply_.reset();
-    carryOut(supervisor_.planFinished(time(), reply.id, reply.plan, situation(), sensing_.field()));
+    carryOut(
+        supervisor_.planFinished(time(), reply.id, reply.plan, situation(), sensing_->field()));
   }
   control();
   judge();
-  return !over();
+  return !outcome_.has_value();
 }
 
-void ClosedLoop::Impl::sense() {
+void ClosedLoop::sense() {
   const plant::Odometry& odometry = plant_.odometry();
   tracker_.addOdometry(odometry.stamp_s, odometry.state);
   if (!plant_.scanDue()) {
     return;
   }
-  if (const Status status = sensing_.insert(plant_.scan(), odometry); !status) {
+  if (const Status status = sensing_->insert(plant_.scan(), odometry); !status) {
     finish(scenario::Outcome::kError, status.error().message);
     return;
   }
@@ -115,13 +77,13 @@ void ClosedLoop::Impl::sense() {
     start();
     return;
   }
-  carryOut(supervisor_.update(time(), situation(), sensing_.field()));
+  carryOut(supervisor_.update(time(), situation(), sensing_->field()));
 }
 
-void ClosedLoop::Impl::start() {
+void ClosedLoop::start() {
   started_ = true;
   const Result<mission::Orders> orders =
-      supervisor_.setGoal(time(), goal_, situation(), sensing_.field());
+      supervisor_.setGoal(time(), goal_, situation(), sensing_->field());
   if (orders) {
     carryOut(*orders);
   } else {
@@ -129,7 +91,7 @@ void ClosedLoop::Impl::start() {
   }
 }
 
-void ClosedLoop::Impl::control() {
+void ClosedLoop::control() {
   const Stopwatch watch;
   command_ = tracker_.step(time());
   recorder_.addTracking(watch.milliseconds());
@@ -140,7 +102,7 @@ void ClosedLoop::Impl::control() {
   }
 }
 
-void ClosedLoop::Impl::judge() {
+void ClosedLoop::judge() {
   if (plant_.hadContact()) {
     finish(scenario::Outcome::kCollided,
            "the hull touched something while " + std::string(mission::name(supervisor_.phase())));
@@ -148,13 +110,13 @@ void ClosedLoop::Impl::judge() {
     finish(scenario::Outcome::kArrived, {});
   } else if (supervisor_.phase() == mission::Phase::kFailed) {
     finish(scenario::Outcome::kStopped, supervisor_.reason());
-  } else if (!over() && time() >= options_.timeout_s) {
+  } else if (!outcome_ && time() >= options_.timeout_s) {
     finish(scenario::Outcome::kTimeout,
            std::string(mission::name(supervisor_.phase())) + ": " + supervisor_.reason());
   }
 }
 
-void ClosedLoop::Impl::carryOut(const mission::Orders& orders) {
+void ClosedLoop::carryOut(const mission::Orders& orders) {
   if (orders.stop) {
     stop_ordered_ = true;
     tracker_.requestStop("stop ordered");
@@ -172,7 +134,7 @@ void ClosedLoop::Impl::carryOut(const mission::Orders& orders) {
     const Stopwatch watch;
     planner::Termination termination;
     termination.max_iterations = options_.planning_iterations;
-    planner::Plan plan = planner_.plan(sensing_.field(), orders.plan->query, termination);
+    planner::Plan plan = planner_.plan(sensing_->field(), orders.plan->query, termination);
     recorder_.addPlanning(watch.milliseconds());
     reply_ = Reply{orders.plan->id, std::move(plan)};
     // A little before the new trajectory begins, as in life.
@@ -181,7 +143,7 @@ void ClosedLoop::Impl::carryOut(const mission::Orders& orders) {
   }
 }
 
-mission::Situation ClosedLoop::Impl::situation() const {
+mission::Situation ClosedLoop::situation() const {
   mission::Situation situation;
   situation.state = plant_.odometry().state;
   situation.odometry_stamp_s = plant_.odometry().stamp_s;
@@ -194,7 +156,7 @@ mission::Situation ClosedLoop::Impl::situation() const {
   return situation;
 }
 
-scenario::MotionSample ClosedLoop::Impl::motion() const {
+scenario::MotionSample ClosedLoop::motion() const {
   const plant::Truth& truth = plant_.truth();
   scenario::MotionSample sample;
   sample.t_s = truth.stamp_s;
@@ -211,7 +173,7 @@ scenario::MotionSample ClosedLoop::Impl::motion() const {
   return sample;
 }
 
-scenario::Progress ClosedLoop::Impl::progress() const {
+scenario::Progress ClosedLoop::progress() const {
   const scenario::MotionSample now = motion();
   scenario::Progress progress;
   progress.t_s = now.t_s;
@@ -228,38 +190,14 @@ scenario::Progress ClosedLoop::Impl::progress() const {
   return progress;
 }
 
-ClosedLoop::ClosedLoop(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-ClosedLoop::~ClosedLoop() = default;
-ClosedLoop::ClosedLoop(ClosedLoop&&) noexcept = default;
-ClosedLoop& ClosedLoop::operator=(ClosedLoop&&) noexcept = default;
-
-Result<ClosedLoop> ClosedLoop::create(const LoopOptions& options, Waters waters,
-                                      const scenario::Mission& mission, std::uint64_t seed) {
-  Result<plant::Simulator> plant = plant::Simulator::create(options.plant, waters.world, seed);
-  if (!plant) {
-    return failure(plant.error().message);
-  }
-  return ClosedLoop(
-      std::make_unique<Impl>(options, std::move(*plant), std::move(waters.chart), mission, seed));
-}
-
-bool ClosedLoop::step() {
-  return impl_->step();
-}
-double ClosedLoop::time() const {
-  return impl_->time();
-}
-const mission::Supervisor& ClosedLoop::supervisor() const {
-  return impl_->supervisor();
-}
-scenario::MotionSample ClosedLoop::motion() const {
-  return impl_->motion();
-}
-scenario::Progress ClosedLoop::progress() const {
-  return impl_->progress();
-}
 scenario::MissionResult ClosedLoop::result(const scenario::MissionLabel& label) const {
-  return impl_->result(label);
+  return recorder_.result(label, outcome_.value_or(scenario::Outcome::kTimeout), reason_,
+                          supervisor_.replans());
+}
+
+void ClosedLoop::finish(scenario::Outcome outcome, std::string reason) {
+  outcome_ = outcome;
+  reason_ = std::move(reason);
 }
 
 }  // namespace otter_nav::simulation

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
@@ -10,94 +11,45 @@
 namespace otter_nav::simulation {
 namespace {
 
-// A shipped file, read by `reader`.
-template <typename Options>
-Status readShipped(const std::string& file,
-                   const std::function<Result<Options>(const std::string&)>& reader,
-                   Options& options) {
-  const Result<std::string> path = config::findFile(file);
-  if (!path) {
-    return failure(path.error().message);
-  }
-  Result<Options> read = reader(*path);
-  if (!read) {
-    return failure(read.error().message);
-  }
-  options = std::move(*read);
-  return {};
-}
-
 // With the optimiser's and the topology's options beside it.
 Result<planner::Options> loadPlannerOptions(const std::string& path) {
   return planner::loadOptions(std::filesystem::path(path).parent_path().string());
 }
 
-Status readVessel(const std::string& name, LoopOptions& options) {
-  const Result<std::string> path = config::vesselFile(name);
-  if (!path) {
-    return failure(path.error().message);
-  }
-  Result<vessel::Parameters> vessel = vessel::loadParameters(*path);
-  if (!vessel) {
-    return failure(vessel.error().message);
-  }
-  options.vessel = std::move(*vessel);
-  return {};
-}
-
-Status readPlant(const std::string& disturbance, LoopOptions& options) {
-  const Result<std::string> file = config::findFile("config/plant.yaml");
-  const Result<std::string> preset =
-      config::findFile("config/disturbances/" + disturbance + ".yaml");
-  if (!file || !preset) {
-    return failure(!file ? file.error().message : preset.error().message);
-  }
-  Result<plant::Options> plant = plant::loadOptions(options.vessel, *file, *preset);
-  if (!plant) {
-    return failure(plant.error().message);
-  }
-  options.plant = std::move(*plant);
-  return {};
-}
-
 }  // namespace
 
 Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string& disturbance) {
-  LoopOptions o;
-  const std::function<Status()> steps[] = {
-      [&] { return readVessel(vessel, o); },
-      [&] { return readPlant(disturbance, o); },
-      [&] {
-        return readShipped<planner::Options>("config/planner.yaml", loadPlannerOptions, o.planner);
-      },
-      [&] {
-        return readShipped<tracker::Options>("config/tracker.yaml", tracker::loadOptions,
-                                             o.tracker);
-      },
-      [&] {
-        return readShipped<map::OccupancyMapOptions>("config/map.yaml",
-                                                     map::loadOccupancyMapOptions, o.map);
-      },
-      [&] {
-        return readShipped<mission::SupervisorOptions>(
-            "config/mission.yaml", mission::loadSupervisorOptions, o.supervisor);
-      }};
-  for (const auto& step : steps) {
-    if (const Status status = step(); !status) {
-      return failure(status.error().message);
-    }
+  const auto own = config::vesselFile(vessel).and_then(vessel::loadParameters);
+  const auto plant = config::findFile("config/plant.yaml").and_then(config::load<plant::Options>);
+  const auto preset = config::findFile("config/disturbances/" + disturbance + ".yaml")
+                          .and_then(plant::loadDisturbance);
+  const auto planner = config::findFile("config/planner.yaml").and_then(loadPlannerOptions);
+  const auto tracker =
+      config::findFile("config/tracker.yaml").and_then(config::load<tracker::Options>);
+  const auto map = config::findFile("config/map.yaml").and_then(map::loadOccupancyMapOptions);
+  const auto supervisor =
+      config::findFile("config/mission.yaml").and_then(mission::loadSupervisorOptions);
+  if (const Status status = firstFailure(own, plant, preset, planner, tracker, map, supervisor);
+      !status) {
+    return failure(status.error().message);
   }
+  LoopOptions o;
+  o.vessel = *own;
+  o.plant = *plant;
+  o.plant.vessel = *own;
+  o.plant.disturbance = *preset;
+  o.planner = *planner;
+  o.tracker = *tracker;
+  o.map = *map;
+  o.supervisor = *supervisor;
   return o;
 }
 
 Result<Waters> loadWaters(const scenario::Scenario& scenario) {
   Result<map::OccupancyGrid> chart = map::loadChart(scenario.chart_path);
-  if (!chart) {
-    return failure(chart.error().message);
-  }
   Result<map::OccupancyGrid> world = map::loadChart(scenario.world_path);
-  if (!world) {
-    return failure(world.error().message);
+  if (const Status status = firstFailure(chart, world); !status) {
+    return failure(status.error().message);
   }
   return Waters{std::move(*chart), std::move(*world)};
 }

@@ -12,12 +12,12 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
 #include "otter_nav/mission/supervisor.hpp"
-#include "otter_nav/planner/options.hpp"
-#include "otter_nav/plant/options.hpp"
+#include "otter_nav/planner/planner.hpp"
+#include "otter_nav/plant/simulator.hpp"
 #include "otter_nav/scenario/recorder.hpp"
 #include "otter_nav/scenario/report.hpp"
 #include "otter_nav/scenario/scenario.hpp"
-#include "otter_nav/tracker/options.hpp"
+#include "otter_nav/tracker/tracker.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::simulation {
@@ -48,6 +48,8 @@ struct Waters {
 };
 [[nodiscard]] Result<Waters> loadWaters(const scenario::Scenario& scenario);
 
+class Sensing;
+
 class ClosedLoop {
  public:
   // The vessel lies at rest at the mission's start.
@@ -61,17 +63,46 @@ class ClosedLoop {
   // One control period; false when the mission is over.
   bool step();
 
-  [[nodiscard]] double time() const;
-  [[nodiscard]] const mission::Supervisor& supervisor() const;
+  [[nodiscard]] double time() const { return plant_.time(); }
+  [[nodiscard]] const mission::Supervisor& supervisor() const { return supervisor_; }
   // The true motion and the reference now.
   [[nodiscard]] scenario::MotionSample motion() const;
   [[nodiscard]] scenario::Progress progress() const;
   [[nodiscard]] scenario::MissionResult result(const scenario::MissionLabel& label) const;
 
  private:
-  class Impl;
-  explicit ClosedLoop(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  ClosedLoop(const LoopOptions& options, plant::Simulator plant, map::OccupancyGrid chart,
+             const scenario::Mission& mission, std::uint64_t seed);
+
+  void sense();
+  void start();
+  void control();
+  void judge();
+  void carryOut(const mission::Orders& orders);
+  [[nodiscard]] mission::Situation situation() const;
+  void finish(scenario::Outcome outcome, std::string reason);
+
+  LoopOptions options_;
+  plant::Simulator plant_;
+  std::unique_ptr<Sensing> sensing_;
+  planner::Planner planner_;
+  tracker::Tracker tracker_;
+  mission::Supervisor supervisor_;
+  vessel::Pose goal_;
+  scenario::Recorder recorder_;
+  tracker::Command command_;
+  bool started_ = false;
+  bool stop_ordered_ = false;
+  // The answer to the last request, and when the vessel gets it.
+  struct Reply {
+    int id = 0;
+    planner::Plan plan;
+  };
+  std::optional<Reply> reply_;
+  double reply_time_s_ = 0.0;
+  double last_record_s_ = -1e9;
+  std::optional<scenario::Outcome> outcome_;
+  std::string reason_;
 };
 
 // step() to the end; the track goes to `track` and the progress to `progress` if they are given.

@@ -4,9 +4,7 @@
 
 #include <string>
 
-#include "otter_nav/base/result.hpp"
 #include "otter_nav/config/fields.hpp"
-#include "otter_nav/config/section.hpp"
 #include "otter_nav/tracker/limits.hpp"
 
 namespace otter_nav::tracker {
@@ -119,8 +117,5 @@ struct Options {
     fields.group("holding", o.holding, "station at the end of a trajectory");
   }
 };
-
-[[nodiscard]] Result<Options> readOptions(config::Section section);
-[[nodiscard]] Result<Options> loadOptions(const std::string& path);
 
 }  // namespace otter_nav::tracker

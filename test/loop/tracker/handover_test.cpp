@@ -8,7 +8,7 @@ using test::Stretch;
 using test::VesselAtSea;
 
 double thrustRateLimit() {
-  return loadOptions(test::kSource + "/config/tracker.yaml")->thrust_rate_nps;
+  return config::load<Options>(test::kSource + "/config/tracker.yaml")->thrust_rate_nps;
 }
 
 // The trajectory is 3 s old and the vessel at rest at its start.

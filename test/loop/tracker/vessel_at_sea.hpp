@@ -35,7 +35,7 @@ class VesselAtSea {
   explicit VesselAtSea(const std::string& disturbance, double latency_s = 0.0,
                        const std::string& name = "otter_gazebo") {
     const auto vessel = vessel::loadParameters(kSource + "/config/vessels/" + name + ".yaml");
-    const auto options = loadOptions(kSource + "/config/tracker.yaml");
+    const auto options = config::load<Options>(kSource + "/config/tracker.yaml");
     auto plant = plant::loadOptions(*vessel, kSource + "/config/plant.yaml",
                                     kSource + "/config/disturbances/" + disturbance + ".yaml");
     EXPECT_TRUE(vessel && options && plant);

@@ -13,7 +13,7 @@ namespace {
 class TrackerAllocation : public ::testing::Test {
  protected:
   TrackerAllocation()
-      : tracker_(*loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml"),
+      : tracker_(*config::load<Options>(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml"),
                  vessel::Parameters{}) {
     vessel::FlatPoint goal;
     goal.position.x() = 30.0;

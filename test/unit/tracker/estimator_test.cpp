@@ -17,7 +17,8 @@ using vessel::kSurge;
 constexpr double kStepS = 0.01;
 
 EstimatorOptions shipped() {
-  const auto options = loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml");
+  const auto options =
+      config::load<Options>(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml");
   EXPECT_TRUE(options) << options.error().message;
   return options->estimator;
 }

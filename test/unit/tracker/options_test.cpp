@@ -8,7 +8,8 @@ namespace otter_nav::tracker {
 namespace {
 
 TEST(TrackerOptions, DefaultsAreWhatShips) {
-  const auto shipped = loadOptions(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml");
+  const auto shipped =
+      config::load<Options>(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml");
   ASSERT_TRUE(shipped) << shipped.error().message;
   EXPECT_EQ(config::toYaml(*shipped), config::toYaml(Options{}));
 }
@@ -23,14 +24,14 @@ TEST(TrackerOptions, TheNodesDefaultsAreWhatShips) {
 // A key that is unknown, missing or out of range is an error that names it.
 TEST(TrackerOptions, AreReadStrictly) {
   YAML::Node node = YAML::Load(config::toYaml(Options{}));
-  EXPECT_TRUE(readOptions(config::Section(node, "tracker")));
+  EXPECT_TRUE(config::read<Options>(config::Section(node, "tracker")));
   node["holding"]["weathervane_radius_m"] = 0.1;  // inside heading_radius_m
-  const auto narrow = readOptions(config::Section(node, "tracker"));
+  const auto narrow = config::read<Options>(config::Section(node, "tracker"));
   ASSERT_FALSE(narrow);
   EXPECT_NE(narrow.error().message.find("weathervane_radius_m"), std::string::npos);
   node["holding"]["weathervane_radius_m"] = 0.8;
   node["thrust_share"] = 0.9;
-  const auto unknown = readOptions(config::Section(node, "tracker"));
+  const auto unknown = config::read<Options>(config::Section(node, "tracker"));
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().message.find("thrust_share"), std::string::npos);
 }

@@ -19,7 +19,7 @@ class TrackerTest : public ::testing::Test {
   TrackerTest() : tracker_(load(), vessel_) {}
 
   static Options load() {
-    const auto options = loadOptions(kSource + "/config/tracker.yaml");
+    const auto options = config::load<Options>(kSource + "/config/tracker.yaml");
     EXPECT_TRUE(options) << options.error().message;
     return *options;
   }
