@@ -14,25 +14,18 @@ constexpr double kHoldLimit = 0.1;
 
 class SpeedStep : public Manoeuvre {
  public:
-  SpeedStep(const ManoeuvreOptions& options, double psi_rad)
-      : options_(options), psi_rad_(psi_rad) {}
+  using Manoeuvre::Manoeuvre;
 
   Shares step(double elapsed_s, double psi_rad, double yaw_rate_radps) override {
     finished_ = elapsed_s >= options_.seconds;
     const double turn = kHeadingGain * (psi_rad_ - psi_rad) - kYawRateGain * yaw_rate_radps;
     return {options_.ahead, std::clamp(turn, -kHoldLimit, kHoldLimit)};
   }
-  [[nodiscard]] bool finished() const override { return finished_; }
-
- private:
-  ManoeuvreOptions options_;
-  double psi_rad_;
-  bool finished_ = false;
 };
 
 class Zigzag : public Manoeuvre {
  public:
-  Zigzag(const ManoeuvreOptions& options, double psi_rad) : options_(options), psi_rad_(psi_rad) {}
+  using Manoeuvre::Manoeuvre;
 
   Shares step(double elapsed_s, double psi_rad, double /*yaw_rate_radps*/) override {
     if (side_ * (psi_rad - psi_rad_) >= options_.angle_rad) {
@@ -42,36 +35,26 @@ class Zigzag : public Manoeuvre {
     finished_ = swings_ >= options_.count || elapsed_s >= options_.seconds;
     return {options_.ahead, side_ * options_.turn};
   }
-  [[nodiscard]] bool finished() const override { return finished_; }
 
  private:
-  ManoeuvreOptions options_;
-  double psi_rad_;
   double side_ = 1.0;
   int swings_ = 0;
-  bool finished_ = false;
 };
 
 class Circle : public Manoeuvre {
  public:
-  Circle(const ManoeuvreOptions& options, double psi_rad) : options_(options), psi_rad_(psi_rad) {}
+  using Manoeuvre::Manoeuvre;
 
   Shares step(double elapsed_s, double psi_rad, double /*yaw_rate_radps*/) override {
     finished_ = std::abs(psi_rad - psi_rad_) >= options_.angle_rad || elapsed_s >= options_.seconds;
     return {options_.ahead, options_.turn};
   }
-  [[nodiscard]] bool finished() const override { return finished_; }
-
- private:
-  ManoeuvreOptions options_;
-  double psi_rad_;
-  bool finished_ = false;
 };
 
 // Dieudonne's: the turn goes from +turn to -turn and back, each step held until it is steady.
 class Spiral : public Manoeuvre {
  public:
-  explicit Spiral(const ManoeuvreOptions& options) : options_(options) {}
+  using Manoeuvre::Manoeuvre;
 
   Shares step(double elapsed_s, double /*psi_rad*/, double /*yaw_rate_radps*/) override {
     const int number = static_cast<int>(elapsed_s / options_.seconds);
@@ -79,11 +62,6 @@ class Spiral : public Manoeuvre {
     const int from_end = std::abs(options_.count - std::min(number, 2 * options_.count));
     return {options_.ahead, options_.turn * (2.0 * from_end / options_.count - 1.0)};
   }
-  [[nodiscard]] bool finished() const override { return finished_; }
-
- private:
-  ManoeuvreOptions options_;
-  bool finished_ = false;
 };
 
 }  // namespace
@@ -95,7 +73,7 @@ std::unique_ptr<Manoeuvre> makeManoeuvre(const ManoeuvreOptions& options, double
     case ManoeuvreKind::kCircle:
       return std::make_unique<Circle>(options, psi_rad);
     case ManoeuvreKind::kSpiral:
-      return std::make_unique<Spiral>(options);
+      return std::make_unique<Spiral>(options, psi_rad);
     case ManoeuvreKind::kSpeedStep:
       break;
   }

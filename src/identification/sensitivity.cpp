@@ -45,11 +45,8 @@ struct Law {
       : model(m), coefficients(seeded(m.coefficients)), mobility(coefficients) {}
 };
 
-// State and sensitivity rates together.
-struct Rates {
-  State state;
-  Sensitivity sensitivity;
-};
+// A state in the first column, its sensitivity in those after it.
+using Augmented = Eigen::Matrix<double, kStateSize, Eigen::Dynamic, 0, kStateSize, 1 + kMaxColumns>;
 
 using RateJacobian = Eigen::Matrix<double, kStateSize, kDirections>;
 
@@ -85,18 +82,22 @@ RateJacobian rateJacobian(const Law& law, const vessel::Tau& tau, const State& x
   return j;
 }
 
-void rates(const Law& law, const CoefficientMap& map, bool with_current, const vessel::Tau& tau,
-           const State& state, const Sensitivity& sensitivity, Rates& out) {
-  const RateJacobian j = rateJacobian(law, tau, state, out.state);
+Augmented rates(const Law& law, const CoefficientMap& map, bool with_current,
+                const vessel::Tau& tau, const Augmented& x) {
+  State rate;
+  const RateJacobian j = rateJacobian(law, tau, x.col(0), rate);
+  Augmented out(kStateSize, x.cols());
+  out.col(0) = rate;
   // Nothing depends on the position: only the columns from the heading on.
-  out.sensitivity.resize(kStateSize, sensitivity.cols());
-  out.sensitivity.noalias() = j.middleCols<4>(kByPsi).lazyProduct(sensitivity.bottomRows<4>());
+  auto sensitivity = out.rightCols(x.cols() - 1);
+  sensitivity.noalias() = j.middleCols<4>(kByPsi).lazyProduct(x.bottomRightCorner(4, x.cols() - 1));
   const Eigen::Index parameters = map.cols();
-  out.sensitivity.bottomLeftCorner(3, parameters).noalias() +=
+  sensitivity.bottomLeftCorner(3, parameters).noalias() +=
       j.bottomLeftCorner<3, kCoefficientCount>().lazyProduct(map);
   if (with_current) {
-    out.sensitivity.block(3, parameters, 3, 2) += j.bottomRightCorner<3, 2>();
+    sensitivity.block(3, parameters, 3, 2) += j.bottomRightCorner<3, 2>();
   }
+  return out;
 }
 
 }  // namespace
@@ -106,19 +107,13 @@ void stepWithSensitivity(const Model& model, const CoefficientMap& map, bool wit
                          Sensitivity& sensitivity) {
   const Law law(model);
   const vessel::Tau tau = vessel::tauFromThrusts(thrusts, model.thrusters);
-  Rates k1;
-  Rates k2;
-  Rates k3;
-  Rates k4;
-  rates(law, map, with_current, tau, state, sensitivity, k1);
-  rates(law, map, with_current, tau, state + 0.5 * dt * k1.state,
-        sensitivity + 0.5 * dt * k1.sensitivity, k2);
-  rates(law, map, with_current, tau, state + 0.5 * dt * k2.state,
-        sensitivity + 0.5 * dt * k2.sensitivity, k3);
-  rates(law, map, with_current, tau, state + dt * k3.state, sensitivity + dt * k3.sensitivity, k4);
-  state += dt / 6.0 * (k1.state + 2.0 * k2.state + 2.0 * k3.state + k4.state);
-  sensitivity +=
-      dt / 6.0 * (k1.sensitivity + 2.0 * k2.sensitivity + 2.0 * k3.sensitivity + k4.sensitivity);
+  Augmented x(kStateSize, 1 + sensitivity.cols());
+  x << state, sensitivity;
+  x = rk4Step(
+      [&](double /*t*/, const Augmented& at) { return rates(law, map, with_current, tau, at); },
+      0.0, x, dt);
+  state = x.col(0);
+  sensitivity = x.rightCols(sensitivity.cols());
 }
 
 State step(const Model& model, const vessel::Thrusts& thrusts, double dt, const State& state) {
