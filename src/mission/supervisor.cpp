@@ -144,9 +144,9 @@ class Supervisor::Impl {
     if (!isAtTheEnd(m)) {
       return false;
     }
-    const Trajectory& way = sailed_.trajectory;
+    const Trajectory& path = sailed_.trajectory;
     return sailed_.left(m.now_s) <= -kSettleS ||
-           ((way.flat(way.duration()).position - goal_.position).norm() > kElsewhereM &&
+           ((path.flat(path.duration()).position - goal_.position).norm() > kElsewhereM &&
             atRest(m.situation.state));
   }
 
@@ -287,9 +287,9 @@ class Supervisor::Impl {
   // Outside the map there are no plans to be had: without a free place on this side of the edge
   // the vessel holds, until wind or current bring it back or the map changes.
   Orders turnBack(const Moment& m) {
-    if (std::optional<Trajectory> way =
+    if (std::optional<Trajectory> path =
             stopping::turnBack(m.situation.state, m.obstacles, vessel_)) {
-      return manoeuvre(m, Phase::kTurningBack, std::move(*way), "over the map's edge");
+      return manoeuvre(m, Phase::kTurningBack, std::move(*path), "over the map's edge");
     }
     if (inside(m) >= 0.0) {
       return planFromRest(m);
@@ -404,15 +404,15 @@ class Supervisor::Impl {
     return {std::nullopt, sailed_, false};
   }
   // A way to rest, without a plan; an empty one is the tracker's to find.
-  Orders manoeuvre(const Moment& m, Phase phase, Trajectory way, std::string reason) {
+  Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason) {
     plans_.drop();
     stop_time_s_ = m.now_s;
     enter(phase, std::move(reason));
-    if (way.empty()) {
+    if (path.empty()) {
       sailed_ = {};
       return {std::nullopt, std::nullopt, true};
     }
-    sailed_ = {std::move(way), m.now_s};
+    sailed_ = {std::move(path), m.now_s};
     return {std::nullopt, sailed_, false};
   }
   Orders stopByItself(const Moment& m, std::string reason) {
@@ -476,9 +476,9 @@ class Supervisor::Impl {
       return {};  // asked again at the next update, as long as there is room
     }
     if (!hasFault(m)) {
-      if (std::optional<Trajectory> way = stopping::backOff(m.situation.state, m.obstacles, vessel_,
-                                                            m.situation.disturbance_n)) {
-        return manoeuvre(m, Phase::kBackingOff, std::move(*way), "no room to turn: " + why);
+      if (std::optional<Trajectory> path = stopping::backOff(m.situation.state, m.obstacles,
+                                                             vessel_, m.situation.disturbance_n)) {
+        return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why);
       }
     }
     if (retries_.roundLost(m.now_s)) {

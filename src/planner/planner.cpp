@@ -208,9 +208,9 @@ class Planner::Pipeline {
   }
 
   [[nodiscard]] bool done(const Run& run) const {
-    const bool sound = run.solved() && !run.fallback;
+    const bool optimized = run.solved() && !run.fallback;
     const bool improve = run.plan.figures.attempts <= options_.improve_attempts;
-    return run.timeUp() || run.samples_left <= 0 || (sound && !improve);
+    return run.timeUp() || run.samples_left <= 0 || (optimized && !improve);
   }
 
   // A tree's path, optimised; failing that the guide path, and failing that the tree's path made

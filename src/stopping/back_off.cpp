@@ -62,11 +62,11 @@ double pointClearance(const Eigen::Vector2d& p, double time_s, const Obstacles& 
 
 // By the outline: the discs that verification sees are too wide for a place this tight. The hull's
 // corners swing at the yaw rate besides.
-bool outlineKeepsClear(const Trajectory& way, double from_s, const vessel::Parameters& vessel,
+bool outlineKeepsClear(const Trajectory& path, double from_s, const vessel::Parameters& vessel,
                        const Obstacles& obstacles, double least_m, bool edge) {
   const double reach = vessel::circumscribedRadius(vessel.hull);
-  for (std::size_t i = way.pieceAt(from_s); i < way.pieces().size(); ++i) {
-    const Piece& piece = way.pieces()[i];
+  for (std::size_t i = path.pieceAt(from_s); i < path.pieces().size(); ++i) {
+    const Piece& piece = path.pieces()[i];
     double turning = 0.0;
     for (int k = 1; k < trajectory::kCoefficients; ++k) {
       turning += k * std::abs(piece.heading[k]) * std::pow(piece.duration_s, k - 1);
@@ -74,9 +74,9 @@ bool outlineKeepsClear(const Trajectory& way, double from_s, const vessel::Param
     const double approach =
         trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
         reach * turning + obstacles.rateBound();
-    const double start = way.startOf(i);
+    const double start = path.startOf(i);
     const auto slack = [&](double t) {
-      const vessel::State state = way.sampleIn(i, t, vessel).state;
+      const vessel::State state = path.sampleIn(i, t, vessel).state;
       const auto clearance = [&](const Eigen::Vector2d& p) {
         return pointClearance(p, start + t, obstacles, edge);
       };
@@ -94,13 +94,13 @@ bool outlineKeepsClear(const Trajectory& way, double from_s, const vessel::Param
   return true;
 }
 
-bool canFollow(const Trajectory& way, const Obstacles& obstacles,
+bool canFollow(const Trajectory& path, const Obstacles& obstacles,
                const vessel::Parameters& vessel) {
   feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, -1.0);
   limits.thrust_share = 1.0;
   feasibility::Tolerances tolerances;
   tolerances.keep_hull_clear = false;  // seen to by the outline
-  return feasibility::verify(way, obstacles, vessel, limits, tolerances).ok;
+  return feasibility::verify(path, obstacles, vessel, limits, tolerances).ok;
 }
 
 // Places inside the map's edge with room to turn, the nearest first.
@@ -151,13 +151,13 @@ std::optional<Trajectory> backOff(const vessel::State& state, const Obstacles& o
   }
   for (const double lengths : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0}) {
     for (const double side : {-1.0, 1.0}) {
-      const Trajectory way(
+      const Trajectory path(
           {straight(state.head<2>(), state[vessel::kPsi], side * lengths * vessel.hull.length_m)});
-      const double end = way.duration();
-      if (obstacles.clearance(way.flat(end).position, end) >= room &&
-          outlineKeepsClear(way, 0.0, vessel, obstacles, kClearM + drift_mps * end, true) &&
-          canFollow(way, obstacles, vessel)) {
-        return way;
+      const double end = path.duration();
+      if (obstacles.clearance(path.flat(end).position, end) >= room &&
+          outlineKeepsClear(path, 0.0, vessel, obstacles, kClearM + drift_mps * end, true) &&
+          canFollow(path, obstacles, vessel)) {
+        return path;
       }
     }
   }
@@ -180,23 +180,23 @@ std::optional<Trajectory> turnBack(const vessel::State& state, const Obstacles& 
     }
     pieces.push_back(straight(position, psi + (pieces.empty() ? 0.0 : turn),
                               astern ? -there.norm() : there.norm()));
-    Trajectory way(std::move(pieces));
-    if (outlineKeepsClear(way, 0.0, vessel, obstacles, kClearM, false) &&
-        canFollow(way, obstacles, vessel)) {
-      return way;
+    Trajectory path(std::move(pieces));
+    if (outlineKeepsClear(path, 0.0, vessel, obstacles, kClearM, false) &&
+        canFollow(path, obstacles, vessel)) {
+      return path;
     }
   }
   return std::nullopt;
 }
 
-bool backOffIsClear(const Trajectory& way, double from_s, const Obstacles& obstacles,
+bool backOffIsClear(const Trajectory& path, double from_s, const Obstacles& obstacles,
                     const vessel::Parameters& vessel) {
-  return outlineKeepsClear(way, from_s, vessel, obstacles, kTouchesM, true);
+  return outlineKeepsClear(path, from_s, vessel, obstacles, kTouchesM, true);
 }
 
-bool turnBackIsClear(const Trajectory& way, double from_s, const Obstacles& obstacles,
+bool turnBackIsClear(const Trajectory& path, double from_s, const Obstacles& obstacles,
                      const vessel::Parameters& vessel) {
-  return outlineKeepsClear(way, from_s, vessel, obstacles, kTouchesM, false);
+  return outlineKeepsClear(path, from_s, vessel, obstacles, kTouchesM, false);
 }
 
 }  // namespace otter_nav::stopping

@@ -34,10 +34,10 @@ namespace otter_nav::stopping {
 
 // Whether the hull's outline touches nothing along the rest of such a manoeuvre, from `from_s` (s
 // from its start) on.
-[[nodiscard]] bool backOffIsClear(const trajectory::Trajectory& way, double from_s,
+[[nodiscard]] bool backOffIsClear(const trajectory::Trajectory& path, double from_s,
                                   const feasibility::Obstacles& obstacles,
                                   const vessel::Parameters& vessel);
-[[nodiscard]] bool turnBackIsClear(const trajectory::Trajectory& way, double from_s,
+[[nodiscard]] bool turnBackIsClear(const trajectory::Trajectory& path, double from_s,
                                    const feasibility::Obstacles& obstacles,
                                    const vessel::Parameters& vessel);
 

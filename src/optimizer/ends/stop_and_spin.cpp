@@ -44,7 +44,7 @@ void StopAndSpin::appendStraight(const Eigen::Vector2d& from, const Eigen::Vecto
   pieces.push_back(piece);
 }
 
-trajectory::Trajectory StopAndSpin::follow(const std::vector<Eigen::Vector2d>& way,
+trajectory::Trajectory StopAndSpin::follow(const std::vector<Eigen::Vector2d>& path,
                                            const trajectory::Boundary& start,
                                            const trajectory::Boundary& goal) const {
   std::vector<trajectory::Piece> pieces;
@@ -57,10 +57,10 @@ trajectory::Trajectory StopAndSpin::follow(const std::vector<Eigen::Vector2d>& w
     }
     psi += turn;
   };
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const Eigen::Vector2d& next = i + 1 < way.size() ? way[i] : goal.flat.position;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector2d& next = i + 1 < path.size() ? path[i] : goal.flat.position;
     const Eigen::Vector2d leg = next - at;
-    if (leg.norm() < kSamePointM && i + 1 < way.size()) {
+    if (leg.norm() < kSamePointM && i + 1 < path.size()) {
       continue;
     }
     if (leg.norm() > 1e-6) {

@@ -21,7 +21,7 @@ class StopAndSpin {
 
   // From rest at `start` to rest at `goal`, headings included; the way's ends are replaced by
   // theirs.
-  [[nodiscard]] trajectory::Trajectory follow(const std::vector<Eigen::Vector2d>& way,
+  [[nodiscard]] trajectory::Trajectory follow(const std::vector<Eigen::Vector2d>& path,
                                               const trajectory::Boundary& start,
                                               const trajectory::Boundary& goal) const;
 

@@ -32,8 +32,8 @@ Eigen::Vector2d lineOf(const Piece& piece) {
     }
   }
   // Ahead is where the piece ends.
-  const Eigen::Vector2d way = piece.flat(piece.duration_s).position - piece.flat(0.0).position;
-  return way.dot(longest) < 0.0 ? Eigen::Vector2d(-longest) : longest;
+  const Eigen::Vector2d chord = piece.flat(piece.duration_s).position - piece.flat(0.0).position;
+  return chord.dot(longest) < 0.0 ? Eigen::Vector2d(-longest) : longest;
 }
 
 // The control polygon of the velocity (Bernstein form) holds all its values.
