@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 #include "otter_nav/base/angles.hpp"
 #include "thrust_history.hpp"

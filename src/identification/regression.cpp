@@ -1,8 +1,6 @@
 #include "regression.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
 
 #include "otter_nav/vessel/thrusters.hpp"
 

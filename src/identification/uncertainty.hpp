@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "otter_nav/base/result.hpp"

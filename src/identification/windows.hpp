@@ -1,8 +1,6 @@
 // Which samples are fitted and which are kept back to judge the fit.
 #pragma once
 
-#include <vector>
-
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/identification/identify.hpp"
 

@@ -1,5 +1,7 @@
 #include "otter_nav/plant/options.hpp"
 
+#include "otter_nav/base/first_failure.hpp"
+
 namespace otter_nav::plant {
 
 Result<EnvironmentOptions> loadDisturbance(const std::string& path) {
@@ -9,12 +11,9 @@ Result<EnvironmentOptions> loadDisturbance(const std::string& path) {
 Result<Options> loadOptions(const vessel::Parameters& vessel, const std::string& plant_yaml,
                             const std::string& disturbance_yaml) {
   Result<Options> options = config::load<Options>(plant_yaml);
-  if (!options) {
-    return options;
-  }
   const Result<EnvironmentOptions> disturbance = loadDisturbance(disturbance_yaml);
-  if (!disturbance) {
-    return failure(disturbance.error().message);
+  if (const Status status = firstFailure(options, disturbance); !status) {
+    return failure(status.error().message);
   }
   options->vessel = vessel;
   options->disturbance = *disturbance;

@@ -1,7 +1,6 @@
 #include "otter_nav/scenario/recorder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "otter_nav/base/statistics.hpp"

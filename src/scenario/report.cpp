@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <utility>
 
 namespace otter_nav::scenario {

@@ -1,6 +1,5 @@
 #include "otter_nav/scenario/scenario.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,6 @@
 #include "otter_nav/simulation/closed_loop.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "otter_nav/stopping/splice.hpp"

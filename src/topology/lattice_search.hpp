@@ -29,7 +29,6 @@ class LatticeSearch {
   // Start to goal into `path`, where each segment keeps the clearance. Start and goal must.
   Outcome run(const map::DistanceField& field, const LatticeQuery& query,
               std::vector<Eigen::Vector2d>& path);
-  [[nodiscard]] int expansions() const { return expansions_; }
 
  private:
   enum class State : std::uint8_t { kBlocked, kUnseen, kOpen, kClosed };

@@ -1,7 +1,6 @@
 #include "topology/shortcut.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace otter_nav::topology {
 namespace {

@@ -18,7 +18,6 @@ class PredictiveController {
   // Before the first step on a new trajectory. The plan in force is the best start for the next one
   // unless it leads somewhere else.
   void start(bool keep_plan);
-  [[nodiscard]] bool planValid() const { return plan_valid_; }
   void dropPlan() { plan_valid_ = false; }
 
   // Linearises and factors for the step at `next_s`, the thrusters being at `last`.

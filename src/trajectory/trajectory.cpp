@@ -1,7 +1,6 @@
 #include "otter_nav/trajectory/trajectory.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>

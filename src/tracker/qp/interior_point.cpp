@@ -1,7 +1,6 @@
 #include "tracker/qp/interior_point.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace otter_nav::tracker::qp {
 namespace {
