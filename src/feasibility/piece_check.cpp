@@ -70,7 +70,7 @@ PieceCheck::PieceCheck(const trajectory::Piece& piece, const vessel::Parameters&
   }
 }
 
-PieceCheck::Point PieceCheck::at(double t_s) const {
+inline PieceCheck::Point PieceCheck::at(double t_s) const {
   vessel::FlatPoint z;
   z.velocity = evaluate<7>(velocity_, t_s);
   z.acceleration = evaluate<6>(acceleration_, t_s);

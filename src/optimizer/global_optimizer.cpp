@@ -176,10 +176,8 @@ class GlobalOptimizer::Solver {
     for (std::size_t i = 0; i < spline_.spans.size(); ++i) {
       spline_.spans[i].duration_free = false;
       for (std::size_t k = 0; k < trajectory::kLobattoPoints; ++k) {
-        const trajectory::SepticBasis basis =
-            trajectory::scaleBasis(trajectory::septicBasis(trajectory::kLobatto.at[k]),
-                                   spline_.spans[i].duration_s)
-                .value;
+        const trajectory::SepticBasis basis = trajectory::scaleBasis(
+            trajectory::septicBasis(trajectory::kLobatto.at[k]), spline_.spans[i].duration_s);
         originals_[i][k] = spline_.knots[i].state * basis.row(0).head<4>().transpose() +
                            spline_.knots[i + 1].state * basis.row(0).tail<4>().transpose();
       }

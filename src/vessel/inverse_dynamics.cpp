@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/model.hpp"
@@ -11,6 +10,7 @@ namespace otter_nav::vessel {
 namespace {
 
 using Eigen::Vector2d;
+using namespace inverse;
 
 // Shares of what all thrusters give ahead. Far above rounding, which where D passes through zero
 // would turn into a yaw acceleration, and far below what a turning path may have:
@@ -30,63 +30,10 @@ constexpr double kLongestBowStepRad = 0.5;
 enum Direction : int { kByW = 0, kByW1 = 2, kByW2 = 4, kByVelocity = 6 };  // x, then y
 enum Heading : int { kByPsi, kByYawRate };
 
-template <typename X, typename Y>
-struct Vector {
-  X x;
-  Y y;
-};
-template <typename X, typename Y>
-Vector(X, Y) -> Vector<X, Y>;
-
-Vector<double, double> plain(const Vector2d& v) {
-  return {v.x(), v.y()};
-}
 template <int D>
 auto seeded(const Vector2d& v) {
   return Vector{variable<D>(v.x()), variable<D + 1>(v.y())};
 }
-template <typename A, typename B>
-OTTER_NAV_INLINE auto dot(const A& a, const B& b) {
-  return a.x * b.x + a.y * b.y;
-}
-template <typename A, typename B>
-OTTER_NAV_INLINE auto crossed(const A& a, const B& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-// r and r' of a hull along e with D = 1 / per_d and Y + Y'' = bend; in calm air that vanishes.
-struct Calm {};
-template <typename Rate, typename Acceleration>
-struct Turning {
-  Rate yaw_rate;
-  Acceleration yaw_acceleration;
-};
-template <typename Rate, typename Acceleration>
-Turning(Rate, Acceleration) -> Turning<Rate, Acceleration>;
-
-template <typename E, typename PerD, typename W1, typename W2, typename Bend>
-OTTER_NAV_INLINE auto turning(const E& e, const PerD& per_d, const W1& w1, const W2& w2,
-                              const Bend& bend) {
-  const auto r = crossed(e, w1) * per_d;
-  if constexpr (std::is_same_v<Bend, Calm>) {
-    return Turning{r, (crossed(e, w2) - r * (2.0 * dot(e, w1))) * per_d};
-  } else {
-    return Turning{r, (crossed(e, w2) - r * (2.0 * dot(e, w1) + r * bend)) * per_d};
-  }
-}
-
-template <typename Rate, typename Acceleration>
-OTTER_NAV_INLINE auto yawMoment(const PaperModel& m, const Rate& r, const Acceleration& r1) {
-  return m.m2_kgm2 * r1 + m.d3_kgm2ps * r;
-}
-
-// Along w, on the side of `ahead`.
-Bow calmBow(const Vector2d& w, const Vector2d& ahead, double floor_n) {
-  const double side = w.dot(ahead) >= 0.0 ? 1.0 : -1.0;
-  const double norm = std::max(w.norm(), floor_n);
-  return {side / norm * w, side * norm};
-}
-
 // What the equations of motion leave for the thrusters, and abeam for nobody.
 template <typename Cosine, typename Sine, typename Rate>
 auto thrustDemand(const ManoeuvringModel& m, const Disturbance& d, const Cosine& c, const Sine& s,
@@ -107,13 +54,6 @@ auto thrustDemand(const ManoeuvringModel& m, const Disturbance& d, const Cosine&
 
 }  // namespace
 
-// X, Y, N on a heading and their derivatives by it: dual numbers of dual numbers hold the higher.
-struct InverseDynamics::Air {
-  double x = 0.0, x1 = 0.0;
-  double y = 0.0, y1 = 0.0, y2 = 0.0, y3 = 0.0;
-  double n = 0.0, n1 = 0.0;
-};
-
 InverseDynamics::InverseDynamics(const Parameters& vessel, const Disturbance& disturbance)
     : model_(vessel.paper),
       lever_m_(vessel.thrusters.lever_arm_m),
@@ -124,12 +64,8 @@ InverseDynamics::InverseDynamics(const Parameters& vessel, const Disturbance& di
       surge_offset_n_(model_.d1_kgps * disturbance.current_mps + disturbance.force_n),
       sway_offset_n_(model_.d2_kgps * disturbance.current_mps + disturbance.force_n) {}
 
-InverseDynamics::Air InverseDynamics::air(const Vector2d& bow) const {
+InverseDynamics::Air InverseDynamics::wind(const Vector2d& bow) const {
   Air air;
-  air.n = disturbance_.moment_nm;
-  if (!windy_) {
-    return air;
-  }
   Disturbance wind = disturbance_;
   wind.force_n.setZero();  // part of w
   const Turned<0, double> once(bow.x(), bow.y());
@@ -147,16 +83,13 @@ InverseDynamics::Air InverseDynamics::air(const Vector2d& bow) const {
   return air;
 }
 
-Bow InverseDynamics::bow(const Vector2d& w, const Vector2d& ahead, double floor_n) const {
+Bow InverseDynamics::bowInWind(const Vector2d& w, const Vector2d& ahead, double floor_n) const {
   Bow bow = calmBow(w, ahead, floor_n);
-  if (!windy_) {
-    return bow;
-  }
   const double side = bow.firmness_n >= 0.0 ? 1.0 : -1.0;
   double psi = std::atan2(bow.ahead.y(), bow.ahead.x());
   for (int i = 0; i <= kBowIterations; ++i) {
     bow.ahead = {std::cos(psi), std::sin(psi)};
-    const Air air = this->air(bow.ahead);
+    const Air air = wind(bow.ahead);
     bow.firmness_n = side * std::max(side * (bow.ahead.dot(w) + air.y1), floor_n);
     psi += std::clamp((cross(bow.ahead, w) - air.y) / bow.firmness_n, -kLongestBowStepRad,
                       kLongestBowStepRad);
@@ -164,34 +97,11 @@ Bow InverseDynamics::bow(const Vector2d& w, const Vector2d& ahead, double floor_
   return bow;
 }
 
-HeldDemand InverseDynamics::held(const Vector2d& bow, double yaw_rate_radps,
-                                 double yaw_acceleration, const Vector2d& velocity,
-                                 const Vector2d& acceleration) const {
-  const Air air = this->air(bow);
-  return {{bow.dot(surgeForce(velocity, acceleration)) - air.x,
-           yawMoment(model_, yaw_rate_radps, yaw_acceleration) - air.n},
-          cross(bow, headingForce(velocity, acceleration)) - air.y};
-}
-
-Sailing InverseDynamics::sailing(const FlatPoint& z, const Vector2d& ahead, double floor_n) const {
-  const Vector2d w = headingForce(z.velocity, z.acceleration);
-  const auto w1 = plain(headingForceRate(z.acceleration, z.jerk));
-  const auto w2 = plain(headingForceRate(z.jerk, z.snap));
-  const auto result = [&](const Bow& bow, const auto& turn, double x, double n) -> Sailing {
-    return {bow,
-            turn.yaw_rate,
-            {bow.ahead.dot(surgeForce(z.velocity, z.acceleration)) - x,
-             yawMoment(model_, turn.yaw_rate, turn.yaw_acceleration) - n}};
-  };
-  if (!windy_) {
-    const Bow b = calmBow(w, ahead, floor_n);
-    return result(b, turning(plain(b.ahead), 1.0 / b.firmness_n, w1, w2, Calm{}), 0.0,
-                  disturbance_.moment_nm);
-  }
-  const Bow b = bow(w, ahead, floor_n);
-  const Air air = this->air(b.ahead);
-  return result(b, turning(plain(b.ahead), 1.0 / b.firmness_n, w1, w2, air.y + air.y2), air.x,
-                air.n);
+Sailing InverseDynamics::sailingInWind(const FlatPoint& z, const Vector2d& ahead,
+                                       double floor_n) const {
+  const Bow b = bowInWind(headingForce(z.velocity, z.acceleration), ahead, floor_n);
+  const Air air = wind(b.ahead);
+  return along(b, air, air.y + air.y2, z);
 }
 
 FlatState InverseDynamics::state(const FlatPoint& z, const Vector2d& ahead) const {
@@ -265,6 +175,17 @@ FlatGradient InverseDynamics::gradient(const FlatPoint& z, double floor_n) const
                 surge - byHeading(air.x, air.x1), byHeading(air.n, air.n1));
 }
 
+FlatGradient InverseDynamics::demand(const FlatPoint& z, double floor_n) const {
+  const Vector2d w = headingForce(z.velocity, z.acceleration);
+  const Sailing s = sailing(z, w, floor_n);
+  FlatGradient g;
+  g.heading_force_n = s.bow.firmness_n;
+  g.yaw_rate_radps = s.yaw_rate_radps;
+  g.surge_n = s.tau.surge_n;
+  g.difference_n = s.tau.yaw_nm / lever_m_;
+  return g;
+}
+
 void InverseDynamics::push(double psi_rad, double yaw_rate_radps, double surge_n,
                            double surge_rate_nps, FlatPoint& z) const {
   // w = (tau_u + (d2 - d1) e . (z' - c) + X) e + Y n
@@ -273,7 +194,7 @@ void InverseDynamics::push(double psi_rad, double yaw_rate_radps, double surge_n
   const Air air = this->air(e);
   const Vector2d through = z.velocity - disturbance_.current_mps;
   const double extra = model_.d2_kgps - model_.d1_kgps;
-  const double ahead = surge_n + extra * e.dot(through) + air.x;
+  const double ahead = headingForceAhead(air, e, surge_n, z.velocity);
   z.acceleration = accelerationFrom(ahead * e + air.y * n, z.velocity);
   const double r = yaw_rate_radps;
   const double ahead_rate =

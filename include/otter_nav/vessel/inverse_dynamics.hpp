@@ -15,7 +15,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/motion_law.hpp"
@@ -41,9 +43,7 @@ struct FlatGradient {
   double yaw_rate_radps = 0.0;
   double surge_n = 0.0;       // F_r + F_l
   double difference_n = 0.0;  // F_r - F_l
-  FlatRow yaw_rate = FlatRow::Zero();
-  FlatRow surge = FlatRow::Zero();
-  FlatRow difference = FlatRow::Zero();
+  FlatRow yaw_rate, surge, difference;
 };
 
 // Where the bow points and how firmly, N (D above).
@@ -62,6 +62,57 @@ struct HeldDemand {
   Tau tau;
   double sway_n;
 };
+
+// Terms of the equations above, for doubles and dual numbers.
+namespace inverse {
+
+template <typename X, typename Y>
+struct Vector {
+  X x;
+  Y y;
+};
+template <typename X, typename Y>
+Vector(X, Y) -> Vector<X, Y>;
+
+inline Vector<double, double> plain(const Eigen::Vector2d& v) {
+  return {v.x(), v.y()};
+}
+template <typename A, typename B>
+OTTER_NAV_INLINE auto dot(const A& a, const B& b) {
+  return a.x * b.x + a.y * b.y;
+}
+template <typename A, typename B>
+OTTER_NAV_INLINE auto crossed(const A& a, const B& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+// r and r' of a hull along e with D = 1 / per_d and Y + Y'' = bend; in calm air that vanishes.
+struct Calm {};
+template <typename Rate, typename Acceleration>
+struct Turning {
+  Rate yaw_rate;
+  Acceleration yaw_acceleration;
+};
+template <typename Rate, typename Acceleration>
+Turning(Rate, Acceleration) -> Turning<Rate, Acceleration>;
+
+template <typename E, typename PerD, typename W1, typename W2, typename Bend>
+OTTER_NAV_INLINE auto turning(const E& e, const PerD& per_d, const W1& w1, const W2& w2,
+                              const Bend& bend) {
+  const auto r = crossed(e, w1) * per_d;
+  if constexpr (std::is_same_v<Bend, Calm>) {
+    return Turning{r, (crossed(e, w2) - r * (2.0 * dot(e, w1))) * per_d};
+  } else {
+    return Turning{r, (crossed(e, w2) - r * (2.0 * dot(e, w1) + r * bend)) * per_d};
+  }
+}
+
+template <typename Rate, typename Acceleration>
+OTTER_NAV_INLINE auto yawMoment(const PaperModel& m, const Rate& r, const Acceleration& r1) {
+  return m.m2_kgm2 * r1 + m.d3_kgm2ps * r;
+}
+
+}  // namespace inverse
 
 // The paper's model in still or moving water and air. Cheap to copy; the small functions are inline
 // for the hot loops of the search.
@@ -97,6 +148,14 @@ class InverseDynamics {
   // z''' of `motion`, whose position and velocity are set.
   void push(double psi_rad, double yaw_rate_radps, double surge_n, double surge_rate_nps,
             FlatPoint& motion) const;
+  // z'' alone.
+  [[nodiscard]] Eigen::Vector2d pushed(double psi_rad, double surge_n,
+                                       const Eigen::Vector2d& velocity) const {
+    const Eigen::Vector2d e(std::cos(psi_rad), std::sin(psi_rad));
+    const Air air = this->air(e);
+    return accelerationFrom(headingForceAhead(air, e, surge_n, velocity) * e + air.y * across(e),
+                            velocity);
+  }
   // d scalar / d (z', ..., z'''') from its derivatives by w, w' and w''.
   [[nodiscard]] FlatRow byPath(const Eigen::Vector2d& by_w,
                                const Eigen::Vector2d& by_w1 = Eigen::Vector2d::Zero(),
@@ -111,7 +170,9 @@ class InverseDynamics {
 
   // The bow for w, on the side of `ahead`; |D| is taken as no less than `floor_n`.
   [[nodiscard]] Bow bow(const Eigen::Vector2d& w, const Eigen::Vector2d& ahead,
-                        double floor_n) const;
+                        double floor_n) const {
+    return windy_ ? bowInWind(w, ahead, floor_n) : calmBow(w, ahead, floor_n);
+  }
   // d (vector . bow) / d w.
   [[nodiscard]] static Eigen::Vector2d bowGradient(const Bow& bow, const Eigen::Vector2d& vector) {
     return (vector - vector.dot(bow.ahead) * bow.ahead) / bow.firmness_n;
@@ -123,13 +184,23 @@ class InverseDynamics {
   [[nodiscard]] FlatState state(const FlatPoint& z, const Eigen::Vector2d& ahead) const;
   // Without that exception: |D| is taken as no less than `floor_n`.
   [[nodiscard]] Sailing sailing(const FlatPoint& z, const Eigen::Vector2d& ahead,
-                                double floor_n) const;
+                                double floor_n) const {
+    return windy_ ? sailingInWind(z, ahead, floor_n)
+                  : along(calmBow(headingForce(z.velocity, z.acceleration), ahead, floor_n),
+                          calmAir(), inverse::Calm{}, z);
+  }
   // The same with derivatives; the bow along +w.
   [[nodiscard]] FlatGradient gradient(const FlatPoint& z, double floor_n) const;
+  // What gradient() says, without derivatives.
+  [[nodiscard]] FlatGradient demand(const FlatPoint& z, double floor_n) const;
   // On a heading that the path does not decide: spins, straight motion.
   [[nodiscard]] HeldDemand held(const Eigen::Vector2d& bow, double yaw_rate_radps,
                                 double yaw_acceleration, const Eigen::Vector2d& velocity,
-                                const Eigen::Vector2d& acceleration) const;
+                                const Eigen::Vector2d& acceleration) const {
+    return windy_
+               ? heldIn(wind(bow), bow, yaw_rate_radps, yaw_acceleration, velocity, acceleration)
+               : heldIn(calmAir(), bow, yaw_rate_radps, yaw_acceleration, velocity, acceleration);
+  }
   // A state as a point of a path: yaw rate as it is, surge force to hold the speed or
   // `force_max_n`.
   [[nodiscard]] FlatPoint fromState(const State& state, double force_max_n) const;
@@ -137,8 +208,56 @@ class InverseDynamics {
   [[nodiscard]] const PaperModel& model() const { return model_; }
 
  private:
-  struct Air;
-  [[nodiscard]] Air air(const Eigen::Vector2d& bow) const;
+  // X, Y, N on a heading and their derivatives by it.
+  struct Air {
+    double x = 0.0, x1 = 0.0;
+    double y = 0.0, y1 = 0.0, y2 = 0.0, y3 = 0.0;
+    double n = 0.0, n1 = 0.0;
+  };
+  [[nodiscard]] Air calmAir() const {
+    Air air;
+    air.n = disturbance_.moment_nm;
+    return air;
+  }
+  [[nodiscard]] Air air(const Eigen::Vector2d& bow) const { return windy_ ? wind(bow) : calmAir(); }
+  [[nodiscard]] Air wind(const Eigen::Vector2d& bow) const;
+  // Along w, on the side of `ahead`.
+  [[nodiscard]] static Bow calmBow(const Eigen::Vector2d& w, const Eigen::Vector2d& ahead,
+                                   double floor_n) {
+    const double side = w.dot(ahead) >= 0.0 ? 1.0 : -1.0;
+    const double norm = std::max(w.norm(), floor_n);
+    return {side / norm * w, side * norm};
+  }
+  // `bend` is Y + Y''.
+  template <typename Bend>
+  [[nodiscard]] OTTER_NAV_INLINE Sailing along(const Bow& bow, const Air& air, const Bend& bend,
+                                               const FlatPoint& z) const {
+    const auto turn = inverse::turning(inverse::plain(bow.ahead), 1.0 / bow.firmness_n,
+                                       inverse::plain(headingForceRate(z.acceleration, z.jerk)),
+                                       inverse::plain(headingForceRate(z.jerk, z.snap)), bend);
+    return {bow,
+            turn.yaw_rate,
+            {bow.ahead.dot(surgeForce(z.velocity, z.acceleration)) - air.x,
+             inverse::yawMoment(model_, turn.yaw_rate, turn.yaw_acceleration) - air.n}};
+  }
+  [[nodiscard]] Bow bowInWind(const Eigen::Vector2d& w, const Eigen::Vector2d& ahead,
+                              double floor_n) const;
+  [[nodiscard]] Sailing sailingInWind(const FlatPoint& z, const Eigen::Vector2d& ahead,
+                                      double floor_n) const;
+  [[nodiscard]] OTTER_NAV_INLINE HeldDemand heldIn(const Air& air, const Eigen::Vector2d& bow,
+                                                   double yaw_rate_radps, double yaw_acceleration,
+                                                   const Eigen::Vector2d& velocity,
+                                                   const Eigen::Vector2d& acceleration) const {
+    return {{bow.dot(surgeForce(velocity, acceleration)) - air.x,
+             inverse::yawMoment(model_, yaw_rate_radps, yaw_acceleration) - air.n},
+            cross(bow, headingForce(velocity, acceleration)) - air.y};
+  }
+  // w on a given heading, ahead; all of it in calm air.
+  [[nodiscard]] double headingForceAhead(const Air& air, const Eigen::Vector2d& bow, double surge_n,
+                                         const Eigen::Vector2d& velocity) const {
+    const Eigen::Vector2d through = velocity - disturbance_.current_mps;
+    return surge_n + (model_.d2_kgps - model_.d1_kgps) * bow.dot(through) + air.x;
+  }
 
   PaperModel model_;
   double lever_m_;

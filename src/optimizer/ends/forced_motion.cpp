@@ -48,8 +48,8 @@ ForcedMotion::Motion ForcedMotion::integrate(const Motion& motion, double from_s
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to_s - from_s) / kStepS)));
   const double h = (to_s - from_s) / steps;
   const double within = 0.5 * (from_s + to_s);
-  const auto acceleration = [&](const Eigen::Vector2d& velocity, double t) -> Eigen::Vector2d {
-    return pushed({motion.position, velocity}, t, within).acceleration;
+  const auto acceleration = [&](const Eigen::Vector2d& velocity, double t) {
+    return inverse_.pushed(heading(t, within)[0], surge(t).force_n, velocity);
   };
   Motion now = motion;
   for (int i = 0; i < steps; ++i) {

@@ -8,7 +8,7 @@
 
 namespace otter_nav::optimizer {
 
-class ClearanceCost : public Cost {
+class ClearanceCost final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
     if (targets.obstacles == nullptr) {
@@ -24,11 +24,8 @@ class ClearanceCost : public Cost {
       return;
     }
     const Rows& z = point.path();
-    point.addHinge(targets.weights.clearance, limits.clearance_m - centre.distance_m, kKneeM, [&] {
-      Rows rows = Rows::Zero();
-      rows.col(0) = -centre.gradient;
-      return rows;
-    });
+    point.addHinge(targets.weights.clearance, limits.clearance_m - centre.distance_m, kKneeM, 0,
+                   [&]() -> Eigen::Vector2d { return -centre.gradient; });
     if (!hull) {
       return;
     }

@@ -63,9 +63,12 @@ struct PieceModel {
   Vector gradient;
   Eigen::Matrix<double, kUnknowns, kUnknowns> hessian;  // lower triangle
 
+  // Half of a derivative of one axis is zero.
   void addCurvature(double curvature, const Vector& j) {
     for (int c = 0; c < kUnknowns; ++c) {
-      hessian.col(c).noalias() += (curvature * j[c]) * j;
+      if (j[c] != 0.0) {
+        hessian.col(c).noalias() += (curvature * j[c]) * j;
+      }
     }
   }
   void addSquare(double weight, double residual, const Vector& j) {
@@ -111,13 +114,16 @@ class Point {
   [[nodiscard]] const Rows& path() {
     if (!has_path_) {
       basis_ = trajectory::scaleBasis(unit_, piece.duration_s);
-      slope_.noalias() = piece.ends * basis_.slope.transpose();
-      path_ = piece.ends * basis_.value.transpose();
+      path_.noalias() = piece.ends * basis_.transpose();
+      if (piece.wanted) {
+        slope_.noalias() =
+            piece.ends * trajectory::byDuration(basis_, piece.duration_s).transpose();
+      }
       has_path_ = true;
     }
     return path_;
   }
-  // Thrusts and yaw rate, with gradients.
+  // Thrusts and yaw rate, with gradients where they are wanted.
   [[nodiscard]] const vessel::FlatGradient& demand() {
     if (!has_demand_) {
       vessel::FlatPoint flat;
@@ -125,15 +131,17 @@ class Point {
       flat.acceleration = path_.col(2);
       flat.jerk = path_.col(3);
       flat.snap = path_.col(4);
-      demand_ = dynamics.gradient(flat, force_floor_n);
+      demand_ = piece.wanted ? dynamics.gradient(flat, force_floor_n)
+                             : dynamics.demand(flat, force_floor_n);
       has_demand_ = true;
     }
     return demand_;
   }
 
-  // d scalar / d unknowns from d scalar / d derivatives; path() has been asked for.
+  // d scalar / d unknowns from d scalar / d derivatives; path() has been asked for and gradients
+  // are wanted.
   [[nodiscard]] PieceModel::Vector chain(const Rows& rows) const {
-    const Eigen::Matrix<double, 2, trajectory::kSepticEnds> by_ends = rows * basis_.value;
+    const Eigen::Matrix<double, 2, trajectory::kSepticEnds> by_ends = rows * basis_;
     PieceModel::Vector j;
     for (int m = 0; m < 4; ++m) {
       j.segment<2>(2 * m) = by_ends.col(m);
@@ -142,26 +150,46 @@ class Point {
     j[PieceModel::kDuration] = rows.cwiseProduct(slope_).sum();
     return j;
   }
+  // Of a scalar that depends on one derivative alone: 0 is position, 4 snap.
+  [[nodiscard]] PieceModel::Vector chain(int order, const Eigen::Vector2d& by) const {
+    PieceModel::Vector j;
+    for (int m = 0; m < 4; ++m) {
+      j.segment<2>(2 * m) = basis_(order, m) * by;
+      j.segment<2>(9 + 2 * m) = basis_(order, m + 4) * by;
+    }
+    j[PieceModel::kDuration] = by.dot(slope_.col(order));
+    return j;
+  }
   // weight * max(0, excess)^2, growing linearly from `knee` on (Huber), so that a bad first guess
   // does not drown all else; `rows` makes the derivative of excess. `weight` must not depend on the
   // unknowns: a mean over the piece takes `share`, not dt().
   template <typename MakeRows>
   void addHinge(double weight, double excess, double knee, const MakeRows& rows) {
+    addChained(weight, excess, knee, [&] { return chain(rows()); });
+  }
+  // The same where it depends on one derivative alone.
+  template <typename MakeGradient>
+  void addHinge(double weight, double excess, double knee, int order, const MakeGradient& by) {
+    addChained(weight, excess, knee, [&] { return chain(order, by()); });
+  }
+
+ private:
+  template <typename MakeVector>
+  void addChained(double weight, double excess, double knee, const MakeVector& gradient) {
     if (excess <= 0.0) {
       return;
     }
     const double held = std::min(excess, knee);
     piece.cost += weight * held * (2.0 * excess - held);
     if (piece.wanted) {
-      piece.addSquare(weight * held / excess, excess, chain(rows()));
+      piece.addSquare(weight * held / excess, excess, gradient());
     }
   }
 
- private:
   const trajectory::SepticBasis& unit_;
   bool has_path_ = false;
   bool has_demand_ = false;
-  trajectory::ScaledBasis basis_;
+  trajectory::SepticBasis basis_;
   Rows slope_;  // of the path with respect to the duration
   Rows path_;
   vessel::FlatGradient demand_;

@@ -21,7 +21,7 @@ constexpr double kMotionKnee = 1.0;  // of speed, m/s, and yaw rate, rad/s
 }
 
 // Both thrusters, ahead and astern.
-class ThrustLimit : public Cost {
+class ThrustLimit final : public Cost {
  public:
   explicit ThrustLimit(const vessel::Thrusters& thrusters)
       : inverse_ahead_(1.0 / thrusters.ahead_max_n),
@@ -51,7 +51,7 @@ class ThrustLimit : public Cost {
   double inverse_astern_;
 };
 
-class YawRateLimit : public Cost {
+class YawRateLimit final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
     const vessel::FlatGradient& g = point.demand();
@@ -62,21 +62,18 @@ class YawRateLimit : public Cost {
 };
 
 // Over ground.
-class SpeedLimit : public Cost {
+class SpeedLimit final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
     const Eigen::Vector2d velocity = point.path().col(1);
     const double speed = velocity.norm();
-    point.addHinge(targets.weights.dynamics, speed - targets.limits.speed_mps, kMotionKnee, [&] {
-      Rows rows = Rows::Zero();
-      rows.col(1) = velocity / speed;
-      return rows;
-    });
+    point.addHinge(targets.weights.dynamics, speed - targets.limits.speed_mps, kMotionKnee, 1,
+                   [&]() -> Eigen::Vector2d { return velocity / speed; });
   }
 };
 
 // |w| by its component along the course: a heading against the course counts as missing it all.
-class HeadingForceLimit : public Cost {
+class HeadingForceLimit final : public Cost {
  public:
   explicit HeadingForceLimit(double force_scale_n) : scale_n_(force_scale_n) {}
 

@@ -10,7 +10,7 @@
 namespace otter_nav::optimizer {
 
 // lt T. Linear; its model is bent as much as keeps a step from shrinking the piece to nothing.
-class TimeCost : public Cost {
+class TimeCost final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
     PieceModel& piece = point.piece;
@@ -25,7 +25,7 @@ class TimeCost : public Cost {
 };
 
 // ls times the integral of |z'''|^2 (the paper's f_s).
-class SmoothnessCost : public Cost {
+class SmoothnessCost final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
     PieceModel& piece = point.piece;
@@ -33,9 +33,7 @@ class SmoothnessCost : public Cost {
     const double weight = targets.weights.smooth * point.dt();
     piece.cost += weight * jerk.squaredNorm();
     for (int axis = 0; axis < 2 && piece.wanted; ++axis) {
-      Rows rows = Rows::Zero();
-      rows(axis, 3) = 1.0;
-      PieceModel::Vector j = point.chain(rows);
+      PieceModel::Vector j = point.chain(3, Eigen::Vector2d::Unit(axis));
       j[PieceModel::kDuration] += 0.5 / piece.duration_s * jerk[axis];
       piece.addSquare(weight, jerk[axis], j);
     }
@@ -43,7 +41,7 @@ class SmoothnessCost : public Cost {
 };
 
 // ll times the integral of |z'|, whose curvature across the course is known.
-class LengthCost : public Cost {
+class LengthCost final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
     constexpr double kSlowMps = 0.5;  // below it the curvature is bounded
@@ -55,17 +53,15 @@ class LengthCost : public Cost {
     if (!piece.wanted || speed <= 1e-6) {
       return;
     }
-    Rows rows = Rows::Zero();
-    rows.col(1) = velocity / speed;
-    piece.gradient += weight * point.chain(rows);
+    const Eigen::Vector2d course = velocity / speed;
+    piece.gradient += weight * point.chain(1, course);
     piece.gradient[PieceModel::kDuration] += targets.weights.length * point.share * speed;
-    rows.col(1) = across(rows.col(1));
-    piece.addCurvature(weight / std::max(speed, kSlowMps), point.chain(rows));
+    piece.addCurvature(weight / std::max(speed, kSlowMps), point.chain(1, across(course)));
   }
 };
 
 // lo |z - original|^2 (the paper's f_o).
-class OriginalCost : public Cost {
+class OriginalCost final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
     if (targets.originals == nullptr || targets.weights.original <= 0.0) {
@@ -77,9 +73,7 @@ class OriginalCost : public Cost {
         point.path().col(0) - (*targets.originals)[piece.index][point.number];
     piece.cost += weight * off.squaredNorm();
     for (int axis = 0; axis < 2 && piece.wanted; ++axis) {
-      Rows rows = Rows::Zero();
-      rows(axis, 0) = 1.0;
-      piece.addSquare(weight, off[axis], point.chain(rows));
+      piece.addSquare(weight, off[axis], point.chain(0, Eigen::Vector2d::Unit(axis)));
     }
   }
 };

@@ -70,7 +70,7 @@ Eigen::Matrix<double, 6, 6> quinticJerk() {
   return jerk;
 }
 
-ScaledBasis scaleBasis(const SepticBasis& basis, double duration_s) {
+SepticBasis scaleBasis(const SepticBasis& basis, double duration_s) {
   const double inverse = 1.0 / duration_s;
   // T^(m - d) for m in 0..3 and d in 0..4: powers -4 to 3.
   std::array<double, 8> power{};
@@ -81,15 +81,24 @@ ScaledBasis scaleBasis(const SepticBasis& basis, double duration_s) {
   for (int i = 3; i >= 0; --i) {
     power[static_cast<std::size_t>(i)] = power[static_cast<std::size_t>(i + 1)] * inverse;
   }
-  ScaledBasis scaled;
+  SepticBasis scaled;
   for (int m = 0; m < kSepticEnds; ++m) {
     for (int d = 0; d < kSepticOrders; ++d) {
-      const int exponent = m % 4 - d;
-      scaled.value(d, m) = basis(d, m) * power[static_cast<std::size_t>(exponent + 4)];
-      scaled.slope(d, m) = exponent * inverse * scaled.value(d, m);
+      scaled(d, m) = basis(d, m) * power[static_cast<std::size_t>(m % 4 - d + 4)];
     }
   }
   return scaled;
+}
+
+SepticBasis byDuration(const SepticBasis& scaled, double duration_s) {
+  const double inverse = 1.0 / duration_s;
+  SepticBasis slope;
+  for (int m = 0; m < kSepticEnds; ++m) {
+    for (int d = 0; d < kSepticOrders; ++d) {
+      slope(d, m) = (m % 4 - d) * inverse * scaled(d, m);
+    }
+  }
+  return slope;
 }
 
 Piece hermitePiece(const vessel::FlatPoint& start, const vessel::FlatPoint& end,

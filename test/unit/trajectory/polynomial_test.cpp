@@ -63,11 +63,11 @@ TEST(Hermite, BasesGiveThePiecesTheyBelongTo) {
   ends << from, to;
   for (const double s : {0.0, 0.3, 1.0}) {
     const vessel::FlatPoint a = septic.flat(s * kT);
-    const ScaledBasis basis = scaleBasis(septicBasis(s), kT);
-    EXPECT_LT((ends * basis.value.row(0).transpose() - a.position).norm(), 1e-12);
-    EXPECT_LT((ends * basis.value.row(4).transpose() - a.snap).norm(), 1e-9);
-    const ScaledBasis longer = scaleBasis(septicBasis(s), kT + 1e-6);
-    EXPECT_LT((longer.value - basis.value - 1e-6 * basis.slope).norm(), 1e-8);
+    const SepticBasis basis = scaleBasis(septicBasis(s), kT);
+    EXPECT_LT((ends * basis.row(0).transpose() - a.position).norm(), 1e-12);
+    EXPECT_LT((ends * basis.row(4).transpose() - a.snap).norm(), 1e-9);
+    const SepticBasis longer = scaleBasis(septicBasis(s), kT + 1e-6);
+    EXPECT_LT((longer - basis - 1e-6 * byDuration(basis, kT)).norm(), 1e-8);
     const vessel::FlatPoint b = quintic.flat(s * kT);
     EXPECT_LT((unit * quinticBasis(s).row(0).transpose() - b.position).norm(), 1e-12);
     EXPECT_LT((unit * quinticBasis(s).row(2).transpose() / (kT * kT) - b.acceleration).norm(),

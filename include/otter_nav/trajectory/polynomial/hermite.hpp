@@ -19,12 +19,9 @@ using QuinticBasis = Eigen::Matrix<double, 3, 6>;
 // The integral of a quintic's squared third derivative, a quadratic form of its end values.
 [[nodiscard]] Eigen::Matrix<double, 6, 6> quinticJerk();
 
-// A piece's basis at one point for its duration: `value` maps end values to derivatives, `slope`
-// is the derivative of `value` with respect to the duration.
-struct ScaledBasis {
-  SepticBasis value;
-  SepticBasis slope;
-};
-[[nodiscard]] ScaledBasis scaleBasis(const SepticBasis& basis, double duration_s);
+// A piece's basis at one point for its duration: maps end values to derivatives.
+[[nodiscard]] SepticBasis scaleBasis(const SepticBasis& basis, double duration_s);
+// Its derivative with respect to the duration.
+[[nodiscard]] SepticBasis byDuration(const SepticBasis& scaled, double duration_s);
 
 }  // namespace otter_nav::trajectory
