@@ -9,7 +9,13 @@ constexpr double kSpeedShare = 0.98;
 // Over the rate at which the thrusters against each other hold a turn.
 constexpr double kYawRateShare = 1.02;
 
+constexpr double kBesideM = 0.26;  // between the hull's side and what lies beside it
+
 }  // namespace
+
+SafetyLimits SafetyLimits::of(const vessel::Parameters& vessel) {
+  return of(vessel, 0.5 * vessel.hull.beam_m + kBesideM);
+}
 
 SafetyLimits SafetyLimits::of(const vessel::Parameters& vessel, double clearance_m,
                               double thrust_share) {

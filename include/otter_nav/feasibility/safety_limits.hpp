@@ -18,8 +18,10 @@ struct SafetyLimits {
 
   // Of a vessel that may use `thrust_share` of what plans usually take, for instance less in wind:
   // its speed falls with it, as under linear drag.
-  [[nodiscard]] static SafetyLimits of(const vessel::Parameters& vessel, double clearance_m = 0.8,
+  [[nodiscard]] static SafetyLimits of(const vessel::Parameters& vessel, double clearance_m,
                                        double thrust_share = 1.0);
+  // With room beside the hull: half its beam and what otters take beside theirs.
+  [[nodiscard]] static SafetyLimits of(const vessel::Parameters& vessel);
 };
 
 }  // namespace otter_nav::feasibility
