@@ -1,16 +1,29 @@
-// Parameters that nodes with a map share.
+// How nodes with a copy of the map keep its distance field: config/planner_node.yaml and
+// config/topology_node.yaml.
 #pragma once
 
-#include "otter_nav/config/section.hpp"
+#include "otter_nav/config/fields.hpp"
 #include "otter_nav/map/distance_field.hpp"
 
 namespace otter_nav::nodes {
 
-inline Result<map::DistanceFieldOptions> readDistanceFieldOptions(config::Section section) {
-  map::DistanceFieldOptions options;
-  section.read("max_distance_m", options.max_distance_m, {1.0, 100.0});
-  section.read("unknown_is_occupied", options.unknown_is_occupied);
-  return section.finish().map([&] { return options; });
-}
+struct DistanceFieldSettings : map::DistanceFieldOptions {
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("max_distance_m", o.max_distance_m, {1.0, 100.0},
+           "distances to obstacles saturate here");
+    fields("unknown_is_occupied", o.unknown_is_occupied, "what was never seen is an obstacle");
+  }
+};
+
+// All of topology_node's wiring; the search is in config/topology.yaml.
+struct TopologyNodeOptions {
+  DistanceFieldSettings distance_field;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields.group("distance_field", o.distance_field, "");
+  }
+};
 
 }  // namespace otter_nav::nodes

@@ -26,10 +26,10 @@ class Delivery : public ros::CallbackInterface {
   std::function<void()> deliver_;
 };
 
-geometry_msgs::PoseStamped poseMessage(const Eigen::Vector2d& position, double psi_rad) {
+geometry_msgs::PoseStamped poseMessage(const vessel::Pose& pose) {
   geometry_msgs::PoseStamped message;
   message.header.frame_id = ros_bridge::kMapFrame;
-  message.pose = ros_bridge::toPose(position, psi_rad);
+  message.pose = ros_bridge::toPose(pose.position, pose.psi_rad);
   return message;
 }
 
@@ -98,8 +98,8 @@ std::vector<Eigen::Vector2d> PlanWorker::guidePath(const Task& task) {
   }
   const planner::Query& query = task.request.query;
   FindGuidePath call;
-  call.request.start = poseMessage(query.start.flat.position, query.start.psi_rad);
-  call.request.goal = poseMessage(query.goal.flat.position, query.goal.psi_rad);
+  call.request.start = poseMessage(query.guideStart());
+  call.request.goal = poseMessage({query.goal.flat.position, query.goal.psi_rad});
   call.request.clearance = query.limits.clearance_m;
   call.request.map_stamp = task.map_stamp;
   if (!topology_.isValid() || !topology_.call(call)) {

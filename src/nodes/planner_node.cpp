@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "map_options.hpp"
 #include "otter_nav/ros/frames.hpp"
 
 namespace otter_nav::nodes {
@@ -37,7 +36,7 @@ PlanWorker::Options workerOptions(const PlannerNodeOptions& node, const planner:
 PlannerNode::PlannerNode(const Setup& setup)
     : setup_(setup),
       diagnostics_(node_, private_node_, setup.vessel.name),
-      map_(setup.field),
+      map_(setup.node.distance_field),
       supervisor_(setup.supervisor, setup.vessel, static_cast<std::uint64_t>(setup.node.seed)),
       publisher_(node_, setup.vessel),
       acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", kQueue)),
@@ -151,7 +150,8 @@ void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner:
                              double wall_ms) {
   publisher_.publishPlan(plan, wall_ms);
   if (plan.outcome != planner::Outcome::kSolved) {
-    ROS_INFO_STREAM("No plan at clearance " << request.query.limits.clearance_m << " m: " << plan.reason);
+    ROS_INFO_STREAM("No plan at clearance " << request.query.limits.clearance_m
+                                            << " m: " << plan.reason);
   }
   if (plan_under_way_ == request.id) {
     plan_under_way_ = 0;

@@ -16,45 +16,16 @@
 
 #include "goal_server.hpp"
 #include "odometry_history.hpp"
-#include "otter_nav/config/fields.hpp"
+#include "otter_nav/config/section.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
-#include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/map_mirror.hpp"
 #include "plan_worker.hpp"
+#include "planner_node_options.hpp"
 #include "planner_publisher.hpp"
 #include "tracker_watch.hpp"
 
 namespace otter_nav::nodes {
-
-struct PlannerNodeOptions {
-  std::string vessel = "otter_gazebo";
-  std::string odometry_frame = ros_bridge::kOdomFrame;
-  int seed = 1;
-  bool lockstep = true;
-  double lockstep_lag_s = 0.05;
-  int lockstep_iterations = 20000;
-  double planning_budget_s = 0.1;
-  bool use_topology_node = true;
-
-  template <typename Self, typename Fields>
-  static void describe(Self& o, Fields& fields) {
-    const config::Choices<std::string> frames = {{ros_bridge::kOdomFrame, ros_bridge::kOdomFrame},
-                                                 {ros_bridge::kMapFrame, ros_bridge::kMapFrame}};
-    fields("vessel", o.vessel, "a name of vessels/, or a file");
-    fields.choice("odometry_frame", o.odometry_frame, frames, "odom or map, which coincide");
-    fields("seed", o.seed, {0, 2147483647}, "of the plans");
-    fields("lockstep", o.lockstep, "one decision for each map update, which is then acknowledged");
-    fields("lockstep_lag_s", o.lockstep_lag_s, {0.0, 1.0},
-           "decisions take effect this long after the scan (the plant's figure)");
-    fields("lockstep_iterations", o.lockstep_iterations, {1, 1e7},
-           "bound a plan in lockstep, so that it is the same every time");
-    fields("planning_budget_s", o.planning_budget_s, {0.001, 60.0},
-           "of wall time, bounds a plan otherwise");
-    fields("use_topology_node", o.use_topology_node,
-           "ask its service for guide paths; else the planner finds its own");
-  }
-};
 
 class PlannerNode {
  public:
@@ -65,7 +36,6 @@ class PlannerNode {
   struct Setup {
     PlannerNodeOptions node;
     vessel::Parameters vessel;
-    map::DistanceFieldOptions field;
     mission::SupervisorOptions supervisor;
     planner::Options planner;
   };

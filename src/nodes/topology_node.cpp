@@ -30,14 +30,14 @@ Result<topology::Pose> toPose(const geometry_msgs::PoseStamped& message, const c
 }  // namespace
 
 Result<std::unique_ptr<TopologyNode>> TopologyNode::create(config::Section section) {
-  const Result<map::DistanceFieldOptions> field =
-      readDistanceFieldOptions(section.child("distance_field"));
+  TopologyNodeOptions node;
+  const Status fields = config::readFields(section, node);
   const Result<topology::Options> options =
       config::read<topology::Options>(section.child("topology"));
-  if (const Status status = firstFailure(section.finish(), field, options); !status) {
+  if (const Status status = firstFailure(fields, section.finish(), options); !status) {
     return failure(status.error().message);
   }
-  return std::unique_ptr<TopologyNode>(new TopologyNode(*field, *options));
+  return std::unique_ptr<TopologyNode>(new TopologyNode(node.distance_field, *options));
 }
 
 TopologyNode::TopologyNode(const map::DistanceFieldOptions& field, const topology::Options& options)

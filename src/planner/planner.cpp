@@ -165,9 +165,7 @@ class Planner::Pipeline {
       return true;
     }
     const double began = run.now();
-    const double psi = from.velocity.norm() > 0.1 ? std::atan2(from.velocity.y(), from.velocity.x())
-                                                  : query.start.psi_rad;
-    const auto found = finder_.find(run.obstacles.field(), {from.position, psi},
+    const auto found = finder_.find(run.obstacles.field(), query.guideStart(),
                                     {query.goal.flat.position, query.goal.psi_rad}, guide_,
                                     query.limits.clearance_m);
     run.plan.figures.guide_ms = 1e3 * (run.now() - began);
@@ -401,6 +399,12 @@ class Planner::Pipeline {
   std::optional<Launch> stop_;
   optimizer::GlobalOptimizer optimizer_;
 };
+
+vessel::Pose Query::guideStart() const {
+  const vessel::FlatPoint& from = start.flat;
+  const bool moving = from.velocity.norm() > 0.1;
+  return {from.position, moving ? std::atan2(from.velocity.y(), from.velocity.x()) : start.psi_rad};
+}
 
 Termination wallClock(double budget_s, int max_iterations) {
   const auto start = std::chrono::steady_clock::now();

@@ -20,7 +20,7 @@ FILES = {
     "map_node": {"": "map_node", "map": "map"},
     "topology_node": {"": "topology_node", "topology": "topology"},
     "planner_node": {"": "planner_node", "planner": "planner", "topology": "topology",
-                     "optimizer": "optimizer", "+": "mission"},
+                     "+": "mission"},
     "tracker_node": {"": "tracker_node", "tracker": "tracker"},
     "plant_node": {"": "plant_node", "plant": "plant"},
     "mission_node": {"": "mission_node"},
@@ -70,8 +70,8 @@ class Parameters(unittest.TestCase):
     def test_parameter_out_of_range(self):
         self.assert_refused("plant_node", lambda v: v.update(control_period_s=5.0),
                             "'control_period_s'", "allowed range [0.001, 0.1]")
-        self.assert_refused("planner_node", lambda v: v["planner"].update(clearance_m=-1.0),
-                            "planner", "'clearance_m'", "allowed range")
+        self.assert_refused("planner_node", lambda v: v["planner"].update(sigma=-1.0),
+                            "planner", "'sigma'", "allowed range")
 
     def test_parameter_of_wrong_type(self):
         self.assert_refused("planner_node", lambda v: v.update(seed="some"), "'seed'")

@@ -17,6 +17,7 @@
 #include "otter_nav/trajectory/boundary.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/pose.hpp"
 #include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::planner {
@@ -34,6 +35,9 @@ struct Query {
   trajectory::Trajectory warm_start;
   // Key points from start to goal found elsewhere (a topology node); empty: found here.
   std::vector<Eigen::Vector2d> guide_path;
+
+  // What a guide path is looked for from: moving, along the velocity.
+  [[nodiscard]] vessel::Pose guideStart() const;
 };
 
 // When to stop: at `budget_s` on the caller's clock, or after `max_iterations` samples drawn,
