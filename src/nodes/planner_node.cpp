@@ -3,6 +3,7 @@
 #include <std_msgs/Header.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "otter_nav/ros/frames.hpp"
 
@@ -15,6 +16,9 @@ using mission::Phase;
 
 constexpr int kQueue = 100;
 constexpr double kDecisionPeriodS = 0.05;  // of wall time, when not in lockstep
+// In lockstep the tracker's statuses, ten a second, count once they are this old: all are there
+// then.
+constexpr double kTrackerAgeS = 0.2;
 constexpr double kInputPeriodS = 0.5;
 constexpr double kInputPatienceS = 20.0;  // of wall time a goal waits for map and odometry
 
@@ -100,9 +104,11 @@ void PlannerNode::decideInTurn() {
   while (setup_.node.lockstep && !updates_.empty() && map_.ready() && !unacknowledged_) {
     const ros::Time stamp = updates_.front()->header.stamp;
     const auto vessel = odometry_.at(stamp.toSec());
-    if (!vessel) {
+    const double told_s = stamp.toSec() - kTrackerAgeS;
+    if (!vessel || !tracker_.complete(told_s)) {
       return;
     }
+    tracker_.countUntil(told_s);
     if (const auto changed = map_.take(*updates_.front()); !changed) {
       diagnostics_.refuse("map_updates", changed.error().message);
     }
@@ -125,6 +131,7 @@ void PlannerNode::decide() {
   }
   vessel_ = odometry_.latest();
   now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
+  tracker_.countUntil(std::numeric_limits<double>::infinity());
   execute(supervisor_.update(now_s_, situation(), map_.field()));
   goals_.setReady(true);
   goals_.retryWaiting();

@@ -18,6 +18,7 @@ using Level = ros_bridge::Diagnostics::Level;
 
 constexpr int kQueue = 100;
 constexpr int kPredictionInterval = 10;  // steps
+constexpr double kLockstepStatusPeriodS = 0.1;
 
 Level levelOf(const tracker::Command& command) {
   if (command.mode == tracker::Mode::kFault) {
@@ -138,6 +139,9 @@ void TrackerNode::controlStep(const ros::Time& stamp) {
   }
   command_message_.header.stamp = stamp;
   publish(output);
+  if (told_s_ == output.command.stamp_s) {
+    publishStatus();
+  }
   tracker_.prepare(stamp.toSec() + period_s_);
   statistics_.add(solver_ms, latenessMs(now));
 }
@@ -157,9 +161,13 @@ double TrackerNode::latenessMs(const ros::WallTime& now) {
 
 void TrackerNode::publish(const ControlOutput& output) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  last_command_ = output.command;
-  if (output.command.stamp_s >= accepted_start_s_) {
-    in_force_id_ = accepted_id_;
+  // In lockstep a status tells of the same steps every time, whenever it is sent.
+  if (!options_.lockstep || output.command.stamp_s > told_s_ + kLockstepStatusPeriodS - 1e-6) {
+    told_s_ = output.command.stamp_s;
+    last_command_ = output.command;
+    if (output.command.stamp_s >= accepted_start_s_) {
+      in_force_id_ = accepted_id_;
+    }
   }
   if (!options_.lockstep) {
     command_message_.header.stamp = ros_bridge::toRosTime(output.command.stamp_s);

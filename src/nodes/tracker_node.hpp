@@ -53,6 +53,7 @@ class TrackerNode {
   // What the status tells; `mutex_` guards it, the control loop stays away from it.
   mutable std::mutex mutex_;
   tracker::Command last_command_;
+  double told_s_ = -1.0;  // its time
   ThrusterCommand command_message_;
   std::uint32_t in_force_id_ = 0;
   std::uint32_t accepted_id_ = 0;

@@ -24,7 +24,7 @@ struct TrackerNodeOptions {
            "each odometry is one control step; false: a loop with a clock of its own");
     fields("speed", o.speed, {0.0, 1000.0},
            "simulated over real time; 0 (in lockstep only): unknown");
-    fields("status_rate_hz", o.status_rate_hz, {0.1, 100.0}, "of simulated time");
+    fields("status_rate_hz", o.status_rate_hz, {0.1, 100.0}, "of simulated time; 10 in lockstep");
   }
 };
 

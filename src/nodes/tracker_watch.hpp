@@ -1,10 +1,14 @@
-// What the planner needs to know of the tracker: which trajectory it has, and whether it gave up.
+// What the planner needs to know of the tracker: which trajectory it has, whether it gave up, and
+// the force it feels. Which trajectory it has counts at once. The rest counts by the statuses'
+// stamps, up to a time the caller names: in lockstep no decision may depend on which message was
+// quicker.
 #pragma once
 
 #include <otter_nav/TrackerStatus.h>
 
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <string>
 
 namespace otter_nav::nodes {
@@ -15,12 +19,24 @@ class TrackerWatch {
     accepted_id_ = status.accepted_id;
     refused_id_ = status.refused_id;
     refused_reason_ = status.refused_reason;
-    const bool gave_up = status.state == TrackerStatus::FAULT ||
-                         status.state == TrackerStatus::STOPPING ||
-                         status.state == TrackerStatus::STOPPED;
-    faults_ = gave_up && status.trajectory_id == sailing_id_ ? faults_ + 1 : 0;
-    reason_ = status.reason;
-    disturbance_n_ = std::hypot(status.disturbance[0], status.disturbance[1]);
+    const double stamp_s = status.header.stamp.toSec();
+    const bool repeated = stamp_s > 0.0 && stamp_s <= latest_s_;
+    if (!repeated) {
+      latest_s_ = stamp_s;
+      waiting_.push_back(status);
+    }
+  }
+
+  // Whether everything stamped `until_s` or before has come, from a tracker that stamps at all.
+  [[nodiscard]] bool complete(double until_s) const {
+    return latest_s_ <= 0.0 || latest_s_ > until_s;
+  }
+  // From now on what was stamped `until_s` or before counts.
+  void countUntil(double until_s) {
+    while (!waiting_.empty() && waiting_.front().header.stamp.toSec() <= until_s) {
+      count(waiting_.front());
+      waiting_.pop_front();
+    }
   }
 
   // The trajectory to be sailed from now on; `stop` for an order to stop.
@@ -42,6 +58,15 @@ class TrackerWatch {
   [[nodiscard]] double disturbance() const { return disturbance_n_; }
 
  private:
+  void count(const TrackerStatus& status) {
+    const bool gave_up = status.state == TrackerStatus::FAULT ||
+                         status.state == TrackerStatus::STOPPING ||
+                         status.state == TrackerStatus::STOPPED;
+    faults_ = gave_up && status.trajectory_id == sailing_id_ ? faults_ + 1 : 0;
+    reason_ = status.reason;
+    disturbance_n_ = std::hypot(status.disturbance[0], status.disturbance[1]);
+  }
+
   static constexpr std::uint32_t kNone = 0xffffffffU;
   static constexpr int kFaults = 3;
 
@@ -50,6 +75,8 @@ class TrackerWatch {
   std::uint32_t sailing_id_ = kNone;
   int faults_ = 0;
   double disturbance_n_ = 0.0;
+  double latest_s_ = 0.0;              // stamp of the last status
+  std::deque<TrackerStatus> waiting_;  // to count, in the order they came
   std::string reason_;
   std::string refused_reason_;
 };
