@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
+#include <vector>
 
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/ros/grids.hpp"
@@ -22,13 +24,17 @@ constexpr double kEast = 20.0;  // m, of the vessel in free water; the echo is 5
 class MapNode : public testing::Test {
  protected:
   MapNode() {
+    geometry_msgs::TransformStamped base;
+    base.header.frame_id = ros_bridge::kMapFrame;
+    base.child_frame_id = ros_bridge::kBaseFrame;
+    base.transform.translation.x = kEast;
+    base.transform.rotation.w = 1.0;
     geometry_msgs::TransformStamped lidar;
-    lidar.header.frame_id = ros_bridge::kMapFrame;
+    lidar.header.frame_id = ros_bridge::kBaseFrame;
     lidar.child_frame_id = ros_bridge::kLidarFrame;
-    lidar.transform.translation.x = kEast;
     lidar.transform.translation.z = 0.8;
     lidar.transform.rotation.w = 1.0;
-    transforms_.sendTransform(lidar);
+    transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{base, lidar});
   }
 
   // Ten beams ahead with an echo at 5 m.
