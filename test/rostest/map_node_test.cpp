@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <vector>
-#include <vector>
 
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/ros/grids.hpp"
