@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -25,12 +28,13 @@ using otter_nav::Status;
 
 struct Arguments {
   std::string scenarios;
-  std::string missions = "10-13";
+  std::string missions;  // empty: each scenario's cross ones, or all if there are none
   std::string vessel = "otter_gazebo";
   std::string disturbance = "paper";
   std::string out;
   std::string tracks;
   std::uint64_t seed = 1;
+  bool resume = false;
 };
 
 // "3", "10-13" or "0,2,10-13".
@@ -56,6 +60,73 @@ Result<std::vector<int>> parseMissions(const std::string& text) {
   return missions;
 }
 
+std::vector<int> defaultMissions(const scenario::Scenario& scenario) {
+  std::vector<int> cross;
+  std::vector<int> all;
+  for (const scenario::Mission& mission : scenario.missions) {
+    const int index = static_cast<int>(all.size());
+    all.push_back(index);
+    if (mission.kind == "cross") {
+      cross.push_back(index);
+    }
+  }
+  return cross.empty() ? all : cross;
+}
+
+// The reverse of scenario::toJson; throws nlohmann::json::exception.
+scenario::MissionResult resultOf(const nlohmann::json& json) {
+  const auto number = [&](const char* key) {  // JSON has no infinity
+    return json.at(key).is_null() ? std::numeric_limits<double>::infinity()
+                                  : json.at(key).get<double>();
+  };
+  scenario::MissionResult result;
+  result.label = {json.at("scenario"), json.at("mission"), json.at("vessel"),
+                  json.at("disturbance"), json.at("seed")};
+  const std::string outcome = json.at("outcome");
+  for (const auto candidate :
+       {scenario::Outcome::kArrived, scenario::Outcome::kStopped, scenario::Outcome::kCollided,
+        scenario::Outcome::kTimeout, scenario::Outcome::kError}) {
+    if (outcome == scenario::name(candidate)) {
+      result.outcome = candidate;
+    }
+  }
+  result.reason = json.value("reason", "");
+  result.duration_s = number("duration_s");
+  result.distance_m = number("distance_m");
+  result.min_clearance_m = number("min_clearance_m");
+  result.tracking_error_mean_m = number("tracking_error_mean_m");
+  result.tracking_error_max_m = number("tracking_error_max_m");
+  result.replans = json.at("replans");
+  result.planning_ms_median = number("planning_ms_median");
+  result.planning_ms_max = number("planning_ms_max");
+  result.tracker_ms_p99 = number("tracker_ms_p99");
+  result.track = json.at("track");
+  return result;
+}
+
+// What a campaign that was stopped has left; nothing if it had not come to its first result.
+Result<std::vector<scenario::MissionResult>> loadResults(const std::string& path) {
+  std::vector<scenario::MissionResult> results;
+  if (!fs::exists(path)) {
+    return results;
+  }
+  try {
+    std::ifstream file(path);
+    const nlohmann::json all = nlohmann::json::parse(file);
+    for (const nlohmann::json& mission : all.at("missions")) {
+      results.push_back(resultOf(mission));
+    }
+  } catch (const nlohmann::json::exception& error) {
+    return failure("--resume: " + path + " is no result JSON: " + error.what());
+  }
+  return results;
+}
+
+bool same(const scenario::MissionLabel& a, const scenario::MissionLabel& b) {
+  return a.scenario == b.scenario && a.mission == b.mission && a.vessel == b.vessel &&
+         a.disturbance == b.disturbance && a.seed == b.seed;
+}
+
 // The scenario itself, or all in a folder: YAML files that aren't maps.
 std::vector<std::string> scenarioFiles(const std::string& path) {
   if (!fs::is_directory(path)) {
@@ -78,8 +149,9 @@ std::vector<std::string> scenarioFiles(const std::string& path) {
 Result<scenario::MissionResult> sail(const Arguments& arguments,
                                      const simulation::LoopOptions& options,
                                      const scenario::Scenario& scenario,
-                                     const simulation::Waters& waters, int index) {
-  const Result<scenario::Mission> task = scenario::missionOf(scenario, index);
+                                     const simulation::Waters& waters,
+                                     const scenario::MissionLabel& label) {
+  const Result<scenario::Mission> task = scenario::missionOf(scenario, label.mission);
   if (!task) {
     return failure(task.error().message);
   }
@@ -87,12 +159,11 @@ Result<scenario::MissionResult> sail(const Arguments& arguments,
   if (!loop) {
     return failure(loop.error().message);
   }
-  const scenario::MissionLabel label{scenario.name, index, arguments.vessel, arguments.disturbance,
-                                     arguments.seed};
   std::optional<scenario::TrackWriter> track;
   std::string track_path;
   if (!arguments.tracks.empty()) {
-    track_path = arguments.tracks + "/" + scenario.name + "_" + std::to_string(index) + ".csv";
+    track_path =
+        arguments.tracks + "/" + scenario.name + "_" + std::to_string(label.mission) + ".csv";
     auto opened = scenario::TrackWriter::open(track_path);
     if (!opened) {
       return failure(opened.error().message);
@@ -130,14 +201,20 @@ void printRow(const scenario::MissionResult& r) {
   std::fflush(stdout);
 }
 
+// All missions asked for; after each, --out holds all there is so far.
 Result<std::vector<scenario::MissionResult>> sailAll(const Arguments& arguments) {
-  const auto missions = parseMissions(arguments.missions);
-  if (!missions) {
-    return failure(missions.error().message);
+  const auto chosen = parseMissions(arguments.missions);
+  if (!chosen) {
+    return failure(chosen.error().message);
   }
   const auto options = simulation::loadLoopOptions(arguments.vessel, arguments.disturbance);
   if (!options) {
     return failure(options.error().message);
+  }
+  auto saved =
+      arguments.resume ? loadResults(arguments.out) : std::vector<scenario::MissionResult>();
+  if (!saved) {
+    return failure(saved.error().message);
   }
   std::vector<scenario::MissionResult> results;
   printHead();
@@ -150,13 +227,30 @@ Result<std::vector<scenario::MissionResult>> sailAll(const Arguments& arguments)
     if (!waters) {
       return failure(waters.error().message);
     }
-    for (const int index : *missions) {
-      auto result = sail(arguments, *options, *scenario, *waters, index);
+    for (const int index : arguments.missions.empty() ? defaultMissions(*scenario) : *chosen) {
+      const scenario::MissionLabel label{scenario->name, index, arguments.vessel,
+                                         arguments.disturbance, arguments.seed};
+      const auto known =
+          std::find_if(saved->begin(), saved->end(), [&](const scenario::MissionResult& result) {
+            return arguments.resume && same(result.label, label);
+          });
+      if (known != saved->end()) {
+        printRow(*known);
+        results.push_back(*known);
+        continue;
+      }
+      auto result = sail(arguments, *options, *scenario, *waters, label);
       if (!result) {
         return failure(result.error().message);
       }
       printRow(*result);
-      results.push_back(std::move(*result));
+      results.push_back(*result);
+      saved->push_back(std::move(*result));
+      if (!arguments.out.empty()) {
+        if (const Status status = scenario::saveJson(arguments.out, *saved); !status) {
+          return failure(status.error().message);
+        }
+      }
     }
   }
   return results;
@@ -170,12 +264,15 @@ int main(int argc, char** argv) {
   app.add_option("--scenarios", arguments.scenarios, "scenario YAML, or a folder of them")
       ->required()
       ->check(CLI::ExistingPath);
-  app.add_option("--missions", arguments.missions, "numbers and ranges: 0,2,10-13")
-      ->capture_default_str();
+  app.add_option("--missions", arguments.missions,
+                 "numbers and ranges: 0,2,10-13 (default: each scenario's cross ones, or all)");
   app.add_option("--vessel", arguments.vessel, "name or YAML")->capture_default_str();
   app.add_option("--disturbance", arguments.disturbance, "preset")->capture_default_str();
   app.add_option("--seed", arguments.seed)->capture_default_str();
-  app.add_option("--out", arguments.out, "result JSON");
+  CLI::Option* out =
+      app.add_option("--out", arguments.out, "result JSON, whole after each mission");
+  app.add_flag("--resume", arguments.resume, "keep what --out holds, sail what is missing there")
+      ->needs(out);
   app.add_option("--tracks", arguments.tracks, "folder for the tracks' CSV")
       ->check(CLI::ExistingDirectory);
   CLI11_PARSE(app, argc, argv);
@@ -189,11 +286,5 @@ int main(int argc, char** argv) {
       results->begin(), results->end(),
       [](const scenario::MissionResult& r) { return r.outcome == scenario::Outcome::kArrived; });
   std::printf("%ld of %zu arrived\n", static_cast<long>(arrived), results->size());
-  if (!arguments.out.empty()) {
-    if (const Status status = scenario::saveJson(arguments.out, *results); !status) {
-      std::cerr << "mission_benchmark: " << status.error().message << '\n';
-      return 2;
-    }
-  }
   return arrived == static_cast<long>(results->size()) ? 0 : 1;
 }

@@ -1,7 +1,9 @@
 #include "otter_nav/scenario/report.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 namespace otter_nav::scenario {
@@ -34,10 +36,17 @@ std::string toJson(const std::vector<MissionResult>& results) {
 }
 
 Status saveJson(const std::string& path, const std::vector<MissionResult>& results) {
-  std::ofstream file(path);
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const bool special = fs::exists(path, error) && !fs::is_regular_file(path, error);  // a pipe
+  const std::string written = special ? path : path + ".part";
+  std::ofstream file(written);
   file << toJson(results);
   file.close();
-  if (!file) {
+  if (file && !special) {
+    fs::rename(written, path, error);
+  }
+  if (!file || error) {
     return failure("can't write result " + path);
   }
   return {};

@@ -15,6 +15,7 @@ namespace otter_nav::scenario {
 // "planning_ms_median", "planning_ms_max", "tracker_ms_p99", "track"}]}, and "reason" in those
 // that did not arrive.
 [[nodiscard]] std::string toJson(const std::vector<MissionResult>& results);
+// The file is whole at any time: the old one stands until the new one is written.
 [[nodiscard]] Status saveJson(const std::string& path, const std::vector<MissionResult>& results);
 
 // The true motion as CSV: t,x,y,psi,u,v,r,roll,pitch,f_left,f_right,x_ref,y_ref,psi_ref (ENU; SI
