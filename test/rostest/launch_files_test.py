@@ -20,7 +20,7 @@ ARGUMENTS = {"collect.launch": ["bag:=/tmp/none.bag"], "record.launch": ["file:=
 class LaunchFiles(unittest.TestCase):
     def test_there_are_some(self):
         names = {os.path.basename(path) for path in LAUNCH_FILES}
-        self.assertLessEqual({"mission.launch", "map.launch", "planning.launch", "tracking.launch",
+        self.assertLessEqual({"mission.launch", "sail.launch", "map.launch", "planning.launch", "tracking.launch",
                               "plant.launch", "rviz.launch", "record.launch"}, names)
 
     def test_roslaunch_check(self):
