@@ -34,7 +34,7 @@ GoalServer::GoalServer(ros::NodeHandle& node, OnGoal on_goal, OnCancel on_cancel
 
 void GoalServer::onActionGoal(const Handle& handle) {
   if (!ready_) {
-    abortWaiting("replaced by another goal");
+    abortWaiting(kReplaced);
     waiting_ = handle;
     return;
   }
@@ -65,7 +65,7 @@ void GoalServer::take(Handle handle) {
     return;
   }
   if (under_way_) {
-    under_way_->setCanceled(Result(), "replaced by another goal");
+    under_way_->setCanceled(Result(), kReplaced);
   }
   under_way_ = handle;
 }

@@ -14,6 +14,9 @@
 
 namespace otter_nav::nodes {
 
+// What the client of a goal is told when another one takes its place.
+inline constexpr char kReplaced[] = "replaced by another goal";
+
 // One goal at a time is under way; an accepted goal replaces the one before it, a refused one
 // leaves it be. Callbacks come in the node's thread.
 class GoalServer {

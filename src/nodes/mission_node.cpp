@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "goal_server.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
@@ -163,9 +164,14 @@ void MissionNode::sendGoal() {
                           const move_base_msgs::MoveBaseResultConstPtr&) { onGoalDone(state); });
 }
 
-// The planner's status tells of arrival and failure; what is left is a goal it never took on.
+// The planner's status tells of arrival and failure; what is left is a goal it never took on, or
+// dropped for another. The vessel is somebody else's then: this node stays, lest the launch ends.
 void MissionNode::onGoalDone(const actionlib::SimpleClientGoalState& state) {
-  if (!gate_open_) {
+  if (state.getText() == kReplaced) {
+    openGate();
+    sails_on_ = true;
+    finish(Outcome::kStopped, "another goal was sent: this mission ends here, the vessel sails on");
+  } else if (!gate_open_) {
     finish(Outcome::kError, state.getText());
   } else if (state != actionlib::SimpleClientGoalState::SUCCEEDED &&
              state != actionlib::SimpleClientGoalState::ABORTED) {
@@ -289,7 +295,11 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
   }
   std::cout << scenario::summaryText(result) << std::flush;
   exit_code_ = outcome == Outcome::kArrived ? 0 : 1;
-  ros::requestShutdown();
+  state_subscriber_.shutdown();
+  trajectory_subscriber_.shutdown();
+  if (!sails_on_) {
+    ros::requestShutdown();
+  }
 }
 
 }  // namespace otter_nav::nodes

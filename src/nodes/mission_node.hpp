@@ -76,6 +76,7 @@ class MissionNode {
   bool goal_sent_ = false;
   bool gate_open_ = false;
   bool finished_ = false;
+  bool sails_on_ = false;  // to another goal
   int exit_code_ = 1;
   ros::WallTime last_sign_;
   ros::WallTime last_shown_;

@@ -114,6 +114,29 @@ class Mission(unittest.TestCase):
         launch.communicate(timeout=60)
         self.assertTrue(wait_until(lambda: not processes_of(port), 20), processes_of(port))
 
+    def test_another_goal_ends_the_mission_but_not_the_launch(self):
+        result = os.path.join(self.folder.name, "replaced.json")
+        launch, port = self.start(scenario=POND, result=result, speed=0.3)
+        environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}"}
+        self.assertTrue(wait_until(lambda: self.running(port) == set(NODES), 60), self.running(port))
+        subprocess.run(["rostopic", "echo", "-n", "1", "/trajectory/id"], env=environment, timeout=60,
+                       check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["rostopic", "pub", "-1", "/move_base_simple/goal", "geometry_msgs/PoseStamped",
+                        "{header: {frame_id: map}, pose: {position: {x: -2, y: -8},"
+                        " orientation: {w: 1}}}"],
+                       env=environment, timeout=60, check=True, stdout=subprocess.DEVNULL)
+        self.assertTrue(wait_until(lambda: os.path.exists(result), 30))
+        with open(result) as file:
+            mission = json.load(file)["missions"][0]
+        self.assertEqual(mission["outcome"], "stopped")
+        self.assertIn("another goal was sent", mission["reason"])
+        time.sleep(3.0)
+        self.assertIsNone(launch.poll())
+        self.assertEqual(self.running(port), set(NODES))
+        launch.send_signal(signal.SIGINT)
+        output, _ = launch.communicate(timeout=60)
+        self.assertIn("the vessel sails on", output)
+
     @staticmethod
     def running(port):
         names = set()
