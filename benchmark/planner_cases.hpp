@@ -8,8 +8,8 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/planner/planner.hpp"
+#include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::benchmark {

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "gauss_markov.hpp"
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/plant/options.hpp"
-#include "gauss_markov.hpp"
 
 namespace otter_nav::plant {
 

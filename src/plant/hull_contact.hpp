@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "world_map.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "world_map.hpp"
 
 namespace otter_nav::plant {
 

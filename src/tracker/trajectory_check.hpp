@@ -1,6 +1,7 @@
-// Whether a trajectory from outside can be followed at all. Not the verifier of the room feasibility:
-// that one proves a plan (joints to rounding, limits, clearance over a map); the tracker has no map,
-// follows what is a little off or too fast as well as it can, and only refuses what means nothing.
+// Whether a trajectory from outside can be followed at all. Not the verifier of the room
+// feasibility: that one proves a plan (joints to rounding, limits, clearance over a map); the
+// tracker has no map, follows what is a little off or too fast as well as it can, and only refuses
+// what means nothing.
 #pragma once
 
 #include "otter_nav/base/result.hpp"
