@@ -172,7 +172,7 @@ class Supervisor::Impl {
   // At once the first time, then not for each gust again.
   bool lacksThrust(const Moment& m) {
     constexpr double kAgainS = 3.0;
-    return safety().countsOnTooMuch(planned_thrust_share_) &&
+    return safety().countsOnTooMuch(planned_thrust_share_ - conceded_thrust_share_) &&
            (replans_ == 0 || m.now_s - plan_time_s_ >= kAgainS);
   }
   bool mayImprove(const Moment& m) {
@@ -398,6 +398,7 @@ class Supervisor::Impl {
     sailed_ = std::move(plan);
     planned_clearance_m_ = request.query.limits.clearance_m;
     planned_thrust_share_ = request.thrust_share;
+    conceded_thrust_share_ = std::max(0.0, request.thrust_share - safety().freeThrustShare());
     plan_time_s_ = m.now_s;
     safety().planTaken();
     enter(Phase::kSailing);
@@ -498,6 +499,9 @@ class Supervisor::Impl {
   TimedTrajectory sailed_;
   double planned_clearance_m_ = 0.0;   // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;  // and with
+  // Of it, what was more than free already when the plan was taken, for want of one with less: no
+  // ground to replace it.
+  double conceded_thrust_share_ = 0.0;
   stopping::Conflict conflict_;        // what the last condition found on the way
   double plan_time_s_ = 0.0;           // when the plan was taken, or an improvement asked for
   double stop_time_s_ = 0.0;           // when the vessel began to come to rest
