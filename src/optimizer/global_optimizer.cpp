@@ -237,11 +237,12 @@ class GlobalOptimizer::Solver {
     const std::string reason = result_.verification.reason;
     const trajectory::Boundary start = *start_;
     const trajectory::Boundary goal = *goal_;
-    if (auto parts = inTwoParts(path, start, goal)) {
-      return std::move(*parts);
-    }
+    // A vessel under way does better with another clearance or path than with a stop.
     if (!trajectory::atRest(start)) {
       return failure("optimisation from a moving start failed: " + reason);
+    }
+    if (auto parts = inTwoParts(path, start, goal)) {
+      return std::move(*parts);
     }
     auto plain = stopAndSpin(*obstacles_, path, start, goal, limits_);
     if (!plain) {
