@@ -70,6 +70,15 @@ PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
   request.query.start.flat = vessel::InverseDynamics(vessel_).fromState(
       state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n);
   request.query.start.flat.position += latency.seconds() * request.query.start.flat.velocity;
+  // One that has hardly got under way is better launched again than led on from next to nothing.
+  constexpr double kHardlyMovingMps = 0.25;
+  constexpr double kHardlyTurningRadps = 0.2;
+  if (state.segment<2>(vessel::kSurge).norm() < kHardlyMovingMps &&
+      std::abs(state[vessel::kYawRate]) < kHardlyTurningRadps) {
+    const Eigen::Vector2d there = request.query.start.flat.position;
+    request.query.start.flat = {};
+    request.query.start.flat.position = there;
+  }
   request.query.start.psi_rad = state[vessel::kPsi];
   request.start_time_s = now_s + latency.seconds();
   return ask(now_s, std::move(request), goal, share, From::kVessel, obstacles);
@@ -88,7 +97,9 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   request.query.limits = safety.limits(thrust_share, room);
   request.thrust_share = thrust_share;
   request.moving = from != From::kRest;
-  asked_ = Asked{request, from, false, now_s};
+  const double conceded =
+      from == From::kVessel ? std::max(0.0, thrust_share - safety.freeThrustShare()) : 0.0;
+  asked_ = Asked{request, from, false, now_s, conceded};
   return request;
 }
 

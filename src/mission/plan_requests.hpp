@@ -39,6 +39,7 @@ class PlanRequests {
     From from = From::kRest;
     bool improves = false;  // asked for only to be faster
     double since_s = 0.0;
+    double conceded_thrust_share = 0.0;  // more than free, for a vessel too fast for less
   };
 
   PlanRequests(const SupervisorOptions& options, const vessel::Parameters& vessel,

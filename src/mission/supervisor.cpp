@@ -394,11 +394,13 @@ class Supervisor::Impl {
     reason_ = std::move(reason);
     return {};
   }
-  Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequest& request) {
+  Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequests::Asked& asked) {
     sailed_ = std::move(plan);
-    planned_clearance_m_ = request.query.limits.clearance_m;
-    planned_thrust_share_ = request.thrust_share;
-    conceded_thrust_share_ = std::max(0.0, request.thrust_share - safety().freeThrustShare());
+    planned_clearance_m_ = asked.request.query.limits.clearance_m;
+    planned_thrust_share_ = asked.request.thrust_share;
+    if (asked.from != From::kSailed) {
+      conceded_thrust_share_ = asked.conceded_thrust_share;
+    }
     plan_time_s_ = m.now_s;
     safety().planTaken();
     enter(Phase::kSailing);
@@ -445,7 +447,7 @@ class Supervisor::Impl {
       return planFromRest(m);
     }
     replans_ += phase_ == Phase::kStopped ? 1 : 0;
-    return sail(m, {plan.trajectory, m.now_s}, asked.request);
+    return sail(m, {plan.trajectory, m.now_s}, asked);
   }
   Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
     constexpr double kLateM = 0.3;
@@ -464,9 +466,9 @@ class Supervisor::Impl {
     ++replans_;
     plans_.latency.onTime();
     if (asked.from == From::kVessel) {
-      return sail(m, {plan.trajectory, starts}, asked.request);
+      return sail(m, {plan.trajectory, starts}, asked);
     }
-    return sail(m, stopping::splice(sailed_, m.now_s, {plan.trajectory, starts}), asked.request);
+    return sail(m, stopping::splice(sailed_, m.now_s, {plan.trajectory, starts}), asked);
   }
   Orders planFailed(const Moment& m, const std::string& why, const PlanRequests::Asked& asked) {
     if (asked.improves) {
@@ -499,14 +501,14 @@ class Supervisor::Impl {
   TimedTrajectory sailed_;
   double planned_clearance_m_ = 0.0;   // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;  // and with
-  // Of it, what was more than free already when the plan was taken, for want of one with less: no
+  // Of it, what was more than free already when it was asked for, for want of a plan with less: no
   // ground to replace it.
   double conceded_thrust_share_ = 0.0;
-  stopping::Conflict conflict_;        // what the last condition found on the way
-  double plan_time_s_ = 0.0;           // when the plan was taken, or an improvement asked for
-  double stop_time_s_ = 0.0;           // when the vessel began to come to rest
-  bool cancelled_ = false;             // the mission ends with the stop
-  bool for_clearance_ = false;         // replanning because of the clearance ahead, nothing else
+  stopping::Conflict conflict_;  // what the last condition found on the way
+  double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
+  double stop_time_s_ = 0.0;     // when the vessel began to come to rest
+  bool cancelled_ = false;       // the mission ends with the stop
+  bool for_clearance_ = false;   // replanning because of the clearance ahead, nothing else
   int replans_ = 0;
   PlanRequests plans_;
   RetryBudget retries_;
