@@ -83,5 +83,45 @@ TEST(SupervisorInWind, AllowsMoreThrustWhereThereIsNoPlanWithLess) {
   }
 }
 
+// That plan is not replaced for what was conceded to it, but for more wind.
+TEST(SupervisorInWind, KeepsAPlanThatWasAllowedMoreThrust) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  Situation windy = mission.situation();
+  windy.disturbance_n = 20.0;
+  Orders orders;
+  for (int k = 0; k < 9; ++k) {
+    orders = mission.supervisor.update(mission.now_s, windy, mission.field);
+    ASSERT_TRUE(orders.plan);
+    if (k < 8) {
+      (void)mission.refuse(*orders.plan, "too fast");
+    }
+  }
+  ASSERT_NEAR(orders.plan->thrust_share, 0.75, 1e-9);
+  ASSERT_TRUE(mission
+                  .answer(*orders.plan, test::eastward(orders.plan->query.start.flat.position, 50.0,
+                                                       orders.plan->query.start.flat.velocity.x()))
+                  .sail);
+  windy = mission.situation();
+  windy.odometry_stamp_s = mission.now_s + 4.0;
+  windy.disturbance_n = 20.0;
+  EXPECT_FALSE(mission.supervisor.update(mission.now_s + 4.0, windy, mission.field).plan);
+  windy.disturbance_n = 30.0;
+  EXPECT_TRUE(mission.supervisor.update(mission.now_s + 4.0, windy, mission.field).plan);
+}
+
+TEST(SupervisorInWind, LaunchesAVesselAgainThatHasHardlyGotUnderWay) {
+  for (const double surge : {0.1, 1.5}) {
+    ScriptedMission mission;
+    mission.setOut(6.0);
+    Situation windy = mission.situation();
+    windy.state[vessel::kSurge] = surge;
+    windy.disturbance_n = 15.0;
+    const Orders orders = mission.supervisor.update(mission.now_s, windy, mission.field);
+    ASSERT_TRUE(orders.plan);
+    EXPECT_EQ(trajectory::atRest(orders.plan->query.start), surge < 1.0);
+  }
+}
+
 }  // namespace
 }  // namespace otter_nav::mission
