@@ -223,7 +223,7 @@ void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s,
   double centre = 0.0;
   const auto slack = [&](double t) {
     const Eigen::Vector2d p = evaluate<8>(piece_.position, t);
-    const double now = tolerances_.start_s + start_s + t;
+    const double now = start_s + t;
     const double left =
         whole ? hull.slack(
                     obstacles, p, now, limits_.clearance_m, [&] { return bowAt(t); }, centre)

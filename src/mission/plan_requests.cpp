@@ -38,7 +38,7 @@ PlanRequest PlanRequests::fromRest(double now_s, const vessel::State& state,
   PlanRequest request;
   request.query.start.flat.position = state.head<2>();
   request.query.start.psi_rad = state[vessel::kPsi];
-  request.start_time_s = now_s;
+  request.start_time_s = now_s + latency.seconds();
   return ask(now_s, std::move(request), goal, safety.freeThrustShare(), From::kRest, obstacles);
 }
 

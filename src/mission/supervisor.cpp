@@ -186,7 +186,7 @@ class Supervisor::Impl {
     const auto clear =
         phase_ == Phase::kBackingOff ? stopping::backOffIsClear : stopping::turnBackIsClear;
     return at < sailed_.trajectory.duration() &&
-           !clear(sailed_.trajectory, at, m.obstacles, vessel_);
+           !clear(sailed_.trajectory, at, alongSailed(m), vessel_);
   }
   bool isStillMoving(const Moment& m) {
     constexpr double kPatienceS = 15.0;
@@ -288,7 +288,7 @@ class Supervisor::Impl {
   // the vessel holds, until wind or current bring it back or the map changes.
   Orders turnBack(const Moment& m) {
     if (std::optional<Trajectory> path =
-            stopping::turnBack(m.situation.state, m.obstacles, vessel_)) {
+            stopping::turnBack(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_)) {
       return manoeuvre(m, Phase::kTurningBack, std::move(*path), "over the map's edge");
     }
     if (inside(m) >= 0.0) {
@@ -380,12 +380,13 @@ class Supervisor::Impl {
     }
     return knowsPlace(m) ? "" : "no odometry";
   }
+  Obstacles alongSailed(const Moment& m) { return m.obstacles.startingAt(sailed_.start_time_s); }
   stopping::Conflict firstBelow(const Moment& m, double clearance_m) {
-    return stopping::firstConflict(sailed_.trajectory, sailed_.elapsed(m.now_s), m.obstacles,
+    return stopping::firstConflict(sailed_.trajectory, sailed_.elapsed(m.now_s), alongSailed(m),
                                    clearance_m);
   }
   stopping::Braking stop(const Moment& m, double at_s) {
-    return stopping::brakingTrajectory(sailed_.trajectory, at_s, m.obstacles, vessel_,
+    return stopping::brakingTrajectory(sailed_.trajectory, at_s, alongSailed(m), vessel_,
                                        safety().narrowest());
   }
 
@@ -479,8 +480,9 @@ class Supervisor::Impl {
       return {};  // asked again at the next update, as long as there is room
     }
     if (!hasFault(m)) {
-      if (std::optional<Trajectory> path = stopping::backOff(m.situation.state, m.obstacles,
-                                                             vessel_, m.situation.disturbance_n)) {
+      if (std::optional<Trajectory> path =
+              stopping::backOff(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_,
+                                m.situation.disturbance_n)) {
         return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why);
       }
     }

@@ -118,7 +118,7 @@ class GlobalOptimizer::Solver {
     prepare(number);
     chosen_ = chooser_.choose(obstacles_->field(), path, *start_, *goal_);
     solver_.restart();
-    problem_.targets.start_s = chosen_.start.manoeuvre.duration_s;
+    startWhereTheManoeuvreEnds();
     initial_.build(*obstacles_, path, chooser_.splineEnds(chosen_, *start_), spline_);
     SplineSolver::Stop stop;
     stop.max_iterations = kIterationsPerRound;
@@ -127,7 +127,7 @@ class GlobalOptimizer::Solver {
     chooser_.guide(chosen_, spline_);
     for (int round = 0; round < kRounds; ++round) {
       result_.iterations += solver_.improve(problem_, stop, spline_);
-      chooser_.follow(spline_, chosen_);
+      followEnds();
       const bool last = round + 1 == kRounds;
       verifyDilated(last ? 2.0 * kDilationMax : kDilationMax);
       if (result_.verification.ok) {
@@ -144,6 +144,15 @@ class GlobalOptimizer::Solver {
     return false;
   }
 
+  // The spline's obstacles are met after the manoeuvre that leads to it.
+  void startWhereTheManoeuvreEnds() {
+    problem_.targets.start_s = chosen_.start.manoeuvre.duration_s;
+  }
+  void followEnds() {
+    chooser_.follow(spline_, chosen_);
+    startWhereTheManoeuvreEnds();
+  }
+
   // A feasible trajectory gets quicker: time weighs more, and what verifies and is better is kept.
   void quicken(const SplineSolver::Stop& stop) {
     Optimized best = std::move(result_);
@@ -154,7 +163,7 @@ class GlobalOptimizer::Solver {
       }
       problem_.targets.weights.time *= kQuickenGrowth;
       best.iterations += solver_.improve(problem_, stop, spline_);
-      chooser_.follow(spline_, chosen_);
+      followEnds();
       verifyDilated(kDilationMax);
       if (result_.verification.ok && rank(result_.trajectory) < rank(best.trajectory)) {
         best.trajectory = std::move(result_.trajectory);
@@ -266,15 +275,21 @@ class GlobalOptimizer::Solver {
     stop.psi_rad = std::atan2(onward.y(), onward.x());
     Budget budget = *budget_;
     budget.max_attempts = kAttemptsOfParts;
+    const feasibility::Obstacles& whole_time = *obstacles_;
     const auto part = [&](const std::vector<Eigen::Vector2d>& points,
-                          const trajectory::Boundary& from, const trajectory::Boundary& to) {
-      auto optimized = run(*obstacles_, points, from, to, budget, limits_);
+                          const trajectory::Boundary& from, const trajectory::Boundary& to,
+                          double start_s) {
+      const feasibility::Obstacles obstacles = whole_time.startingAt(start_s);
+      auto optimized = run(obstacles, points, from, to, budget, limits_);
+      obstacles_ = &whole_time;
       return optimized || !trajectory::atRest(from)
                  ? std::move(optimized)
-                 : stopAndSpin(*obstacles_, points, from, to, limits_);
+                 : stopAndSpin(obstacles, points, from, to, limits_);
     };
-    const auto first = part({path.begin(), middle + 1}, start, stop);
-    const auto second = first ? part({middle, path.end()}, stop, goal) : first;
+    const auto first = part({path.begin(), middle + 1}, start, stop, 0.0);
+    const auto second =
+        first ? part({middle, path.end()}, stop, goal, first->trajectory.duration() + kPauseS)
+              : first;
     if (!second || (first->last_resort && second->last_resort)) {
       return std::nullopt;
     }

@@ -251,7 +251,8 @@ class Planner::Pipeline {
         start = launch_->root;
       }
     }
-    search_.reset(run.obstacles, limits, start, goal);
+    search_.reset(run.obstacles.startingAt(launch_ ? launch_->piece.duration_s : 0.0), limits,
+                  start, goal);
   }
 
   // Samples until the trees meet, then improve_samples more.

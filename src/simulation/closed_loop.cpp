@@ -54,8 +54,7 @@ bool ClosedLoop::step() {
   if (reply_ && time() >= reply_time_s_) {
     const Reply reply = std::move(*reply_);
     reply_.reset();
-    carryOut(
-        supervisor_.planFinished(time(), reply.id, reply.plan, situation(), sensing_->field()));
+    carryOut(supervisor_.planFinished(time(), reply.id, reply.plan, situation(), obstacles()));
   }
   control();
   judge();
@@ -76,13 +75,13 @@ void ClosedLoop::sense() {
     start();
     return;
   }
-  carryOut(supervisor_.update(time(), situation(), sensing_->field()));
+  carryOut(supervisor_.update(time(), situation(), obstacles()));
 }
 
 void ClosedLoop::start() {
   started_ = true;
   const Result<mission::Orders> orders =
-      supervisor_.setGoal(time(), goal_, situation(), sensing_->field());
+      supervisor_.setGoal(time(), goal_, situation(), obstacles());
   if (orders) {
     carryOut(*orders);
   } else {
@@ -133,13 +132,18 @@ void ClosedLoop::carryOut(const mission::Orders& orders) {
     const Stopwatch watch;
     planner::Termination termination;
     termination.max_iterations = options_.planning_iterations;
-    planner::Plan plan = planner_.plan(sensing_->field(), orders.plan->query, termination);
+    planner::Plan plan = planner_.plan(obstacles().startingAt(orders.plan->start_time_s),
+                                       orders.plan->query, termination);
     recorder_.addPlanning(watch.milliseconds());
     reply_ = Reply{orders.plan->id, std::move(plan)};
     // A little before the new trajectory begins, as in life.
     constexpr double kEarlyS = 0.05;
     reply_time_s_ = time() + options_.supervisor.planning_latency_s - kEarlyS;
   }
+}
+
+feasibility::Obstacles ClosedLoop::obstacles() const {
+  return sensing_->field();
 }
 
 mission::Situation ClosedLoop::situation() const {

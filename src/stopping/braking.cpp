@@ -183,6 +183,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
   feasibility::Tolerances tolerances;
   tolerances.heading_force_share = kLeastForceShare;
   tolerances.step_s = 0.02;
+  const feasibility::Obstacles ahead = obstacles.startingAt(at_s);
   Braking best;
   best.clearance_m = -1.0;
   for (Trajectory& candidate : candidates(sailed, at_s)) {
@@ -190,10 +191,10 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
       continue;
     }
     if (keepsAsternShare(candidate, vessel) &&
-        feasibility::verify(candidate, obstacles, vessel, limits, tolerances).ok) {
+        feasibility::verify(candidate, ahead, vessel, limits, tolerances).ok) {
       return {std::move(candidate), true, clearance_m};
     }
-    const double clearance = leastClearance(candidate, obstacles);
+    const double clearance = leastClearance(candidate, ahead);
     if (clearance >= best.clearance_m) {  // of equals the harder stop
       best = {std::move(candidate), false, clearance};
     }

@@ -15,7 +15,7 @@
 
 namespace otter_nav::feasibility {
 
-// One more kind of obstacle. Map frame, m; times in s on the clock of the trajectory's start.
+// One more kind of obstacle. Map frame, m; times in s on the mission's clock.
 class ObstacleLayer {
  public:
   virtual ~ObstacleLayer() = default;
@@ -28,6 +28,8 @@ class ObstacleLayer {
                                                           double time_s) const = 0;
 };
 
+// Times count from `startingAt` on: whoever asks for a trajectory's clearance gets the obstacles
+// starting where the trajectory does, and asks with the time from its start.
 class Obstacles {
  public:
   // `field` and added layers are not owned and must outlive this.
@@ -39,6 +41,13 @@ class Obstacles {
     rate_bound_mps_ = std::max(rate_bound_mps_, layer.rateBound());
   }
 
+  // The same, with times that count from `start_s` of this one's.
+  [[nodiscard]] Obstacles startingAt(double start_s) const {
+    Obstacles later = *this;
+    later.start_s_ += start_s;
+    return later;
+  }
+
   // What lies still: for what has no time of its own (guide paths, windows of a search).
   [[nodiscard]] const map::DistanceField& field() const { return *field_; }
   [[nodiscard]] double rateBound() const { return rate_bound_mps_; }
@@ -46,7 +55,7 @@ class Obstacles {
   [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const {
     double least = field_->clearance(position);
     for (const ObstacleLayer* layer : layers_) {
-      least = std::min(least, layer->clearance(position, time_s));
+      least = std::min(least, layer->clearance(position, start_s_ + time_s));
     }
     return least;
   }
@@ -55,7 +64,7 @@ class Obstacles {
                                                   double time_s) const {
     map::DistanceField::Smooth nearest = field_->smooth(position);
     for (const ObstacleLayer* layer : layers_) {
-      const map::DistanceField::Smooth other = layer->smooth(position, time_s);
+      const map::DistanceField::Smooth other = layer->smooth(position, start_s_ + time_s);
       if (other.distance_m < nearest.distance_m) {
         nearest = other;
       }
@@ -67,6 +76,7 @@ class Obstacles {
   const map::DistanceField* field_;
   std::vector<const ObstacleLayer*> layers_;
   double rate_bound_mps_ = 0.0;
+  double start_s_ = 0.0;
 };
 
 }  // namespace otter_nav::feasibility

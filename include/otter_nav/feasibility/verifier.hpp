@@ -20,7 +20,6 @@ namespace otter_nav::feasibility {
 
 // How closely limits and ends are looked at.
 struct Tolerances {
-  double start_s = 0.0;         // when the trajectory begins, on the obstacles' clock
   bool keep_hull_clear = true;  // the discs that cover the hull touch nothing
   // Least |w| where the path is not straight, of both thrusters' force ahead: less and the heading
   // would be undefined there.
@@ -42,9 +41,9 @@ struct Verification {
   double heading_force_n = 0.0;  // least |w| where the path is not straight
 };
 
-// Faults: empty or not finite, start or goal not met, a jump at a joint, too near an obstacle or
-// out of the map, thrust, speed or yaw rate out of range, heading undefined or jumping. Allocates
-// for the reason only.
+// `obstacles` start where the trajectory does. Faults: empty or not finite, start or goal not met,
+// a jump at a joint, too near an obstacle or out of the map, thrust, speed or yaw rate out of
+// range, heading undefined or jumping. Allocates for the reason only.
 [[nodiscard]] Verification verify(const trajectory::Trajectory& trajectory,
                                   const Obstacles& obstacles, const vessel::Parameters& vessel,
                                   const trajectory::Boundary& start,

@@ -102,7 +102,9 @@ struct PlanRequest {
   planner::Query query;
   double thrust_share = 1.0;  // the query's limits, of what plans may usually take
   bool moving = false;        // false: from rest, whenever the answer comes
-  double start_time_s = 0.0;  // moving: when the vessel passes the query's start
+  // When the vessel passes the query's start, where the planner's obstacles start too; from rest
+  // about then.
+  double start_time_s = 0.0;
 };
 
 struct Orders {
@@ -111,6 +113,7 @@ struct Orders {
   bool stop = false;  // the tracker shall brake by itself: there is no trajectory to do so on
 };
 
+// Obstacles' times are on the clock of `now_s`.
 class Supervisor {
  public:
   Supervisor(const SupervisorOptions& options, const vessel::Parameters& vessel,

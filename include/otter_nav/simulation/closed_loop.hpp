@@ -80,6 +80,7 @@ class ClosedLoop {
   void judge();
   void carryOut(const mission::Orders& orders);
   [[nodiscard]] mission::Situation situation() const;
+  [[nodiscard]] feasibility::Obstacles obstacles() const;  // on the clock of time()
   void finish(scenario::Outcome outcome, std::string reason);
 
   LoopOptions options_;

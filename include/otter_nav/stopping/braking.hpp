@@ -1,4 +1,5 @@
-// From a sailed trajectory to rest, and how far it stays clear.
+// From a sailed trajectory to rest, and how far it stays clear. Obstacles start where the sailed
+// trajectory does.
 #pragma once
 
 #include <Eigen/Core>

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "moving_disc.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/feasibility/edge_check.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
@@ -11,25 +12,7 @@
 namespace otter_nav::feasibility {
 namespace {
 
-// A disc that moves on a line.
-class Disc : public ObstacleLayer {
- public:
-  Disc(Eigen::Vector2d at, Eigen::Vector2d velocity, double radius_m)
-      : at_(std::move(at)), velocity_(std::move(velocity)), radius_m_(radius_m) {}
-  [[nodiscard]] double clearance(const Eigen::Vector2d& p, double time_s) const override {
-    return std::max(0.0, (p - at_ - time_s * velocity_).norm() - radius_m_);
-  }
-  [[nodiscard]] double rateBound() const override { return velocity_.norm(); }
-  [[nodiscard]] map::DistanceField::Smooth smooth(const Eigen::Vector2d& p,
-                                                  double time_s) const override {
-    const Eigen::Vector2d off = p - at_ - time_s * velocity_;
-    return {off.norm() - radius_m_, off.normalized()};
-  }
-
- private:
-  Eigen::Vector2d at_, velocity_;
-  double radius_m_;
-};
+using Disc = test::MovingDisc;
 
 map::DistanceField openWater() {
   map::OccupancyGrid grid;
@@ -52,9 +35,7 @@ Verification verifyBeside(const Disc& disc, double start_s) {
   static const map::DistanceField field = openWater();
   Obstacles obstacles(field);
   obstacles.add(disc);
-  Tolerances tolerances;
-  tolerances.start_s = start_s;
-  return verify(eastward(), obstacles, vessel::Parameters{}, SafetyLimits{}, tolerances);
+  return verify(eastward(), obstacles.startingAt(start_s), vessel::Parameters{}, SafetyLimits{});
 }
 
 TEST(MovingObstacle, IsMetOnlyInTime) {

@@ -35,23 +35,30 @@ class ScriptedMission {
     }
     return s;
   }
+  [[nodiscard]] feasibility::Obstacles obstacles() const {
+    feasibility::Obstacles all(field);
+    if (layer != nullptr) {
+      all.add(*layer);
+    }
+    return all;
+  }
   Result<Orders> goTo(const Eigen::Vector2d& position, double psi_rad = 0.0) {
-    return supervisor.setGoal(now_s, {position, psi_rad}, situation(), field);
+    return supervisor.setGoal(now_s, {position, psi_rad}, situation(), obstacles());
   }
   Orders update(double later_s) {
     now_s += later_s;
-    return supervisor.update(now_s, situation(), field);
+    return supervisor.update(now_s, situation(), obstacles());
   }
   Orders answer(const PlanRequest& request, const trajectory::Trajectory& trajectory) {
     planner::Plan plan;
     plan.outcome = planner::Outcome::kSolved;
     plan.trajectory = trajectory;
-    return supervisor.planFinished(now_s, request.id, plan, situation(), field);
+    return supervisor.planFinished(now_s, request.id, plan, situation(), obstacles());
   }
   Orders refuse(const PlanRequest& request, const std::string& why) {
     planner::Plan plan;
     plan.reason = why;
-    return supervisor.planFinished(now_s, request.id, plan, situation(), field);
+    return supervisor.planFinished(now_s, request.id, plan, situation(), obstacles());
   }
   // To x = 40 m, 80 m east, and `after_s` under way.
   void setOut(double after_s) {
@@ -67,6 +74,7 @@ class ScriptedMission {
 
   map::OccupancyGrid grid;
   map::DistanceField field;
+  const feasibility::ObstacleLayer* layer = nullptr;  // besides the field
   SupervisorOptions options;
   Supervisor supervisor;
   vessel::State rest = vessel::State::Zero();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../feasibility/moving_disc.hpp"
 #include "scripted_mission.hpp"
 
 namespace otter_nav::mission {
@@ -74,6 +75,26 @@ TEST(Supervisor, ReplansInMotionWhenTheWayIsBlocked) {
   const Eigen::Vector2d later =
       sail.trajectory.flat(request.start_time_s + 5.2 - sail.start_time_s).position;
   EXPECT_NEAR(later.y(), 5.0, 1e-6);
+}
+
+// It sets out at 100 s and is at the origin 12 s later.
+TEST(Supervisor, MeetsWhatMovesOnTheMissionsClock) {
+  const Eigen::Vector2d northward(0.0, 2.0);
+  const feasibility::test::MovingDisc then(-112.0 * northward, northward, 1.0);
+  const feasibility::test::MovingDisc long_ago(-12.0 * northward, northward, 1.0);
+  for (const auto* disc : {&then, &long_ago}) {
+    ScriptedMission mission;
+    mission.layer = disc;
+    mission.setOut(6.0);
+    EXPECT_EQ(mission.supervisor.phase() == Phase::kReplanning, disc == &then);
+  }
+}
+
+TEST(Supervisor, AsksForAPlanThatBeginsWhenTheAnswerComes) {
+  ScriptedMission mission;
+  const auto orders = mission.goTo({40.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  EXPECT_NEAR(orders->plan->start_time_s, mission.now_s + mission.options.planning_latency_s, 1e-9);
 }
 
 TEST(Supervisor, StopsInTimeWithoutAPlanAndGoesOnFromRest) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../feasibility/moving_disc.hpp"
 #include "../mission/waters.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/splice.hpp"
@@ -52,6 +53,22 @@ TEST(Braking, IsGentleWhereThereIsRoom) {
   EXPECT_GT(stop.trajectory.duration(), 10.0);
   expectRest(stop.trajectory);
   expectContinues(sailed, 6.0, stop.trajectory);
+}
+
+// At 6 s the vessel is 2.8 m from where the disc crosses: at 6.65 s it would be there.
+TEST(Braking, MeetsWhatMovesOnTheSailedTrajectorysClock) {
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  const map::DistanceField field = fieldOf(openWater());
+  const Eigen::Vector2d northward(0.0, 4.0);
+  for (const double crosses_s : {6.65, 0.65}) {
+    const feasibility::test::MovingDisc disc(Eigen::Vector2d(-20.0, 0.0) - crosses_s * northward,
+                                             northward, 1.0);
+    feasibility::Obstacles obstacles(field);
+    obstacles.add(disc);
+    const Braking stop =
+        brakingTrajectory(sailed, 6.0, obstacles, vessel::Parameters{}, kClearanceM);
+    EXPECT_EQ(stop.clear, crosses_s < 6.0);
+  }
 }
 
 TEST(Braking, IsHardInFrontOfAWall) {
