@@ -119,7 +119,7 @@ Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
     }
   }
   RunFigures figures = tally.figures();
-  figures.step_us = percentiles(std::move(step_us));
+  figures.step_us = percentiles(step_us);
   return figures;
 }
 
