@@ -14,9 +14,7 @@
 namespace otter_nav::feasibility {
 namespace {
 
-using trajectory::differentiate;
 using trajectory::evaluate;
-using trajectory::lineOf;
 using trajectory::speedBound;
 
 constexpr double kSlowMps = 1e-3;             // below it a course says nothing of the heading
