@@ -25,8 +25,8 @@ double planThrustShare(double share_in_calm, double disturbance_share, int times
 
 double planClearance(const SupervisorOptions& options, std::size_t level, double disturbance_share,
                      double thrust_share, const vessel::Hull& hull, double room_m) {
-  const double listed = clearanceOf(hull, options.side_clearances_m[level]);
-  const double narrowest = clearanceOf(hull, options.side_clearances_m.back());
+  const double listed = centreClearance(hull, options.side_clearances_m[level]);
+  const double narrowest = centreClearance(hull, options.side_clearances_m.back());
   constexpr double kSlowShare = 0.5;  // of the plan's thrust, that moves the vessel in its turns
   const double crab_rad =
       std::min(std::asin(std::min(1.0, disturbance_share / (kSlowShare * thrust_share))),
@@ -43,16 +43,16 @@ Safety::Safety(const SupervisorOptions& options, const vessel::Parameters& vesse
     : options_(options), vessel_(vessel), levels_(options.side_clearances_m.size()) {}
 
 double Safety::narrowest() const {
-  return clearanceOf(vessel_.hull, options_.side_clearances_m.back());
+  return centreClearance(vessel_.hull, options_.side_clearances_m.back());
 }
 
 double Safety::critical() const {
-  return clearanceOf(vessel_.hull, options_.critical_side_clearance_m);
+  return centreClearance(vessel_.hull, options_.critical_side_clearance_m);
 }
 
 feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   while (!levels_.atNarrowest() &&
-         clearanceOf(vessel_.hull, options_.side_clearances_m[levels_.level()]) > room_m) {
+         centreClearance(vessel_.hull, options_.side_clearances_m[levels_.level()]) > room_m) {
     levels_.narrower();
   }
   const double clearance = planClearance(options_, levels_.level(), disturbance_share_,

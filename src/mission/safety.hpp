@@ -11,7 +11,7 @@
 namespace otter_nav::mission {
 
 // Of the hull's centre, m: `beside_m` more than half the beam.
-[[nodiscard]] inline double clearanceOf(const vessel::Hull& hull, double beside_m) {
+[[nodiscard]] inline double centreClearance(const vessel::Hull& hull, double beside_m) {
   return 0.5 * hull.beam_m + beside_m;
 }
 

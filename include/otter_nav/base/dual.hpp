@@ -30,12 +30,12 @@ constexpr int countOf(Directions set) {
   return count;
 }
 // The place of direction `d` among those of the set.
-constexpr int placeOf(Directions set, int d) {
+constexpr int slotOf(Directions set, int d) {
   return countOf(set & ((Directions{1} << d) - 1U));
 }
 constexpr int directionAt(Directions set, int place) {
   int d = 0;
-  while ((set >> d & 1U) == 0U || placeOf(set, d) != place) {
+  while ((set >> d & 1U) == 0U || slotOf(set, d) != place) {
     ++d;
   }
   return d;
@@ -74,7 +74,7 @@ template <typename Value, Directions Set>
 template <int Direction, typename Value, Directions Set>
 [[nodiscard]] OTTER_NAV_INLINE Value slope(const Dual<Value, Set>& x) {
   if constexpr ((Set >> Direction & 1U) != 0U) {
-    return x.slopes[placeOf(Set, Direction)];
+    return x.slopes[slotOf(Set, Direction)];
   } else {
     return Value{};
   }
@@ -119,14 +119,14 @@ template <typename Value, Directions A, Directions B, typename OnlyA, typename O
                                                        constexpr int d = decltype(direction)::value;
                                                        constexpr bool in_a = (A >> d & 1U) != 0U;
                                                        constexpr bool in_b = (B >> d & 1U) != 0U;
-                                                       Value& out = f.slopes[placeOf(kSet, d)];
+                                                       Value& out = f.slopes[slotOf(kSet, d)];
                                                        if constexpr (in_a && in_b) {
-                                                         out = both(a.slopes[placeOf(A, d)],
-                                                                    b.slopes[placeOf(B, d)]);
+                                                         out = both(a.slopes[slotOf(A, d)],
+                                                                    b.slopes[slotOf(B, d)]);
                                                        } else if constexpr (in_a) {
-                                                         out = only_a(a.slopes[placeOf(A, d)]);
+                                                         out = only_a(a.slopes[slotOf(A, d)]);
                                                        } else {
-                                                         out = only_b(b.slopes[placeOf(B, d)]);
+                                                         out = only_b(b.slopes[slotOf(B, d)]);
                                                        }
                                                      });
   return f;

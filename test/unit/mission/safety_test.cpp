@@ -22,7 +22,7 @@ TEST(Safety, ClearancesAreTheListsInCalmWater) {
   const SupervisorOptions options;
   for (std::size_t k = 0; k < options.side_clearances_m.size(); ++k) {
     EXPECT_DOUBLE_EQ(planClearance(options, k, 0.0, 0.95, vessel::Hull{}, kWideWater),
-                     clearanceOf(vessel::Hull{}, options.side_clearances_m[k]));
+                     centreClearance(vessel::Hull{}, options.side_clearances_m[k]));
   }
 }
 

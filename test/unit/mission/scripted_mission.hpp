@@ -19,7 +19,7 @@ class ScriptedMission {
 
   // The clearance of the hull's centre at a level of the options' list.
   [[nodiscard]] double clearance(std::size_t level) const {
-    return clearanceOf(vessel::Hull{}, options.side_clearances_m[level]);
+    return centreClearance(vessel::Hull{}, options.side_clearances_m[level]);
   }
   // What the vessel reports at `now_s`.
   [[nodiscard]] Situation situation() const {
