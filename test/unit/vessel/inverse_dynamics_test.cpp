@@ -244,7 +244,7 @@ TEST(DemandOf, AgreesWithTheFlatMapOfThePaper) {
 
 // A hull with more sway inertia than its turn feels: the heading followed by steps leaves no side
 // force, on a circle in wind and current.
-TEST(SwayHeading, LeavesNoSideForceOnACircle) {
+TEST(SwayHeading, NeedsNoForceFromTheSideAlongACircle) {
   Parameters vessel = someVessel();
   vessel.manoeuvring.sway_inertia_kg = 90.0;
   vessel.manoeuvring.sway_centripetal_kg = 45.0;
