@@ -1,0 +1,49 @@
+#include "otter_nav/traffic/track_layer.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace otter_nav::traffic {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TrackLayer::TrackLayer(const std::vector<Track>& tracks, const PredictionOptions& options) {
+  ways_.reserve(tracks.size());
+  for (const Track& track : tracks) {
+    ways_.emplace_back(track, options);
+    rate_bound_mps_ = std::max(rate_bound_mps_, ways_.back().rateBound());
+  }
+}
+
+double TrackLayer::clearance(const Eigen::Vector2d& position, double time_s) const {
+  double least = kInfinity;
+  for (const PredictedWay& way : ways_) {
+    const Outline outline = way.at(time_s);
+    // The circle around it spares what lies farther off than what was found.
+    if ((position - outline.position).norm() - outline.reach() < least) {
+      least = std::min(least, outline.distanceTo(position).distance_m);
+    }
+  }
+  return std::max(0.0, least);
+}
+
+map::DistanceField::Smooth TrackLayer::smooth(const Eigen::Vector2d& position,
+                                              double time_s) const {
+  map::DistanceField::Smooth nearest{kInfinity, Eigen::Vector2d::Zero()};
+  for (const PredictedWay& way : ways_) {
+    const Outline outline = way.at(time_s);
+    if ((position - outline.position).norm() - outline.reach() >= nearest.distance_m) {
+      continue;
+    }
+    const Outline::Distance distance = outline.distanceTo(position);
+    if (distance.distance_m < nearest.distance_m) {
+      nearest = {distance.distance_m, distance.gradient};
+    }
+  }
+  return nearest;
+}
+
+}  // namespace otter_nav::traffic
