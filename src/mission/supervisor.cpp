@@ -82,13 +82,30 @@ class Supervisor::Impl {
     plans_.latency.onTime();
     retries_.newGoal(m.now_s);
     cancelled_ = false;
+    suspended_.reset();
     replans_ = 0;
     return follow(kGoalRules, m);
   }
 
-  Orders cancel(const Moment& m) {
+  Orders cancel(const Moment& m, std::string why) {
     plans_.drop();
+    suspended_.reset();
+    end_reason_ = std::move(why);
     return follow(kCancelRules, m);
+  }
+
+  Result<Orders> pause(const Moment& m) {
+    if (!hasMission()) {
+      return failure("there is no mission to pause");
+    }
+    return suspend(m, Phase::kPaused);
+  }
+  Orders hold(const Moment& m) { return suspend(m, Phase::kHolding); }
+  Result<Orders> resume(const Moment& m) {
+    if (!std::exchange(suspended_, std::nullopt)) {
+      return failure("nothing is paused");
+    }
+    return follow(kResumeRules, m);
   }
 
   Orders update(const Moment& m) {
@@ -122,6 +139,8 @@ class Supervisor::Impl {
   }
   bool hasFault(const Moment& m) { return !faultOf(m).empty(); }
   bool isCancelled(const Moment& /*m*/) { return cancelled_; }
+  bool isSuspended(const Moment& /*m*/) { return suspended_.has_value(); }
+  bool hasNoMission(const Moment& /*m*/) { return !hasMission(); }
   bool mustWait(const Moment& m) { return plans_.waits() || retries_.pauses(m.now_s); }
 
   // Or so near the edge that no plan starts there: it counts as occupied.
@@ -253,11 +272,11 @@ class Supervisor::Impl {
   Orders brake(const Moment& m) { return brakeFor(m, conflictText(conflict_)); }
   Orders brakeCancelled(const Moment& m) {
     cancelled_ = true;
-    return brakeFor(m, "cancelled");
+    return brakeFor(m, end_reason_);
   }
   Orders stopCancelled(const Moment& m) {
     cancelled_ = true;
-    return stopByItself(m, "cancelled");
+    return stopByItself(m, end_reason_);
   }
   Orders endAtRest(const Moment& /*m*/) {
     cancelled_ = true;
@@ -272,7 +291,12 @@ class Supervisor::Impl {
     return stopByItself(m, std::string("something came up in the way while ") + name(phase_));
   }
 
-  Orders idle(const Moment& /*m*/) { return enter(Phase::kIdle, "cancelled"); }
+  Orders brakeSuspended(const Moment& m) { return brakeFor(m, name(*suspended_)); }
+  Orders stopSuspended(const Moment& m) { return stopByItself(m, name(*suspended_)); }
+  // The tracker keeps the place at which the vessel rests.
+  Orders restSuspended(const Moment& m) { return manoeuvre(m, *suspended_, {}, ""); }
+
+  Orders idle(const Moment& /*m*/) { return enter(Phase::kIdle, end_reason_); }
   Orders idleAfterStop(const Moment& /*m*/) {
     cancelled_ = false;
     return enter(Phase::kIdle, reason_);
@@ -318,6 +342,19 @@ class Supervisor::Impl {
       {kAny, &Impl::moves, &Impl::stopCancelled},
       {kAny, &Impl::always, &Impl::idle},
   };
+  // The vessel is to rest for a while.
+  static constexpr Rule kSuspendRules[] = {
+      {kUnderWay, &Impl::always, &Impl::brakeSuspended},
+      {kComingToRest, &Impl::always, &Impl::keepOn},
+      {kAny, &Impl::moves, &Impl::stopSuspended},
+      {kAny, &Impl::always, &Impl::restSuspended},
+  };
+  // And goes on.
+  static constexpr Rule kResumeRules[] = {
+      {kComingToRest, &Impl::always, &Impl::keepOn},
+      {kAny, &Impl::hasNoMission, &Impl::idleAfterStop},
+      {kAny, &Impl::always, &Impl::planFirst},
+  };
   // Several times a second.
   static constexpr Rule kRules[] = {
       {kWaiting, &Impl::mustWait, &Impl::keepOn},
@@ -342,6 +379,7 @@ class Supervisor::Impl {
       {kManoeuvring, &Impl::hasFault, &Impl::stopForFault},
       {kManoeuvring, &Impl::isBlocked, &Impl::stopBlocked},
       {kComingToRest, &Impl::isStillMoving, &Impl::keepOn},
+      {kComingToRest, &Impl::isSuspended, &Impl::restSuspended},
       {kComingToRest, &Impl::isCancelled, &Impl::idleAfterStop},
       {kComingToRest, &Impl::isLost, &Impl::giveUp},
       {kComingToRest, &Impl::always, &Impl::restOnTheWay},
@@ -363,6 +401,18 @@ class Supervisor::Impl {
   // ---- What the rules are made of
 
   Safety& safety() { return plans_.safety; }
+
+  bool hasMission() const {
+    constexpr unsigned kNone = in(Phase::kIdle) | in(Phase::kArrived) | in(Phase::kFailed);
+    return (in(phase_)&kNone) == 0 && !cancelled_;
+  }
+  // A vessel that had no mission has none afterwards either.
+  Orders suspend(const Moment& m, Phase until) {
+    cancelled_ = !hasMission();
+    suspended_ = until;
+    plans_.drop();
+    return follow(kSuspendRules, m);
+  }
 
   bool knowsPlace(const Moment& m) {
     return m.situation.state.allFinite() &&
@@ -411,6 +461,7 @@ class Supervisor::Impl {
   Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason) {
     plans_.drop();
     stop_time_s_ = m.now_s;
+    planned_clearance_m_ = 0.0;
     enter(phase, std::move(reason));
     if (path.empty()) {
       sailed_ = {};
@@ -506,11 +557,13 @@ class Supervisor::Impl {
   // Of it, what was more than free already when it was asked for, for want of a plan with less: no
   // ground to replace it.
   double conceded_thrust_share_ = 0.0;
-  stopping::Conflict conflict_;  // what the last condition found on the way
-  double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
-  double stop_time_s_ = 0.0;     // when the vessel began to come to rest
-  bool cancelled_ = false;       // the mission ends with the stop
-  bool for_clearance_ = false;   // replanning because of the clearance ahead, nothing else
+  stopping::Conflict conflict_;     // what the last condition found on the way
+  double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for
+  double stop_time_s_ = 0.0;        // when the vessel began to come to rest
+  bool cancelled_ = false;          // the mission ends with the stop
+  std::string end_reason_;          // by whose wish
+  std::optional<Phase> suspended_;  // what the vessel is to rest in, with its mission kept
+  bool for_clearance_ = false;      // replanning because of the clearance ahead, nothing else
   int replans_ = 0;
   PlanRequests plans_;
   RetryBudget retries_;
@@ -519,7 +572,7 @@ class Supervisor::Impl {
 const char* name(Phase phase) {
   constexpr const char* kNames[] = {"idle",     "planning", "sailing",     "replanning",
                                     "stopping", "stopped",  "backing off", "turning back",
-                                    "arrived",  "failed"};
+                                    "paused",   "holding",  "arrived",     "failed"};
   return kNames[static_cast<std::size_t>(phase)];
 }
 
@@ -534,8 +587,20 @@ Result<Orders> Supervisor::setGoal(double now_s, const vessel::Pose& goal,
                                    const Situation& situation, const Obstacles& obstacles) {
   return impl_->setGoal({now_s, situation, obstacles}, goal);
 }
-Orders Supervisor::cancel(double now_s, const Situation& situation, const Obstacles& obstacles) {
-  return impl_->cancel({now_s, situation, obstacles});
+Orders Supervisor::cancel(double now_s, const Situation& situation, const Obstacles& obstacles,
+                          std::string why) {
+  return impl_->cancel({now_s, situation, obstacles}, std::move(why));
+}
+Result<Orders> Supervisor::pause(double now_s, const Situation& situation,
+                                 const Obstacles& obstacles) {
+  return impl_->pause({now_s, situation, obstacles});
+}
+Orders Supervisor::hold(double now_s, const Situation& situation, const Obstacles& obstacles) {
+  return impl_->hold({now_s, situation, obstacles});
+}
+Result<Orders> Supervisor::resume(double now_s, const Situation& situation,
+                                  const Obstacles& obstacles) {
+  return impl_->resume({now_s, situation, obstacles});
 }
 Orders Supervisor::update(double now_s, const Situation& situation, const Obstacles& obstacles) {
   return impl_->update({now_s, situation, obstacles});
@@ -555,6 +620,9 @@ const vessel::Pose& Supervisor::goal() const {
 }
 const TimedTrajectory& Supervisor::sailed() const {
   return impl_->sailed_;
+}
+double Supervisor::plannedClearance() const {
+  return impl_->planned_clearance_m_;
 }
 int Supervisor::replans() const {
   return impl_->replans_;

@@ -21,6 +21,7 @@ constexpr double kDecisionPeriodS = 0.05;  // of wall time, when not in lockstep
 constexpr double kTrackerAgeS = 0.2;
 constexpr double kInputPeriodS = 0.5;
 constexpr double kInputPatienceS = 20.0;  // of wall time a goal waits for map and odometry
+constexpr char kStopped[] = "stopped by the operator";
 
 PlanWorker::Options workerOptions(const PlannerNodeOptions& node, const planner::Options& planner) {
   PlanWorker::Options options;
@@ -56,6 +57,10 @@ PlannerNode::PlannerNode(const Setup& setup)
   odometry_subscriber_ = node_.subscribe("odom", kQueue, &PlannerNode::onOdometry, this, no_delay);
   tracker_subscriber_ =
       node_.subscribe("tracker_status", kQueue, &PlannerNode::onTrackerStatus, this, no_delay);
+  serve("pause", &PlannerNode::pause);
+  serve("hold", &PlannerNode::hold);
+  serve("resume", &PlannerNode::resume);
+  serve("stop", &PlannerNode::stop);
   if (!setup_.node.lockstep) {
     decision_timer_ = node_.createWallTimer(ros::WallDuration(kDecisionPeriodS),
                                             [this](const ros::WallTimerEvent&) { decide(); });
@@ -151,6 +156,41 @@ Status PlannerNode::onGoal(const vessel::Pose& goal) {
 void PlannerNode::onCancel() {
   execute(supervisor_.cancel(now_s_, situation(), map_.field()));
   settle();
+}
+
+void PlannerNode::serve(const std::string& name, Result<mission::Orders> (PlannerNode::*wish)()) {
+  const auto answer = [this, wish](std_srvs::Trigger::Request&,
+                                   std_srvs::Trigger::Response& response) {
+    const Result<mission::Orders> orders = map_.ready() && !odometry_.empty()
+                                               ? (this->*wish)()
+                                               : failure("there is no map or odometry");
+    response.success = static_cast<std::uint8_t>(orders.has_value());
+    if (orders) {
+      execute(*orders);
+      settle();
+      response.message = mission::name(supervisor_.phase());
+    } else {
+      response.message = orders.error().message;
+    }
+    return true;
+  };
+  wishes_.push_back(
+      private_node_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
+          name, answer));
+}
+
+Result<mission::Orders> PlannerNode::pause() {
+  return supervisor_.pause(now_s_, situation(), map_.field());
+}
+Result<mission::Orders> PlannerNode::hold() {
+  return supervisor_.hold(now_s_, situation(), map_.field());
+}
+Result<mission::Orders> PlannerNode::resume() {
+  return supervisor_.resume(now_s_, situation(), map_.field());
+}
+Result<mission::Orders> PlannerNode::stop() {
+  goals_.abort(kStopped);
+  return supervisor_.cancel(now_s_, situation(), map_.field(), kStopped);
 }
 
 void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner::Plan& plan,

@@ -8,11 +8,13 @@
 #include <nav_msgs/Odometry.h>
 #include <otter_nav/TrackerStatus.h>
 #include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
 
 #include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "goal_server.hpp"
 #include "odometry_history.hpp"
@@ -48,6 +50,12 @@ class PlannerNode {
   void onTrackerStatus(const TrackerStatus& message);
   [[nodiscard]] Status onGoal(const vessel::Pose& goal);
   void onCancel();
+  // The operator's wishes (docs/nodes.md). The answer says why one can't be followed.
+  void serve(const std::string& name, Result<mission::Orders> (PlannerNode::*wish)());
+  [[nodiscard]] Result<mission::Orders> pause();
+  [[nodiscard]] Result<mission::Orders> hold();
+  [[nodiscard]] Result<mission::Orders> resume();
+  [[nodiscard]] Result<mission::Orders> stop();
   void onPlanDone(const mission::PlanRequest& request, const planner::Plan& plan, double wall_ms);
 
   // Lockstep: map updates in turn, each with the odometry of its stamp, none while an order of the
@@ -85,6 +93,7 @@ class PlannerNode {
   ros::Subscriber update_subscriber_;
   ros::Subscriber odometry_subscriber_;
   ros::Subscriber tracker_subscriber_;
+  std::vector<ros::ServiceServer> wishes_;
   ros::WallTimer decision_timer_;
   ros::WallTimer input_timer_;
   GoalServer goals_;

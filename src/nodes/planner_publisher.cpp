@@ -70,6 +70,7 @@ void PlannerPublisher::publishStatus(const mission::Supervisor& supervisor, doub
   status_.header.stamp = ros_bridge::toRosTime(now_s);
   status_.state = mission::name(supervisor.phase());
   status_.reason = supervisor.reason();
+  status_.clearance = supervisor.plannedClearance();
   status_.replans = static_cast<std::uint32_t>(supervisor.replans());
   status_.trajectory_id = trajectory_id;
   status_publisher_.publish(status_);

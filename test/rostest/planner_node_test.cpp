@@ -6,6 +6,7 @@
 #include <nav_msgs/Path.h>
 #include <otter_nav/PlannerStatus.h>
 #include <otter_nav/Trajectory.h>
+#include <std_srvs/Trigger.h>
 
 #include <limits>
 #include <memory>
@@ -69,6 +70,8 @@ TEST(PlannerStatusMessage, NamesThePhases) {
                                                {Phase::kStopped, PlannerStatus::STOPPED},
                                                {Phase::kBackingOff, PlannerStatus::BACKING_OFF},
                                                {Phase::kTurningBack, PlannerStatus::TURNING_BACK},
+                                               {Phase::kPaused, PlannerStatus::PAUSED},
+                                               {Phase::kHolding, PlannerStatus::HOLDING},
                                                {Phase::kArrived, PlannerStatus::ARRIVED},
                                                {Phase::kFailed, PlannerStatus::FAILED}};
   for (const auto& [phase, state] : all) {
@@ -104,6 +107,43 @@ TEST_F(PlannerNode, PlansFromTheVesselToTheGoal) {
   client_.cancelGoal();
   ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
   EXPECT_EQ(client_.getState().toString(), "PREEMPTED");
+}
+
+// The vessel lies still whatever is ordered: what counts is what the node says and sends.
+TEST_F(PlannerNode, FollowsTheOperator) {
+  const auto wish = [](const std::string& name) {
+    std_srvs::Trigger call;
+    EXPECT_TRUE(ros::service::call("planner_node/" + name, call)) << name;
+    return call.response;
+  };
+  const auto comes = [this](const std::string& state) {
+    statuses_.messages.clear();
+    return statuses_.waitFor([&](const auto& status) { return status.state == state; });
+  };
+  EXPECT_TRUE(wish("stop").success);
+  EXPECT_FALSE(wish("pause").success);
+  EXPECT_NE(wish("pause").message.find("no mission"), std::string::npos);
+  EXPECT_FALSE(wish("resume").success);
+
+  EXPECT_TRUE(wish("hold").success);
+  EXPECT_TRUE(comes(PlannerStatus::HOLDING));
+  EXPECT_TRUE(trajectories_.waitFor([](const auto& message) { return message.pieces.empty(); }));
+  EXPECT_TRUE(wish("resume").success);
+  EXPECT_TRUE(comes(PlannerStatus::IDLE));
+
+  client_.sendGoal(goal(22.0, 8.0));
+  ASSERT_TRUE(comes(PlannerStatus::SAILING));
+  EXPECT_GT(statuses_.messages.back().clearance, 0.5);
+  EXPECT_TRUE(wish("pause").success);
+  ASSERT_TRUE(comes(PlannerStatus::PAUSED));
+  EXPECT_EQ(client_.getState(), State::ACTIVE);
+  EXPECT_TRUE(wish("resume").success);
+  ASSERT_TRUE(comes(PlannerStatus::SAILING));
+  EXPECT_TRUE(wish("stop").success);
+  ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
+  EXPECT_EQ(client_.getState().toString(), "ABORTED");
+  EXPECT_NE(client_.getState().getText().find("operator"), std::string::npos);
+  EXPECT_TRUE(comes(PlannerStatus::IDLE));
 }
 
 TEST_F(PlannerNode, TakesGoalsFromRviz) {

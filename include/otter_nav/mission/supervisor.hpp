@@ -34,6 +34,8 @@ enum class Phase {
   kStopped,      // at rest on the way, waiting for a plan
   kBackingOff,   // from where there is no room to turn
   kTurningBack,  // into the map, over whose edge the vessel went
+  kPaused,       // at rest by the operator's wish, with its mission kept
+  kHolding,      // likewise, with or without a mission
   kArrived,      // within the tolerances of the goal and slow
   kFailed        // given up; reason() says why, and the vessel lies still or is braking
 };
@@ -130,7 +132,18 @@ class Supervisor {
                                        const feasibility::Obstacles& obstacles);
   // Gives the mission up: brakes if moving, and is idle then.
   [[nodiscard]] Orders cancel(double now_s, const Situation& situation,
-                              const feasibility::Obstacles& obstacles);
+                              const feasibility::Obstacles& obstacles,
+                              std::string why = "cancelled");
+  // Brakes if moving and keeps the place where it comes to rest, and the mission, until resume() or
+  // a new goal. Refused without a mission.
+  [[nodiscard]] Result<Orders> pause(double now_s, const Situation& situation,
+                                     const feasibility::Obstacles& obstacles);
+  // The same for any vessel: one that drifts without a goal keeps its place from now on.
+  [[nodiscard]] Orders hold(double now_s, const Situation& situation,
+                            const feasibility::Obstacles& obstacles);
+  // Plans from rest to the goal kept; a vessel that had none is idle. Refused if nothing is paused.
+  [[nodiscard]] Result<Orders> resume(double now_s, const Situation& situation,
+                                      const feasibility::Obstacles& obstacles);
   // To be called regularly (10 Hz or more) and after each change of the map.
   [[nodiscard]] Orders update(double now_s, const Situation& situation,
                               const feasibility::Obstacles& obstacles);
@@ -145,6 +158,8 @@ class Supervisor {
   [[nodiscard]] const vessel::Pose& goal() const;
   // What is being sailed; empty before the first plan.
   [[nodiscard]] const trajectory::TimedTrajectory& sailed() const;
+  // What it was planned to keep from the hull's centre, m; 0 for a manoeuvre without a plan.
+  [[nodiscard]] double plannedClearance() const;
   // Plans taken while under way, after the first.
   [[nodiscard]] int replans() const;
   [[nodiscard]] int stops() const;
