@@ -1,2 +1,9 @@
+# Seeded archipelagos: drawing, missions, other vessels' routes.
+otter_nav_room(archipelago
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/archipelago/archipelago.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/archipelago/missions.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/archipelago/routes.cpp
+  ROOMS scenario)
+target_include_directories(otter_nav_archipelago PUBLIC ${CMAKE_CURRENT_LIST_DIR})
 otter_nav_program(scenario_generator
-  SOURCES ${CMAKE_CURRENT_LIST_DIR}/scenario_generator.cpp ROOMS scenario)
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/archipelago/scenario_generator.cpp ROOMS archipelago)

@@ -47,6 +47,16 @@ void Section::fail(const std::string& key, const std::string& what) {
   }
 }
 
+bool Section::areInside(const std::string& key, const std::vector<double>& values, Range range) {
+  const auto out = std::find_if(values.begin(), values.end(),
+                                [&](double value) { return !inside(value, range); });
+  if (out == values.end()) {
+    return true;
+  }
+  fail(key, "holds " + std::to_string(*out) + ", outside its " + describe(range));
+  return false;
+}
+
 YAML::Node Section::find(const std::string& key) {
   known_.push_back(key);
   if (!has(key)) {
@@ -125,13 +135,40 @@ void Section::read(const std::string& key, std::vector<double>& values, std::siz
     fail(key, "is not a list of " + std::to_string(size) + " numbers, " + describe(range));
     return;
   }
-  for (const double value : read_values) {
-    if (!inside(value, range)) {
-      fail(key, "holds " + std::to_string(value) + ", outside its " + describe(range));
+  if (areInside(key, read_values, range)) {
+    values = std::move(read_values);
+  }
+}
+
+void Section::read(const std::string& key, std::vector<double>& values, Range range) {
+  const YAML::Node found = find(key);
+  std::vector<double> read_values;
+  if (found && (!found.IsSequence() || !convert(found, read_values))) {
+    fail(key, "is not a list of numbers, " + describe(range));
+  } else if (found && areInside(key, read_values, range)) {
+    values = std::move(read_values);
+  }
+}
+
+void Section::read(const std::string& key, std::vector<std::vector<double>>& rows,
+                   std::size_t columns, Range range) {
+  const YAML::Node found = find(key);
+  if (!found) {
+    return;
+  }
+  std::vector<std::vector<double>> read_rows;
+  const bool lists = found.IsSequence() && convert(found, read_rows);
+  if (!lists || std::any_of(read_rows.begin(), read_rows.end(),
+                            [&](const auto& row) { return row.size() != columns; })) {
+    fail(key, "is not a list of lists of " + std::to_string(columns) + " numbers");
+    return;
+  }
+  for (const std::vector<double>& row : read_rows) {
+    if (!areInside(key, row, range)) {
       return;
     }
   }
-  values = std::move(read_values);
+  rows = std::move(read_rows);
 }
 
 void Section::read(const std::string& key, std::vector<std::string>& values) {

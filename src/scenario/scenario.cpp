@@ -1,5 +1,6 @@
 #include "otter_nav/scenario/scenario.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFarthestM = 1e6;
+constexpr double kSlowestMps = 1e-6;  // positive
+constexpr double kFastestMps = 100.0;
 
 vessel::Pose readPose(config::Section& section, const std::string& key) {
   std::vector<double> pose = {0.0, 0.0, 0.0};
@@ -24,13 +27,88 @@ vessel::Pose readPose(config::Section& section, const std::string& key) {
 Result<Mission> readMission(const YAML::Node& node, const std::string& where) {
   config::Section section(node, where);
   Mission mission;
-  section.read("kind", mission.kind, {"local", "cross"});
+  section.read("kind", mission.kind, {"local", "cross", "encounter"});
   mission.start = readPose(section, "start");
   mission.goal = readPose(section, "goal");
+  if (section.has("speed_mps")) {
+    section.read("speed_mps", mission.speed_mps.emplace(), {kSlowestMps, kFastestMps});
+  }
   if (const Status status = section.finish(); !status) {
     return failure(status.error().message);
   }
   return mission;
+}
+
+// Named by its id, and by its place in the list while that is not known.
+Result<vessel::ScriptedVessel> readVessel(const YAML::Node& node, const std::string& path,
+                                          std::size_t place) {
+  const bool named = node.IsMap() && node["id"] && node["id"].IsScalar();
+  config::Section section(
+      node, path + ": vessel " + (named ? node["id"].Scalar() : "#" + std::to_string(place)));
+  vessel::ScriptedVessel vessel;
+  section.read("id", vessel.id, {0.0, 1e9});
+  section.read("length_m", vessel.hull.length_m, {0.01, 1000.0});
+  section.read("beam_m", vessel.hull.beam_m, {0.01, 1000.0});
+  if (section.has("ais")) {
+    section.read("ais", vessel.ais);
+  }
+  std::vector<std::vector<double>> waypoints;
+  section.read("waypoints", waypoints, 2, {-kFarthestM, kFarthestM});
+  section.read("speeds_mps", vessel.speeds_mps, {kSlowestMps, kFastestMps});
+  if (const Status status = section.finish(); !status) {
+    return failure(status.error().message);
+  }
+  if (waypoints.size() < 2) {
+    return failure(section.where() + ": 'waypoints' are fewer than two");
+  }
+  const std::size_t legs = waypoints.size() - 1;
+  if (vessel.speeds_mps.size() != 1 && vessel.speeds_mps.size() != legs) {
+    return failure(section.where() + ": 'speeds_mps' holds " +
+                   std::to_string(vessel.speeds_mps.size()) +
+                   " speeds, not one, nor one for each of " + std::to_string(legs) + " legs");
+  }
+  for (const std::vector<double>& waypoint : waypoints) {
+    vessel.waypoints.emplace_back(waypoint[0], waypoint[1]);
+  }
+  return vessel;
+}
+
+Status readVessels(const YAML::Node& list, const std::string& path,
+                   std::vector<vessel::ScriptedVessel>& vessels) {
+  if (!list.IsSequence()) {
+    return failure(path + ": 'vessels' is not a list");
+  }
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    Result<vessel::ScriptedVessel> vessel = readVessel(list[k], path, k);
+    if (!vessel) {
+      return failure(vessel.error().message);
+    }
+    if (std::any_of(vessels.begin(), vessels.end(),
+                    [&](const auto& other) { return other.id == vessel->id; })) {
+      return failure(path + ": vessel " + std::to_string(vessel->id) + ": 'id' is there twice");
+    }
+    vessels.push_back(std::move(*vessel));
+  }
+  return {};
+}
+
+std::string vesselText(const vessel::ScriptedVessel& vessel) {
+  std::string waypoints;
+  char text[64];
+  for (const Eigen::Vector2d& p : vessel.waypoints) {
+    std::snprintf(text, sizeof(text), "%s[%.2f, %.2f]", waypoints.empty() ? "" : ", ", p.x(),
+                  p.y());
+    waypoints += text;
+  }
+  std::string speeds;
+  for (const double speed : vessel.speeds_mps) {
+    std::snprintf(text, sizeof(text), "%s%.3f", speeds.empty() ? "" : ", ", speed);
+    speeds += text;
+  }
+  std::snprintf(text, sizeof(text), "{id: %d, length_m: %.2f, beam_m: %.2f, ", vessel.id,
+                vessel.hull.length_m, vessel.hull.beam_m);
+  return text + std::string(vessel.ais ? "" : "ais: false, ") + "waypoints: [" + waypoints +
+         "], speeds_mps: [" + speeds + "]}";
 }
 
 Result<std::string> besideFile(const std::string& path, const std::string& key,
@@ -58,8 +136,9 @@ Result<Scenario> loadScenario(const std::string& path) {
   }
   for (const auto& entry : *root) {
     const auto key = entry.first.as<std::string>();
-    if (key != "chart" && key != "world" && key != "missions") {
-      return failure(path + ": unknown key '" + key + "' (allowed: chart, world, missions)");
+    if (key != "chart" && key != "world" && key != "missions" && key != "vessels") {
+      return failure(path + ": unknown key '" + key +
+                     "' (allowed: chart, world, missions, vessels)");
     }
   }
   Scenario scenario;
@@ -87,6 +166,11 @@ Result<Scenario> loadScenario(const std::string& path) {
     }
     scenario.missions.push_back(std::move(*mission));
   }
+  if (const YAML::Node vessels = (*root)["vessels"]) {
+    if (const Status status = readVessels(vessels, path, scenario.vessels); !status) {
+      return failure(status.error().message);
+    }
+  }
   return scenario;
 }
 
@@ -101,7 +185,8 @@ Result<Mission> missionOf(const Scenario& scenario, int index) {
 
 Status saveScenario(const std::string& folder, const std::string& name,
                     const map::OccupancyGrid& chart, const map::OccupancyGrid& world,
-                    const std::vector<Mission>& missions) {
+                    const std::vector<Mission>& missions,
+                    const std::vector<vessel::ScriptedVessel>& vessels) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
@@ -118,7 +203,15 @@ Status saveScenario(const std::string& folder, const std::string& name,
   file << "chart: " << name << "_chart.yaml\nworld: " << name << "_world.yaml\nmissions:\n";
   for (const Mission& mission : missions) {
     file << "  - {kind: " << mission.kind << ", start: " << poseText(mission.start)
-         << ", goal: " << poseText(mission.goal) << "}\n";
+         << ", goal: " << poseText(mission.goal);
+    if (mission.speed_mps) {
+      file << ", speed_mps: " << *mission.speed_mps;
+    }
+    file << "}\n";
+  }
+  file << (vessels.empty() ? "" : "vessels:\n");
+  for (const vessel::ScriptedVessel& vessel : vessels) {
+    file << "  - " << vesselText(vessel) << '\n';
   }
   file.close();
   if (!file) {

@@ -36,6 +36,10 @@ class Section {
   // One of `allowed`.
   void read(const std::string& key, std::string& value, const std::vector<std::string>& allowed);
   void read(const std::string& key, std::vector<double>& values, std::size_t size, Range range);
+  // A list of numbers of any length, and one of lists of `columns` numbers each.
+  void read(const std::string& key, std::vector<double>& values, Range range);
+  void read(const std::string& key, std::vector<std::vector<double>>& rows, std::size_t columns,
+            Range range);
   // A list of texts of any length.
   void read(const std::string& key, std::vector<std::string>& values);
 
@@ -52,6 +56,7 @@ class Section {
  private:
   [[nodiscard]] YAML::Node find(const std::string& key);
   void fail(const std::string& key, const std::string& what);
+  bool areInside(const std::string& key, const std::vector<double>& values, Range range);
 
   YAML::Node node_;
   std::string where_;

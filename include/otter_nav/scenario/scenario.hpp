@@ -4,22 +4,30 @@
 //   world: NAME_world.yaml     what is there
 //   missions:
 //     - {kind: local, start: [x m, y m, yaw rad], goal: [x, y, yaw]}
+//   vessels:                   others that sail there, from each mission's start on; may be absent
+//     - {id: 1, length_m: 6.0, beam_m: 2.0, waypoints: [[x, y], ...], speeds_mps: [2.0]}
+//
+// A mission may have `speed_mps`, a limit of our own speed. A vessel has one speed or one a leg,
+// and with `ais: false` keeps silent.
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
 #include "otter_nav/vessel/pose.hpp"
+#include "otter_nav/vessel/scripted_vessel.hpp"
 
 namespace otter_nav::scenario {
 
 struct Mission {
-  std::string kind = "local";  // or "cross"
+  std::string kind = "local";  // or "cross", or "encounter": open water and other vessels
   vessel::Pose start;
   vessel::Pose goal;
+  std::optional<double> speed_mps = std::nullopt;  // never faster over ground in this mission
 };
 
 struct Scenario {
@@ -27,10 +35,12 @@ struct Scenario {
   std::string chart_path;  // absolute or relative to the working directory, as the scenario's
   std::string world_path;
   std::vector<Mission> missions;
+  std::vector<vessel::ScriptedVessel> vessels;
 };
 
-// Strict: a missing or unknown key, a pose that isn't three finite numbers, an unknown kind or an
-// empty list of missions is an error that names the file, the mission and the key.
+// Strict: a missing or unknown key, a pose that isn't three finite numbers, an unknown kind, an
+// empty list of missions, a vessel with fewer than two waypoints, a speed that isn't positive or
+// one id twice is an error that names the file, the mission or vessel, and the key.
 [[nodiscard]] Result<Scenario> loadScenario(const std::string& path);
 
 // Mission `index`, or an error that says how many there are.
@@ -39,6 +49,7 @@ struct Scenario {
 // Writes NAME.yaml, NAME_chart.{yaml,pgm} and NAME_world.{yaml,pgm} into `folder`.
 [[nodiscard]] Status saveScenario(const std::string& folder, const std::string& name,
                                   const map::OccupancyGrid& chart, const map::OccupancyGrid& world,
-                                  const std::vector<Mission>& missions);
+                                  const std::vector<Mission>& missions,
+                                  const std::vector<vessel::ScriptedVessel>& vessels = {});
 
 }  // namespace otter_nav::scenario

@@ -1,4 +1,4 @@
-#include "otter_nav/scenario/archipelago.hpp"
+#include "archipelago/archipelago.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
+#include "otter_nav/vessel/hull.hpp"
 
 namespace otter_nav::scenario {
 namespace {
@@ -97,6 +98,40 @@ TEST(Archipelago, SameSeedSameArchipelago) {
   EXPECT_EQ(a->world.cells, b->world.cells);
   EXPECT_EQ(a->missions[0].start.position, b->missions[0].start.position);
   EXPECT_NE(a->world.cells, c->world.cells);
+}
+
+TEST(Archipelago, VesselsKeepClearOfLandAndOfEveryStartAndGoal) {
+  ArchipelagoOptions options = small();
+  options.size_m = 250.0;
+  options.islands = 18.0;
+  options.vessels = 4;
+  const ArchipelagoOptions without = [&] {
+    ArchipelagoOptions o = options;
+    o.vessels = 0;
+    return o;
+  }();
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const auto archipelago = generateArchipelago(options, seed);
+    ASSERT_TRUE(archipelago.has_value()) << archipelago.error().message;
+    ASSERT_EQ(archipelago->vessels.size(), 4U);
+    EXPECT_EQ(archipelago->world.cells, generateArchipelago(without, seed)->world.cells);
+    const map::DistanceField world(archipelago->world, {30.0, false});
+    for (const vessel::ScriptedVessel& vessel : archipelago->vessels) {
+      EXPECT_GE(vessel.waypoints.size(), 3U);
+      for (double t = 0.0; t < options.route_time_s - 1.0; t += 0.7) {
+        const vessel::ScriptedMotion motion = vessel::motionAt(vessel, t);
+        ASSERT_GT(motion.speed_mps, 0.0) << t;
+        for (const Eigen::Vector2d& corner :
+             vessel::outline(vessel.hull, motion.pose.position, motion.pose.psi_rad)) {
+          EXPECT_GE(world.clearance(corner), options.route_clear_m - 1e-6);
+        }
+        for (const Mission& mission : archipelago->missions) {
+          EXPECT_GE((mission.start.position - motion.pose.position).norm(), 8.0);
+          EXPECT_GE((mission.goal.position - motion.pose.position).norm(), 8.0);
+        }
+      }
+    }
+  }
 }
 
 TEST(Archipelago, RefusesWhatCantBeDrawn) {

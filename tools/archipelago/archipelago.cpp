@@ -1,4 +1,4 @@
-#include "otter_nav/scenario/archipelago.hpp"
+#include "archipelago/archipelago.hpp"
 
 #include <algorithm>
 #include <array>
@@ -116,7 +116,7 @@ Status inRange(const char* what, double value, double min, double max) {
 
 Status check(const ArchipelagoOptions& options) {
   constexpr double kMany = 2000.0;
-  const std::array<Status, 10> checks = {
+  const std::array<Status, 11> checks = {
       inRange("size", options.size_m, 20.0, 2000.0),
       inRange("cell", options.resolution_m, 0.05, 2.0),
       inRange("cells across", options.size_m / options.resolution_m, 20.0, 8000.0),
@@ -126,6 +126,7 @@ Status check(const ArchipelagoOptions& options) {
       inRange("uncharted obstacles", options.uncharted, 0.0, kMany),
       inRange("local missions", options.local_missions, 0.0, 1000.0),
       inRange("cross missions", options.cross_missions, 0.0, 1000.0),
+      inRange("vessels", options.vessels, 0.0, 100.0),
       inRange("local distance", options.local_distance_m, 1.0, 1.4 * options.size_m)};
   for (const Status& status : checks) {
     if (!status) {
@@ -175,6 +176,12 @@ Result<Archipelago> generateArchipelago(const ArchipelagoOptions& options, std::
     return failure(missions.error().message);
   }
   archipelago.missions = std::move(*missions);
+  Result<std::vector<vessel::ScriptedVessel>> vessels =
+      chooseRoutes(archipelago.world, archipelago.missions, options, random);
+  if (!vessels) {
+    return failure(vessels.error().message);
+  }
+  archipelago.vessels = std::move(*vessels);
   return archipelago;
 }
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <iostream>
 
-#include "otter_nav/scenario/archipelago.hpp"
+#include "archipelago/archipelago.hpp"
 
 int main(int argc, char** argv) {
   using otter_nav::scenario::ArchipelagoOptions;
@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
   app.add_option("--local-distance", options.local_distance_m, "m")->capture_default_str();
   app.add_option("--cross", options.cross_missions, "missions across the map")
       ->capture_default_str();
+  app.add_option("--vessels", options.vessels, "others that sail there on bent routes")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   const auto archipelago = otter_nav::scenario::generateArchipelago(options, seed);
@@ -37,12 +39,14 @@ int main(int argc, char** argv) {
     std::cerr << "scenario_generator: " << archipelago.error().message << '\n';
     return 1;
   }
-  const auto saved = otter_nav::scenario::saveScenario(folder, name, archipelago->chart,
-                                                       archipelago->world, archipelago->missions);
+  const auto saved =
+      otter_nav::scenario::saveScenario(folder, name, archipelago->chart, archipelago->world,
+                                        archipelago->missions, archipelago->vessels);
   if (!saved) {
     std::cerr << "scenario_generator: " << saved.error().message << '\n';
     return 1;
   }
-  std::cout << folder << '/' << name << ".yaml: " << archipelago->missions.size() << " missions\n";
+  std::cout << folder << '/' << name << ".yaml: " << archipelago->missions.size() << " missions, "
+            << archipelago->vessels.size() << " vessels\n";
   return 0;
 }

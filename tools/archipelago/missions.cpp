@@ -2,8 +2,8 @@
 #include <string>
 #include <utility>
 
+#include "archipelago/archipelago.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/scenario/archipelago.hpp"
 
 namespace otter_nav::scenario {
 namespace {

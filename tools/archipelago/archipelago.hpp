@@ -1,5 +1,6 @@
 // Seeded archipelagos to sail and to test in: a chart (islands, breakwaters, pontoons, buoys), a
-// world (the chart and what floats there uncharted) and missions that can be sailed.
+// world (the chart and what floats there uncharted), missions that can be sailed, and other
+// vessels.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,9 @@ struct ArchipelagoOptions {
   int cross_missions = 4;            // 0.63 to 1.1 of the size apart
   double clear_m = 4.0;              // start and goal keep this in the world
   double passage_clearance_m = 1.6;  // start and goal are connected at this in the world
+  int vessels = 0;                   // others, on bent routes
+  double route_clear_m = 8.0;   // their outlines keep this in the world, and of each start and goal
+  double route_time_s = 600.0;  // they are under way for so long
 };
 
 // Refuses what can't be drawn: sizes and counts outside their ranges.
@@ -33,6 +37,7 @@ struct Archipelago {
   map::OccupancyGrid chart;
   map::OccupancyGrid world;
   std::vector<Mission> missions;
+  std::vector<vessel::ScriptedVessel> vessels;
 };
 
 // The same for the same seed on every machine. An error if the options are out of range or no
@@ -49,5 +54,10 @@ void drawUncharted(const ArchipelagoOptions& options, Random& random, map::Occup
 [[nodiscard]] Result<std::vector<Mission>> chooseMissions(const map::OccupancyGrid& world,
                                                           const ArchipelagoOptions& options,
                                                           Random& random);
+// Vessels of 4 to 10 m at 0.6 to 2.4 m/s whose routes keep clear of the world and of the missions'
+// ends.
+[[nodiscard]] Result<std::vector<vessel::ScriptedVessel>> chooseRoutes(
+    const map::OccupancyGrid& world, const std::vector<Mission>& missions,
+    const ArchipelagoOptions& options, Random& random);
 
 }  // namespace otter_nav::scenario
