@@ -35,6 +35,7 @@ struct Arguments {
   std::string tracks;
   std::uint64_t seed = 1;
   bool resume = false;
+  bool known = false;  // the chart shows the world
 };
 
 // "3", "10-13" or "0,2,10-13".
@@ -223,9 +224,12 @@ Result<std::vector<scenario::MissionResult>> sailAll(const Arguments& arguments)
     if (!scenario) {
       return failure(scenario.error().message);
     }
-    const auto waters = simulation::loadWaters(*scenario);
+    auto waters = simulation::loadWaters(*scenario);
     if (!waters) {
       return failure(waters.error().message);
+    }
+    if (arguments.known) {
+      waters->chart = waters->world;
     }
     for (const int index : arguments.missions.empty() ? defaultMissions(*scenario) : *chosen) {
       const scenario::MissionLabel label{scenario->name, index, arguments.vessel,
@@ -273,6 +277,7 @@ int main(int argc, char** argv) {
       app.add_option("--out", arguments.out, "result JSON, whole after each mission");
   app.add_flag("--resume", arguments.resume, "keep what --out holds, sail what is missing there")
       ->needs(out);
+  app.add_flag("--known", arguments.known, "the chart shows all that is there, to compare with");
   app.add_option("--tracks", arguments.tracks, "folder for the tracks' CSV")
       ->check(CLI::ExistingDirectory);
   CLI11_PARSE(app, argc, argv);

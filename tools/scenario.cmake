@@ -1,6 +1,7 @@
-# Seeded archipelagos: drawing, missions, other vessels' routes.
+# Seeded archipelagos (drawing, missions, other vessels' routes) and narrow fields of cylinders.
 otter_nav_room(archipelago
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/archipelago/archipelago.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/archipelago/cylinder_field.cpp
     ${CMAKE_CURRENT_LIST_DIR}/archipelago/missions.cpp
     ${CMAKE_CURRENT_LIST_DIR}/archipelago/routes.cpp
   ROOMS scenario)

@@ -1,9 +1,35 @@
-// Writes a seeded archipelago with chart, world and missions: --help says how.
+// Writes a seeded archipelago, or a narrow field of uncharted cylinders, with chart, world and
+// missions: --help says how.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <iostream>
+#include <string>
 
 #include "archipelago/archipelago.hpp"
+#include "archipelago/cylinder_field.hpp"
+
+namespace {
+
+using otter_nav::failure;
+using otter_nav::Result;
+
+// What was written, or why nothing was.
+Result<std::string> writeCylinders(const otter_nav::scenario::CylinderFieldOptions& options,
+                                   std::uint64_t seed, const std::string& folder,
+                                   const std::string& name) {
+  const auto field = otter_nav::scenario::generateCylinderField(options, seed);
+  if (!field) {
+    return failure(field.error().message);
+  }
+  return otter_nav::scenario::saveScenario(folder, name, field->chart, field->world,
+                                           {field->mission})
+      .map([&] {
+        return std::to_string(field->cylinders) + " cylinders, the best way leaves " +
+               std::to_string(field->best_m) + " m";
+      });
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using otter_nav::scenario::ArchipelagoOptions;
@@ -32,8 +58,26 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--vessels", options.vessels, "others that sail there on bent routes")
       ->capture_default_str();
+  otter_nav::scenario::CylinderFieldOptions narrow;
+  CLI::Option* cylinders = app.add_flag(
+      "--cylinders", "instead: a field of cylinders 13 m by 20 m that the chart doesn't show");
+  app.add_option("--best-min", narrow.best_min_m, "of its best way's clearance, m")
+      ->capture_default_str()
+      ->needs(cylinders);
+  app.add_option("--best-max", narrow.best_max_m, "likewise")
+      ->capture_default_str()
+      ->needs(cylinders);
   CLI11_PARSE(app, argc, argv);
 
+  if (*cylinders) {
+    const auto written = writeCylinders(narrow, seed, folder, name);
+    if (!written) {
+      std::cerr << "scenario_generator: " << written.error().message << '\n';
+      return 1;
+    }
+    std::cout << folder << '/' << name << ".yaml: " << *written << '\n';
+    return 0;
+  }
   const auto archipelago = otter_nav::scenario::generateArchipelago(options, seed);
   if (!archipelago) {
     std::cerr << "scenario_generator: " << archipelago.error().message << '\n';
