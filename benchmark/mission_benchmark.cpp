@@ -3,17 +3,24 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
+#include <type_traits>
 #include <vector>
 
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
 
@@ -23,6 +30,7 @@ namespace fs = std::filesystem;
 namespace scenario = otter_nav::scenario;
 namespace simulation = otter_nav::simulation;
 using otter_nav::failure;
+using otter_nav::firstFailure;
 using otter_nav::Result;
 using otter_nav::Status;
 
@@ -36,6 +44,8 @@ struct Arguments {
   std::uint64_t seed = 1;
   bool resume = false;
   bool known = false;  // the chart shows the world
+  int jobs = 1;
+  std::string shard;
 };
 
 // "3", "10-13" or "0,2,10-13".
@@ -102,6 +112,7 @@ scenario::MissionResult resultOf(const nlohmann::json& json) {
   result.planning_ms_max = number("planning_ms_max");
   result.tracker_ms_p99 = number("tracker_ms_p99");
   result.track = json.at("track");
+  result.vessels = json.value("vessels", "");
   return result;
 }
 
@@ -147,6 +158,27 @@ std::vector<std::string> scenarioFiles(const std::string& path) {
   return files;
 }
 
+// "I/M": of every M missions the I-th, I from 1 on.
+struct Shard {
+  int number = 1;
+  int count = 1;
+};
+Result<Shard> parseShard(const std::string& text) {
+  Shard shard;
+  char rest = 0;
+  const bool read = std::sscanf(text.c_str(), "%d/%d%c", &shard.number, &shard.count, &rest) == 2;
+  if (!text.empty() && (!read || shard.number < 1 || shard.number > shard.count)) {
+    return failure("--shard: '" + text + "' is not I/M with 1 <= I <= M");
+  }
+  return shard;
+}
+
+// A CSV beside the others, named after the mission.
+std::string csvPath(const Arguments& arguments, const scenario::MissionLabel& label,
+                    const std::string& ending) {
+  return arguments.tracks + "/" + label.scenario + "_" + std::to_string(label.mission) + ending;
+}
+
 Result<scenario::MissionResult> sail(const Arguments& arguments,
                                      const simulation::LoopOptions& options,
                                      const scenario::Scenario& scenario,
@@ -160,29 +192,42 @@ Result<scenario::MissionResult> sail(const Arguments& arguments,
   if (!loop) {
     return failure(loop.error().message);
   }
-  std::optional<scenario::TrackWriter> track;
   std::string track_path;
+  std::string vessels_path;
+  std::optional<scenario::TrackWriter> track;
+  std::optional<scenario::VesselsWriter> vessels;
+  const auto open = [](const std::string& path, auto& writer) -> Status {
+    using Writer = typename std::decay_t<decltype(writer)>::value_type;
+    return Writer::open(path).map([&](Writer opened) { writer = std::move(opened); });
+  };
   if (!arguments.tracks.empty()) {
-    track_path =
-        arguments.tracks + "/" + scenario.name + "_" + std::to_string(label.mission) + ".csv";
-    auto opened = scenario::TrackWriter::open(track_path);
+    track_path = csvPath(arguments, label, ".csv");
+    Status opened = open(track_path, track);
+    if (opened && !scenario.vessels.empty()) {
+      vessels_path = csvPath(arguments, label, "_vessels.csv");
+      opened = open(vessels_path, vessels);
+    }
     if (!opened) {
       return failure(opened.error().message);
     }
-    track = std::move(*opened);
   }
   otter_nav::ProgressLine line(std::cerr, isatty(STDERR_FILENO) != 0);
+  std::function<void(const scenario::Progress&)> progress;
+  if (arguments.jobs == 1) {
+    progress = [&](const scenario::Progress& now) {
+      line.show(scenario::progressText(now), now.state, now.t_s);
+    };
+  }
   scenario::MissionResult result =
-      simulation::run(*loop, label, options.record_period_s, track ? &*track : nullptr,
-                      [&](const scenario::Progress& progress) {
-                        line.show(scenario::progressText(progress), progress.state, progress.t_s);
-                      });
+      simulation::run(*loop, label, options.record_period_s, track ? &*track : nullptr, progress,
+                      vessels ? &*vessels : nullptr);
   line.finish();
   result.track = track_path;
-  if (track) {
-    if (const Status status = track->close(); !status) {
-      return failure(status.error().message);
-    }
+  result.vessels = vessels_path;
+  const Status closed =
+      firstFailure(track ? track->close() : Status(), vessels ? vessels->close() : Status());
+  if (!closed) {
+    return failure(closed.error().message);
   }
   return result;
 }
@@ -202,62 +247,153 @@ void printRow(const scenario::MissionResult& r) {
   std::fflush(stdout);
 }
 
-// All missions asked for; after each, --out holds all there is so far.
-Result<std::vector<scenario::MissionResult>> sailAll(const Arguments& arguments) {
+// The missions that are asked for, in their order.
+struct Task {
+  std::shared_ptr<const scenario::Scenario> scenario;
+  scenario::MissionLabel label;
+};
+Result<std::vector<Task>> tasksOf(const Arguments& arguments) {
   const auto chosen = parseMissions(arguments.missions);
-  if (!chosen) {
-    return failure(chosen.error().message);
+  const auto shard = parseShard(arguments.shard);
+  if (const Status status = firstFailure(chosen, shard); !status) {
+    return failure(status.error().message);
   }
-  const auto options = simulation::loadLoopOptions(arguments.vessel, arguments.disturbance);
-  if (!options) {
-    return failure(options.error().message);
-  }
-  auto saved =
-      arguments.resume ? loadResults(arguments.out) : std::vector<scenario::MissionResult>();
-  if (!saved) {
-    return failure(saved.error().message);
-  }
-  std::vector<scenario::MissionResult> results;
-  printHead();
+  std::vector<Task> tasks;
+  int count = 0;
   for (const std::string& file : scenarioFiles(arguments.scenarios)) {
-    const auto scenario = scenario::loadScenario(file);
-    if (!scenario) {
-      return failure(scenario.error().message);
+    auto loaded = scenario::loadScenario(file);
+    if (!loaded) {
+      return failure(loaded.error().message);
     }
-    auto waters = simulation::loadWaters(*scenario);
-    if (!waters) {
-      return failure(waters.error().message);
+    const auto shared = std::make_shared<const scenario::Scenario>(std::move(*loaded));
+    for (const int index : arguments.missions.empty() ? defaultMissions(*shared) : *chosen) {
+      if (count++ % shard->count == shard->number - 1) {
+        tasks.push_back(
+            {shared,
+             {shared->name, index, arguments.vessel, arguments.disturbance, arguments.seed}});
+      }
     }
-    if (arguments.known) {
-      waters->chart = waters->world;
+  }
+  return tasks;
+}
+
+// Sails tasks on as many threads as are asked for; whatever is done is in the file.
+class Campaign {
+ public:
+  Campaign(const Arguments& arguments, const simulation::LoopOptions& options,
+           std::vector<Task> tasks, const std::vector<scenario::MissionResult>& saved)
+      : arguments_(arguments), options_(options), tasks_(std::move(tasks)), done_(tasks_.size()) {
+    for (const scenario::MissionResult& result : saved) {
+      const auto task = std::find_if(tasks_.begin(), tasks_.end(), [&](const Task& candidate) {
+        return same(candidate.label, result.label);
+      });
+      if (task == tasks_.end()) {
+        others_.push_back(result);
+      } else {
+        done_[static_cast<std::size_t>(task - tasks_.begin())] = result;
+      }
     }
-    for (const int index : arguments.missions.empty() ? defaultMissions(*scenario) : *chosen) {
-      const scenario::MissionLabel label{scenario->name, index, arguments.vessel,
-                                         arguments.disturbance, arguments.seed};
-      const auto known =
-          std::find_if(saved->begin(), saved->end(), [&](const scenario::MissionResult& result) {
-            return arguments.resume && same(result.label, label);
-          });
-      if (known != saved->end()) {
-        printRow(*known);
-        results.push_back(*known);
+  }
+
+  Status sailAll() {
+    for (const auto& result : done_) {
+      if (result) {
+        printRow(*result);
+      }
+    }
+    std::vector<std::thread> threads;
+    for (int k = 1; k < arguments_.jobs; ++k) {
+      threads.emplace_back([this] { work(); });
+    }
+    work();
+    for (std::thread& thread : threads) {
+      thread.join();
+    }
+    return status_;
+  }
+  // Of the tasks; all of them if sailAll() succeeded.
+  [[nodiscard]] std::vector<scenario::MissionResult> results() const { return gathered({}); }
+
+ private:
+  void work() {
+    // Tasks of one scenario follow each other: its waters are loaded once.
+    std::shared_ptr<const scenario::Scenario> loaded;
+    simulation::Waters waters;
+    for (std::size_t k = next_++; k < tasks_.size(); k = next_++) {
+      const Task& task = tasks_[k];
+      if (done_[k]) {
         continue;
       }
-      auto result = sail(arguments, *options, *scenario, *waters, label);
-      if (!result) {
-        return failure(result.error().message);
-      }
-      printRow(*result);
-      results.push_back(*result);
-      saved->push_back(std::move(*result));
-      if (!arguments.out.empty()) {
-        if (const Status status = scenario::saveJson(arguments.out, *saved); !status) {
-          return failure(status.error().message);
+      if (loaded != task.scenario) {
+        auto read = simulation::loadWaters(*task.scenario);
+        if (!read) {
+          return fail(read.error().message);
         }
+        waters = std::move(*read);
+        if (arguments_.known) {
+          waters.chart = waters.world;
+        }
+        loaded = task.scenario;
+      }
+      auto result = sail(arguments_, options_, *task.scenario, waters, task.label);
+      if (!result) {
+        return fail(result.error().message);
+      }
+      if (!take(k, std::move(*result))) {
+        return;
       }
     }
   }
-  return results;
+  void fail(const std::string& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_ = failure(message);
+    next_ = tasks_.size();
+  }
+  bool take(std::size_t k, scenario::MissionResult result) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    printRow(result);
+    done_[k] = std::move(result);
+    if (!arguments_.out.empty() && status_) {
+      status_ = scenario::saveJson(arguments_.out, gathered(others_));
+    }
+    return status_.has_value();
+  }
+  // What there is, in the tasks' order.
+  [[nodiscard]] std::vector<scenario::MissionResult> gathered(
+      std::vector<scenario::MissionResult> before) const {
+    for (const auto& result : done_) {
+      if (result) {
+        before.push_back(*result);
+      }
+    }
+    return before;
+  }
+
+  const Arguments& arguments_;
+  const simulation::LoopOptions& options_;
+  std::vector<Task> tasks_;
+  std::vector<scenario::MissionResult> others_;  // in the file already, and not asked for
+  std::mutex mutex_;
+  std::vector<std::optional<scenario::MissionResult>> done_;
+  Status status_;
+  std::atomic<std::size_t> next_{0};
+};
+
+// All missions asked for; after each, --out holds all there is so far.
+Result<std::vector<scenario::MissionResult>> sailAll(const Arguments& arguments) {
+  auto tasks = tasksOf(arguments);
+  const auto options = simulation::loadLoopOptions(arguments.vessel, arguments.disturbance);
+  const auto saved = arguments.resume ? loadResults(arguments.out)
+                                      : Result<std::vector<scenario::MissionResult>>();
+  if (const Status status = firstFailure(tasks, options, saved); !status) {
+    return failure(status.error().message);
+  }
+  printHead();
+  Campaign campaign(arguments, *options, std::move(*tasks), *saved);
+  if (const Status status = campaign.sailAll(); !status) {
+    return failure(status.error().message);
+  }
+  return campaign.results();
 }
 
 }  // namespace
@@ -277,9 +413,13 @@ int main(int argc, char** argv) {
       app.add_option("--out", arguments.out, "result JSON, whole after each mission");
   app.add_flag("--resume", arguments.resume, "keep what --out holds, sail what is missing there")
       ->needs(out);
-  app.add_flag("--known", arguments.known, "the chart shows all that is there, to compare with");
-  app.add_option("--tracks", arguments.tracks, "folder for the tracks' CSV")
+  app.add_option("--tracks", arguments.tracks,
+                 "folder for the CSV of each mission's track and other vessels")
       ->check(CLI::ExistingDirectory);
+  app.add_option("--jobs", arguments.jobs, "missions at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--shard", arguments.shard, "I/M: only each M-th mission, from the I-th on");
   CLI11_PARSE(app, argc, argv);
 
   const auto results = sailAll(arguments);

@@ -1,6 +1,7 @@
 #include "lidar.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -57,7 +58,7 @@ float Lidar::report(double range_m) {
                                          : static_cast<float>(measured);
 }
 
-const Scan& Lidar::scan(const WorldMap& world, const Truth& truth) {
+const Scan& Lidar::scan(const WorldMap& world, const OtherVessels& others, const Truth& truth) {
   const Eigen::Matrix3d rotation = mapFromBody(truth);
   const Eigen::Vector3d eye = truth.position + rotation * options_.position_m;
   scan_.stamp_s = truth.stamp_s;
@@ -65,7 +66,9 @@ const Scan& Lidar::scan(const WorldMap& world, const Truth& truth) {
     const Eigen::Vector3d beam = rotation.leftCols<2>() * beams_[i];
     const double level = beam.head<2>().norm();  // metres over ground a metre of range
     const double reach = std::min(options_.range_max_m, rangeToWater(eye.z(), beam.z()));
-    const double distance = world.castRay(eye.head<2>(), beam.head<2>() / level, reach * level);
+    const Eigen::Vector2d direction = beam.head<2>() / level;
+    const double distance = std::min(world.castRay(eye.head<2>(), direction, reach * level),
+                                     others.castRay(eye.head<2>(), direction, reach * level));
     scan_.ranges[i] = report(distance / level);
   }
   return scan_;

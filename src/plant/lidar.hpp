@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "other_vessels.hpp"
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/plant/options.hpp"
 #include "otter_nav/plant/signals.hpp"
@@ -16,9 +17,9 @@ class Lidar {
  public:
   Lidar(const LidarOptions& options, std::uint64_t seed);
 
-  // Obstacles are upright walls from the water up. A beam that meets the mean water surface first
-  // returns nothing: water swallows it.
-  const Scan& scan(const WorldMap& world, const Truth& truth);
+  // Obstacles and other vessels are upright walls from the water up. A beam that meets the mean
+  // water surface first returns nothing: water swallows it.
+  const Scan& scan(const WorldMap& world, const OtherVessels& others, const Truth& truth);
 
  private:
   // A noiseless return turned into what the instrument reports.

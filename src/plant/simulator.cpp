@@ -1,14 +1,18 @@
 #include "otter_nav/plant/simulator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "ais_transmitters.hpp"
 #include "environment.hpp"
 #include "hull_contact.hpp"
 #include "lidar.hpp"
 #include "odometry_sensor.hpp"
+#include "other_vessels.hpp"
 #include "otter_nav/plant/plant_model.hpp"
+#include "radar.hpp"
 #include "world_map.hpp"
 
 namespace otter_nav::plant {
@@ -19,6 +23,8 @@ constexpr double kStepS = 0.01;  // of the integrator, at most
 // Offsets that keep the sensors' noise apart from the disturbances'.
 constexpr std::uint64_t kOdometrySeed = 0x6f646f6dULL;
 constexpr std::uint64_t kLidarSeed = 0x6c696461ULL;
+constexpr std::uint64_t kRadarSeed = 0x72616461ULL;
+constexpr std::uint64_t kAisSeed = 0x61697362ULL;
 
 }  // namespace
 
@@ -29,6 +35,8 @@ class Simulator::Impl {
       : environment_(options.disturbance, seed),
         odometry_(options.odometry, seed ^ kOdometrySeed),
         lidar_(options.lidar, seed ^ kLidarSeed),
+        radar_(options.radar, seed ^ kRadarSeed),
+        transmitters_(options.datum, seed ^ kAisSeed),
         options_(options),
         world_(world),
         model_(std::move(model)) {
@@ -38,6 +46,7 @@ class Simulator::Impl {
   void placeAt(const Eigen::Vector2d& position, double psi_rad) {
     state_ = placed(model_->settled(), position, psi_rad);
     had_contact_ = false;
+    touched_vessel_.reset();
     odometry_.reset();
     observe();
   }
@@ -70,12 +79,29 @@ class Simulator::Impl {
     constexpr double kRounding = 1e-9;
     const double period = 1.0 / options_.lidar.rate_hz;
     next_scan_s_ = (std::floor(time_s_ / period + kRounding) + 1.0) * period - kRounding;
-    return lidar_.scan(world_, truth_);
+    return lidar_.scan(world_, others_, truth_);
   }
 
+  void setVessels(std::vector<vessel::ScriptedVessel> vessels) {
+    transmitters_.set(vessels, time_s_);
+    others_.set(std::move(vessels), time_s_);
+    sentences_.clear();
+  }
+  [[nodiscard]] const std::vector<OtherVessel>& others() const { return others_.now(); }
+  [[nodiscard]] bool radarDue() const {
+    return options_.radar.range_m > 0.0 && time_s_ >= next_radar_s_;
+  }
+  const RadarScan& radar() {
+    next_radar_s_ = time_s_ + 1.0 / RadarOptions::kRateHz - 1e-9;
+    return radar_.scan(others_.now(), truth_);
+  }
+  [[nodiscard]] std::vector<std::string> takeAis() { return std::exchange(sentences_, {}); }
+
   [[nodiscard]] double clearance() const {
-    return hullClearance(world_, options_.vessel.hull, truth_.planar.head<2>(), truth_.yaw_rad,
-                         kClearanceLimit);
+    const double world = hullClearance(world_, options_.vessel.hull, truth_.planar.head<2>(),
+                                       truth_.yaw_rad, kClearanceLimit);
+    const auto nearest = nearestVessel();
+    return nearest ? std::min(world, nearest->distance_m) : world;
   }
   [[nodiscard]] Eigen::Vector2d thrustLimits() const {
     constexpr double kMore = 1e6;
@@ -92,6 +118,7 @@ class Simulator::Impl {
   [[nodiscard]] const Odometry& odometry() const { return odometry_.latest(); }
   [[nodiscard]] bool inContact() const { return in_contact_; }
   [[nodiscard]] bool hadContact() const { return had_contact_; }
+  [[nodiscard]] std::optional<int> touchedVessel() const { return touched_vessel_; }
   [[nodiscard]] const Options& options() const { return options_; }
 
  private:
@@ -106,6 +133,8 @@ class Simulator::Impl {
       return surroundings(conditions, x, *model_);
     });
     time_s_ += dt_s;
+    others_.advance(time_s_);
+    transmitters_.advance(others_.now(), time_s_, sentences_);
     truth_.wind_mps = conditions.wind_mps;
     truth_.current_mps = conditions.current_mps;
     observe();
@@ -122,12 +151,24 @@ class Simulator::Impl {
     odometry_.measure(truth_);
     in_contact_ =
         hullTouches(world_, options_.vessel.hull, truth_.planar.head<2>(), truth_.yaw_rad);
+    if (const auto nearest = nearestVessel(); nearest && nearest->distance_m == 0.0) {
+      in_contact_ = true;
+      touched_vessel_ = others_.now()[nearest->index].id;
+    }
     had_contact_ = had_contact_ || in_contact_;
+  }
+
+  [[nodiscard]] std::optional<OtherVessels::Nearest> nearestVessel() const {
+    return others_.nearest(options_.vessel.hull, truth_.planar.head<2>(), truth_.yaw_rad);
   }
 
   Environment environment_;
   OdometrySensor odometry_;
   Lidar lidar_;
+  Radar radar_;
+  OtherVessels others_;
+  AisTransmitters transmitters_;
+  std::vector<std::string> sentences_;  // sent and not yet taken
   PlantState state_ = PlantState::Zero();
   Truth truth_;
   Eigen::Vector2d command_ = Eigen::Vector2d::Zero();
@@ -137,8 +178,10 @@ class Simulator::Impl {
   double time_s_ = 0.0;
   double command_time_s_ = -std::numeric_limits<double>::infinity();
   double next_scan_s_ = 0.0;
+  double next_radar_s_ = 0.0;
   bool in_contact_ = false;
   bool had_contact_ = false;
+  std::optional<int> touched_vessel_;
 };
 
 Simulator::Simulator(const Options& options, const map::OccupancyGrid& world, std::uint64_t seed) {
@@ -203,6 +246,24 @@ bool Simulator::inContact() const {
 }
 bool Simulator::hadContact() const {
   return impl_->hadContact();
+}
+std::optional<int> Simulator::touchedVessel() const {
+  return impl_->touchedVessel();
+}
+void Simulator::setVessels(std::vector<vessel::ScriptedVessel> vessels) {
+  impl_->setVessels(std::move(vessels));
+}
+const std::vector<OtherVessel>& Simulator::others() const {
+  return impl_->others();
+}
+bool Simulator::radarDue() const {
+  return impl_->radarDue();
+}
+const RadarScan& Simulator::radar() {
+  return impl_->radar();
+}
+std::vector<std::string> Simulator::takeAis() {
+  return impl_->takeAis();
 }
 double Simulator::clearance() const {
   return impl_->clearance();

@@ -27,6 +27,9 @@ std::string toJson(const std::vector<MissionResult>& results) {
                                       {"planning_ms_max", result.planning_ms_max},
                                       {"tracker_ms_p99", result.tracker_ms_p99},
                                       {"track", result.track}};
+    if (!result.vessels.empty()) {
+      mission["vessels"] = result.vessels;
+    }
     if (!result.reason.empty()) {
       mission["reason"] = result.reason;
     }
@@ -80,6 +83,34 @@ Status TrackWriter::close() {
   file_.close();
   if (!file_) {
     return failure("can't write track " + path_);
+  }
+  return {};
+}
+
+VesselsWriter::VesselsWriter(std::ofstream file, std::string path)
+    : file_(std::move(file)), path_(std::move(path)) {}
+
+Result<VesselsWriter> VesselsWriter::open(const std::string& path) {
+  std::ofstream file(path);
+  file << "t,id,x,y,psi,speed_mps\n";
+  if (!file) {
+    return failure("can't write vessels " + path);
+  }
+  return VesselsWriter(std::move(file), path);
+}
+
+void VesselsWriter::write(double t_s, int id, const vessel::ScriptedMotion& motion) {
+  char line[160];
+  std::snprintf(line, sizeof(line), "%.3f,%d,%.4f,%.4f,%.5f,%.4f\n", t_s, id,
+                motion.pose.position.x(), motion.pose.position.y(), motion.pose.psi_rad,
+                motion.speed_mps);
+  file_ << line;
+}
+
+Status VesselsWriter::close() {
+  file_.close();
+  if (!file_) {
+    return failure("can't write vessels " + path_);
   }
   return {};
 }

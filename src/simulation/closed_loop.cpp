@@ -1,6 +1,7 @@
 #include "otter_nav/simulation/closed_loop.hpp"
 
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include "otter_nav/stopping/splice.hpp"
@@ -43,6 +44,7 @@ Result<ClosedLoop> ClosedLoop::create(const LoopOptions& options, Waters waters,
   if (!plant) {
     return failure(plant.error().message);
   }
+  plant->setVessels(std::move(waters.vessels));
   return ClosedLoop(options, std::move(*plant), std::move(waters.chart), mission, seed);
 }
 
@@ -102,8 +104,8 @@ void ClosedLoop::control() {
 
 void ClosedLoop::judge() {
   if (plant_.hadContact()) {
-    finish(scenario::Outcome::kCollided,
-           "the hull touched something while " + std::string(mission::name(supervisor_.phase())));
+    finish(scenario::Outcome::kCollided, "the hull touched " + touched() + " while " +
+                                             std::string(mission::name(supervisor_.phase())));
   } else if (supervisor_.phase() == mission::Phase::kArrived) {
     finish(scenario::Outcome::kArrived, {});
   } else if (supervisor_.phase() == mission::Phase::kFailed) {
@@ -112,6 +114,18 @@ void ClosedLoop::judge() {
     finish(scenario::Outcome::kTimeout,
            std::string(mission::name(supervisor_.phase())) + ": " + supervisor_.reason());
   }
+}
+
+// With our own speed: being run into while at rest is another matter than running into something.
+std::string ClosedLoop::touched() const {
+  const std::optional<int> vessel = plant_.touchedVessel();
+  if (!vessel) {
+    return "something";
+  }
+  char text[64];
+  std::snprintf(text, sizeof(text), "vessel %d at %.2f m/s of our own", *vessel,
+                plant_.truth().planar.segment<2>(vessel::kSurge).norm());
+  return text;
 }
 
 void ClosedLoop::carryOut(const mission::Orders& orders) {

@@ -51,20 +51,28 @@ Result<Waters> loadWaters(const scenario::Scenario& scenario) {
   if (const Status status = firstFailure(chart, world); !status) {
     return failure(status.error().message);
   }
-  return Waters{std::move(*chart), std::move(*world)};
+  return Waters{std::move(*chart), std::move(*world), scenario.vessels};
 }
 
 scenario::MissionResult run(ClosedLoop& loop, const scenario::MissionLabel& label,
                             double record_period_s, scenario::TrackWriter* track,
-                            const std::function<void(const scenario::Progress&)>& progress) {
+                            const std::function<void(const scenario::Progress&)>& progress,
+                            scenario::VesselsWriter* vessels) {
   constexpr double kProgressS = 0.5;
   double next_record_s = loop.time();
   double next_progress_s = loop.time();
   bool going = true;
   while (going) {
     going = loop.step();
-    if (track != nullptr && (loop.time() >= next_record_s || !going)) {
-      track->write(loop.motion());
+    if (loop.time() >= next_record_s || !going) {
+      if (track != nullptr) {
+        track->write(loop.motion());
+      }
+      for (const plant::OtherVessel& other : loop.others()) {
+        if (vessels != nullptr) {
+          vessels->write(loop.time(), other.id, other.motion);
+        }
+      }
       next_record_s += record_period_s;
     }
     if (progress && (loop.time() >= next_progress_s || !going)) {

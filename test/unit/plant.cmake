@@ -11,3 +11,4 @@ otter_nav_test(unit_plant
     ${CMAKE_CURRENT_LIST_DIR}/plant/simulator_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/plant/waves_test.cpp
   ROOMS plant_replay)
+otter_nav_test(unit_plant_other_vessels SOURCES ${CMAKE_CURRENT_LIST_DIR}/plant/other_vessels_test.cpp ROOMS plant)

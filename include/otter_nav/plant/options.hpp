@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "otter_nav/ais/local_frame.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/fields.hpp"
@@ -176,6 +177,21 @@ struct LidarOptions {
   }
 };
 
+// A sensor of other vessels' positions round about.
+struct RadarOptions {
+  double range_m = 150.0;
+  double noise_m = 1.0;
+  static constexpr double kRateHz = 1.0;
+  static constexpr double kDetectionProbability = 0.95;
+  static constexpr double kFalsePerScan = 0.05;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("range_m", o.range_m, {0.0, 100000.0}, "it sees this far; 0: there is none");
+    fields("noise_m", o.noise_m, {0.0, 100.0}, "standard deviation, each axis");
+  }
+};
+
 struct Options {
   // The hull, and the model its file asks for (`plant_model`).
   vessel::Parameters vessel;
@@ -187,6 +203,8 @@ struct Options {
   PayloadOptions payload;
   OdometryOptions odometry;
   LidarOptions lidar;
+  RadarOptions radar;
+  ais::Datum datum;
 
   // config/plant.yaml: all but the first three.
   template <typename Self, typename Fields>
@@ -196,6 +214,8 @@ struct Options {
     fields.group("payload", o.payload, "of the plant model otter");
     fields.group("odometry", o.odometry, "what is reported of the truth; zeros report it as it is");
     fields.group("lidar", o.lidar, "where it sits and what it sees");
+    fields.group("radar", o.radar, "once a second, positions of other vessels");
+    fields.group("datum", o.datum, "the map's origin on the globe, for AIS");
   }
 };
 

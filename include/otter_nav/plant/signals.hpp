@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/scripted_vessel.hpp"
 #include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::plant {
@@ -44,6 +46,19 @@ struct Scan {
   double range_min_m = 0.0;
   double range_max_m = 0.0;
   std::vector<float> ranges;
+};
+
+// Another vessel as it is now.
+struct OtherVessel {
+  int id = 0;
+  vessel::Hull hull;
+  vessel::ScriptedMotion motion;
+};
+
+// The middles of other vessels, as a radar sees them: m ahead and to port of base_link, level.
+struct RadarScan {
+  double stamp_s = 0.0;
+  std::vector<Eigen::Vector2d> positions_in_base;
 };
 
 }  // namespace otter_nav::plant

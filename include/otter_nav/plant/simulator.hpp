@@ -9,11 +9,15 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
 #include "otter_nav/plant/options.hpp"
 #include "otter_nav/plant/signals.hpp"
+#include "otter_nav/vessel/scripted_vessel.hpp"
 #include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::plant {
@@ -55,11 +59,25 @@ class Simulator {
   // Casts the beams from the present pose. The reference stays valid until the next call.
   [[nodiscard]] const Scan& scan();
 
-  // Whether the hull's outline touches an occupied cell now, or has since placeAt().
+  // Other vessels sail from now on, their time counted from the plant's time zero. They do as they
+  // are written; the lidar, the radar and AIS tell of them, and contact with them is contact.
+  void setVessels(std::vector<vessel::ScriptedVessel> vessels);
+  [[nodiscard]] const std::vector<OtherVessel>& others() const;
+
+  // True once a second of simulated time where there is a radar, until radar() is called. The
+  // reference stays valid until the next call.
+  [[nodiscard]] bool radarDue() const;
+  [[nodiscard]] const RadarScan& radar();
+  // The AIS sentences (!AIVDM) sent since the last call.
+  [[nodiscard]] std::vector<std::string> takeAis();
+
+  // Whether the hull's outline touches an occupied cell or another vessel now, or has since
+  // placeAt(); and which vessel it touched last.
   [[nodiscard]] bool inContact() const;
   [[nodiscard]] bool hadContact() const;
-  // Exact distance, m, of the hull's outline to the nearest occupied cell, 0 in contact; saturates
-  // at kClearanceLimit.
+  [[nodiscard]] std::optional<int> touchedVessel() const;
+  // Exact distance, m, of the hull's outline to the nearest occupied cell or vessel, 0 in contact;
+  // saturates at kClearanceLimit.
   [[nodiscard]] double clearance() const;
   static constexpr double kClearanceLimit = 20.0;
 

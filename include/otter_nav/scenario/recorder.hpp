@@ -36,7 +36,8 @@ struct MissionResult {
   double planning_ms_median = 0.0;
   double planning_ms_max = 0.0;
   double tracker_ms_p99 = 0.0;
-  std::string track;  // the CSV's path; empty if none was written
+  std::string track;    // the CSV's path; empty if none was written
+  std::string vessels;  // the same of other vessels
 };
 
 // The true motion at one instant, and where the vessel should have been.

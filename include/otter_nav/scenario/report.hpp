@@ -7,13 +7,14 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/scenario/recorder.hpp"
+#include "otter_nav/vessel/scripted_vessel.hpp"
 
 namespace otter_nav::scenario {
 
 // {"missions": [{"scenario", "mission", "vessel", "disturbance", "seed", "outcome", "duration_s",
 // "distance_m", "min_clearance_m", "tracking_error_mean_m", "tracking_error_max_m", "replans",
 // "planning_ms_median", "planning_ms_max", "tracker_ms_p99", "track"}]}, and "reason" in those
-// that did not arrive.
+// that did not arrive, and "vessels" where others sailed.
 [[nodiscard]] std::string toJson(const std::vector<MissionResult>& results);
 // The file is whole at any time: the old one stands until the new one is written.
 [[nodiscard]] Status saveJson(const std::string& path, const std::vector<MissionResult>& results);
@@ -29,6 +30,20 @@ class TrackWriter {
 
  private:
   TrackWriter(std::ofstream file, std::string path);
+  std::ofstream file_;
+  std::string path_;
+};
+
+// Other vessels' true motion as CSV: t,id,x,y,psi,speed_mps (ENU; SI units), a row a vessel and
+// instant.
+class VesselsWriter {
+ public:
+  [[nodiscard]] static Result<VesselsWriter> open(const std::string& path);
+  void write(double t_s, int id, const vessel::ScriptedMotion& motion);
+  [[nodiscard]] Status close();
+
+ private:
+  VesselsWriter(std::ofstream file, std::string path);
   std::ofstream file_;
   std::string path_;
 };

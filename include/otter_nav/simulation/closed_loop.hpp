@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
@@ -19,6 +20,7 @@
 #include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/tracker/tracker.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/scripted_vessel.hpp"
 
 namespace otter_nav::simulation {
 
@@ -45,6 +47,7 @@ struct LoopOptions {
 struct Waters {
   map::OccupancyGrid chart;
   map::OccupancyGrid world;
+  std::vector<vessel::ScriptedVessel> vessels = {};  // others that sail there
 };
 [[nodiscard]] Result<Waters> loadWaters(const scenario::Scenario& scenario);
 
@@ -67,6 +70,8 @@ class ClosedLoop {
   [[nodiscard]] const mission::Supervisor& supervisor() const { return supervisor_; }
   // The true motion and the reference now.
   [[nodiscard]] scenario::MotionSample motion() const;
+  // Other vessels as they truly are.
+  [[nodiscard]] const std::vector<plant::OtherVessel>& others() const { return plant_.others(); }
   [[nodiscard]] scenario::Progress progress() const;
   [[nodiscard]] scenario::MissionResult result(const scenario::MissionLabel& label) const;
 
@@ -78,6 +83,7 @@ class ClosedLoop {
   void start();
   void control();
   void judge();
+  [[nodiscard]] std::string touched() const;
   void carryOut(const mission::Orders& orders);
   [[nodiscard]] mission::Situation situation() const;
   [[nodiscard]] feasibility::Obstacles obstacles() const;  // on the clock of time()
@@ -106,9 +112,11 @@ class ClosedLoop {
   std::string reason_;
 };
 
-// step() to the end; the track goes to `track` and the progress to `progress` if they are given.
+// step() to the end; the track goes to `track`, the other vessels' to `vessels` and the progress to
+// `progress` if they are given.
 [[nodiscard]] scenario::MissionResult run(
     ClosedLoop& loop, const scenario::MissionLabel& label, double record_period_s,
-    scenario::TrackWriter* track, const std::function<void(const scenario::Progress&)>& progress);
+    scenario::TrackWriter* track, const std::function<void(const scenario::Progress&)>& progress,
+    scenario::VesselsWriter* vessels = nullptr);
 
 }  // namespace otter_nav::simulation

@@ -114,6 +114,53 @@ TEST_F(MissionBenchmark, ResumesWhatWasCutOff) {
   EXPECT_EQ(numbersOf(missions()), (std::vector<int>{0, 1, 2, 0}));
 }
 
+TEST_F(MissionBenchmark, ShardsAndJobsSailEachMissionOnce) {
+  write({"local", "local", "local", "local", "local"});
+  EXPECT_EQ(exitCode(start({"--shard", "2/3", "--jobs", "2"})), 0);
+  EXPECT_EQ(numbersOf(missions()), (std::vector<int>{1, 4}));
+  const json alone = missions();
+  EXPECT_EQ(exitCode(start({"--missions", "0-4", "--jobs", "3"})), 0);
+  EXPECT_EQ(numbersOf(missions()), (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(missions()[4].at("duration_s"), alone[1].at("duration_s"));
+  EXPECT_EQ(missions()[4].at("tracking_error_max_m"), alone[1].at("tracking_error_max_m"));
+  for (const char* wrong : {"0/3", "4/3", "3", "a/3", "1/3x"}) {
+    EXPECT_EQ(exitCode(start({"--shard", wrong})), 2) << wrong;
+  }
+}
+
+TEST_F(MissionBenchmark, WritesWhereOtherVesselsWere) {
+  write({"local"});
+  std::ofstream(folder_ / "pond.yaml", std::ios::app)
+      << "vessels:\n  - {id: 5, length_m: 6, beam_m: 2, waypoints: [[300, 200], [400, 200]], "
+         "speeds_mps: [2]}\n";
+  EXPECT_EQ(exitCode(start({"--tracks", folder_.string()})), 0);
+  const json mission = missions()[0];
+  ASSERT_EQ(mission.at("vessels"), (folder_ / "pond_0_vessels.csv").string());
+  std::ifstream file(mission.at("vessels").get<std::string>());
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "t,id,x,y,psi,speed_mps");
+  double before = 0.0;
+  int rows = 0;
+  for (; std::getline(file, line); ++rows) {
+    double t = 0.0;
+    double x = 0.0;
+    double y = 0.0;
+    double psi = 0.0;
+    double speed = 0.0;
+    int id = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%d,%lf,%lf,%lf,%lf", &t, &id, &x, &y, &psi, &speed),
+              6);
+    EXPECT_EQ(id, 5);
+    EXPECT_NEAR(x, 300.0 + 2.0 * t, 2e-3);
+    EXPECT_EQ(speed, 2.0);
+    EXPECT_LE(t - before, 0.1 + 1e-6);
+    before = t;
+  }
+  EXPECT_GT(rows, 50);
+  EXPECT_NEAR(before, mission.at("duration_s").get<double>(), 0.2);
+}
+
 TEST_F(MissionBenchmark, DoesNotResumeFromAnythingElse) {
   std::ofstream(out()) << "{\"missions\": [{\"mission\": 0";
   EXPECT_EQ(exitCode(start({"--missions", "0", "--resume"})), 2);

@@ -59,6 +59,17 @@ TEST(ClosedLoop, StopsSafelyAndSaysWhyWhenTheGoalIsWalledOff) {
   EXPECT_LT(loop->motion().state.segment<2>(vessel::kSurge).norm(), 0.5);
 }
 
+// Nobody can get out of the way of a vessel this long and fast.
+TEST(ClosedLoop, ContactWithAVesselEndsTheMissionAndNamesHer) {
+  Waters waters{test::openWater(60.0), {}, {}};
+  waters.world = waters.chart;
+  waters.vessels = {{7, {50.0, 5.0}, true, {{-20.0, 45.0}, {-20.0, -200.0}}, {8.0}}};
+  const scenario::MissionResult result = sail(waters);
+  EXPECT_EQ(result.outcome, scenario::Outcome::kCollided);
+  EXPECT_NE(result.reason.find("vessel 7"), std::string::npos) << result.reason;
+  EXPECT_EQ(result.min_clearance_m, 0.0);
+}
+
 // The chart ends at x = -30 m, the water goes on.
 TEST(ClosedLoop, ComesBackFromOverTheChartsEdge) {
   const Waters waters{test::openWater(60.0), test::openWater(100.0)};
