@@ -8,19 +8,26 @@ set(OTTER_NAV_PRECOMPILED
     <algorithm> <array> <cmath> <functional> <limits> <memory> <optional> <sstream> <string>
     <utility> <vector> <Eigen/Cholesky> <Eigen/Core> <tl/expected.hpp> <yaml-cpp/yaml.h>)
 
+set(OTTER_NAV_PRECOMPILED_ROS
+    <map> <nav_msgs/OccupancyGrid.h> <nav_msgs/Odometry.h> <nav_msgs/Path.h> <ros/ros.h>)
+
 function(otter_nav_add_precompiled kind main headers)
-  if(kind STREQUAL "library")
-    add_library(otter_nav_precompiled_library STATIC ${main})
+  if(kind STREQUAL "library" OR kind STREQUAL "ros")
+    add_library(otter_nav_precompiled_${kind} STATIC ${main})
   else()
     add_executable(otter_nav_precompiled_${kind} ${main})
   endif()
   set(target otter_nav_precompiled_${kind})
   target_include_directories(${target} SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIR})
   target_link_libraries(${target} PRIVATE tl::expected yaml-cpp ${ARGN})
+  if(kind MATCHES "ros|node")
+    target_include_directories(${target} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+    target_link_libraries(${target} PRIVATE ${catkin_LIBRARIES})
+  endif()
   target_precompile_headers(${target} PRIVATE ${headers})
 endfunction()
 
-# otter_nav_precompiled(target kind): kind is library, program or test.
+# otter_nav_precompiled(target kind): kind is library, program or test; ros or node for what knows ROS.
 function(otter_nav_precompiled target kind)
   if(NOT OTTER_NAV_PRECOMPILE)
     return()
@@ -35,6 +42,8 @@ function(otter_nav_precompiled target kind)
     if(kind STREQUAL "test")
       list(APPEND headers <gtest/gtest.h>)
       set(libraries GTest::gtest)
+    elseif(kind MATCHES "ros|node")
+      list(APPEND headers ${OTTER_NAV_PRECOMPILED_ROS})
     endif()
     otter_nav_add_precompiled(${kind} ${main} "${headers}" ${libraries})
   endif()

@@ -1,11 +1,11 @@
-# A room is one static library, otter_nav_<name>, of the core. What it may use is what it links:
+# A room is one library, otter_nav_<name>, of the core, static unless OTTER_NAV_SHARED. What it may use is what it links:
 #   otter_nav_room(map SOURCES a.cpp b.cpp ROOMS base vessel LIBRARIES OctoMap)
 # Headers that only the room itself includes lie beside their sources and are included as
 # "map/chart_image.hpp"; so do the room's own tests and benchmarks.
 function(otter_nav_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES;SYSTEM_INCLUDES" ${ARGN})
   set(target otter_nav_${name})
-  add_library(${target} STATIC ${ROOM_SOURCES})
+  add_library(${target} ${OTTER_NAV_LIBRARY_KIND} ${ROOM_SOURCES})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include
                              PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_include_directories(${target} SYSTEM PUBLIC ${EIGEN3_INCLUDE_DIR} ${ROOM_SYSTEM_INCLUDES})
@@ -14,6 +14,16 @@ function(otter_nav_room name)
   endforeach()
   target_link_libraries(${target} PUBLIC ${ROOM_LIBRARIES})
   otter_nav_precompiled(${target} library)
+  otter_nav_install_library(${target})
+endfunction()
+
+# Shared libraries serve this package alone, so they lie in a folder of their own.
+add_custom_target(otter_nav_rooms)
+function(otter_nav_install_library target)
+  add_dependencies(otter_nav_rooms ${target})
+  if(OTTER_NAV_SHARED AND NOT OTTER_NAV_CORE_ONLY)
+    install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/otter_nav)
+  endif()
 endfunction()
 
 # A test binary of the core: otter_nav_test(vessel_flatness SOURCES x.cpp ROOMS vessel)

@@ -5,5 +5,9 @@ endforeach()
 if(EXISTS ${PROJECT_SOURCE_DIR}/scenarios)
   install(DIRECTORY scenarios/ DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/scenarios)
 endif()
+# `otter_nav PROGRAM`, with its completion in bash.
+install(PROGRAMS scripts/otter_nav DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+install(FILES packaging/otter_nav.bash
+  DESTINATION ${CATKIN_GLOBAL_SHARE_DESTINATION}/bash-completion/completions RENAME otter_nav)
 catkin_install_python(PROGRAMS python/programs/animate python/programs/bag_to_tum python/programs/report
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -1,10 +1,14 @@
 # The ROS side of the build: messages, and the catkin package around the core.
 # Packages that look for Python themselves must find the interpreter catkin uses.
 set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE} CACHE FILEPATH "Python for ament" FORCE)
-find_package(catkin REQUIRED COMPONENTS
+set(components
   actionlib diagnostic_msgs diagnostic_updater geometry_msgs map_msgs message_generation
-  move_base_msgs nav_msgs rosbag roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs tf2 tf2_msgs
-  tf2_ros visualization_msgs xmlrpcpp)
+  move_base_msgs nav_msgs roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs tf2 tf2_msgs tf2_ros
+  visualization_msgs xmlrpcpp)
+if(OTTER_NAV_PROGRAMS)
+  list(APPEND components rosbag)
+endif()
+find_package(catkin REQUIRED COMPONENTS ${components})
 
 # Messages are generated into the Python package of python/.
 catkin_python_setup()

@@ -5,15 +5,21 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 
 packages_of() {
-  awk -v group="[$1]" '/^\[/ {on = ($0 == group); next} on && NF && !/^#/ {print $1}' \
-    "$here/dependencies.txt"
+  local line
+  for line in $(awk -v group="[$1]" '/^\[/ {on = ($0 == group); next} on && NF && !/^#/ {print $1}' \
+      "$here/dependencies.txt"); do
+    case $line in
+      @*) packages_of "${line#@}" ;;
+      *) echo "$line" ;;
+    esac
+  done
 }
 
 missing=()
 for group in "${@:-build}"; do
   wanted=$(packages_of "$group")
   if [ -z "$wanted" ]; then
-    echo "install_dependencies: unknown group '$group' (build, test, lint, rviz)" >&2
+    echo "install_dependencies: unknown group '$group' (mission, build, test, lint, package, rviz)" >&2
     exit 2
   fi
   for package in $wanted; do

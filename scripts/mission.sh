@@ -63,11 +63,11 @@ number='^[0-9]+([.][0-9]+)?$'
 mkdir -p "$(dirname "$result")" || die "--result: can't make '$(dirname "$result")'"
 
 if $build; then
-  groups=(build)
+  groups=(mission)
   if $rviz; then groups+=(rviz); fi
   "$top/scripts/install_dependencies.sh" "${groups[@]}"
   echo "Building (build/build.log has the details)"
-  "$top/scripts/build.sh"
+  "$top/scripts/build.sh" --mission
 fi
 [ -f "$top/install/setup.bash" ] || die "nothing is built yet: run without --no-build"
 set +u

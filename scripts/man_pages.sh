@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Writes a manual page for each program of a folder from its --help: man_pages.sh PROGRAMS OUT
+# Needs help2man. The pages are otter_nav-PROGRAM(1), and otter_nav(1) for what runs them.
+set -euo pipefail
+[ $# -eq 2 ] || { echo "Usage: man_pages.sh PROGRAMS OUT" >&2; exit 2; }
+top=$(cd "$(dirname "$0")/.." && pwd)
+programs=$(cd "$1" && pwd)
+mkdir -p "$2"
+out=$(cd "$2" && pwd)
+version=$(sed -n 's:.*<version>\(.*\)</version>.*:\1:p' "$top/package.xml")
+
+page() { # name, command, what it is
+  help2man --no-info --section 1 --source "otter_nav $version" --version-string "$version" \
+    --manual "otter_nav" --name "$3" --output "$out/$1.1" "$2"
+  # The command as it is typed, not the folder it was asked in.
+  sed -i "s:$programs/::g" "$out/$1.1"
+}
+
+for program in "$programs"/*; do
+  name=${program##*/}
+  case $name in *_node) continue ;; esac
+  [ -f "$program" ] && [ -x "$program" ] || continue
+  # CLI11 begins with the sentence about the program, argparse has it after the usage.
+  what=$("$program" --help | awk '/^[A-Z]/ && !/^[Uu]sage/ {print; exit}')
+  page "otter_nav-$name" "$program" "${what:-a program of otter_nav}"
+done
+page otter_nav "$top/scripts/otter_nav" "navigation of a small under-actuated vessel"
