@@ -71,8 +71,8 @@ void dumpRow(std::ostream& out, const plant::Truth& truth, const vessel::State& 
   }
   out << ',' << (truth.planar.head<2>() - reference.head<2>()).norm() << ','
       << command.outside_force_n.x() << ',' << command.outside_force_n.y() << ','
-      << command.outside_moment_nm << ',' << command.disturbance.current_mps.x() << ','
-      << command.disturbance.current_mps.y() << ',' << tracker::name(command.mode) << '\n';
+      << command.outside_moment_nm << ',' << command.disturbance.mean.current_mps.x() << ','
+      << command.disturbance.mean.current_mps.y() << ',' << tracker::name(command.mode) << '\n';
 }
 
 }  // namespace

@@ -24,15 +24,16 @@ constexpr double kLeastForceShare = 0.02;  // |w| while turning, of both thruste
 }  // namespace
 
 EdgeCheck::EdgeCheck(const vessel::Parameters& vessel)
-    : inverse_(vessel), thrusters_(vessel.thrusters), hull_(vessel.hull) {}
+    : vessel_(vessel), inverse_(vessel), hull_(vessel.hull) {}
 
 void EdgeCheck::begin(const Obstacles& obstacles, const SafetyLimits& limits) {
   obstacles_ = obstacles;
   limits_ = limits;
+  inverse_ = vessel::InverseDynamics(vessel_, limits.disturbance);
   hull_ = HullCover(limits.hull);
   speed_max_mps_ = kSpeedShare * limits.speed_max_mps;
-  force_ahead_n_ = 2.0 * limits.thrust_share * thrusters_.ahead_max_n;
-  force_astern_n_ = 2.0 * limits.thrust_share * thrusters_.astern_max_n;
+  force_ahead_n_ = 2.0 * limits.thrust_share * vessel_.thrusters.ahead_max_n;
+  force_astern_n_ = 2.0 * limits.thrust_share * vessel_.thrusters.astern_max_n;
 }
 
 // Position, velocity and acceleration alone: a third of the work of Piece::flat, in the hottest
@@ -54,8 +55,9 @@ EdgeFault EdgeCheck::checkMotion(const Motion& motion) const {
   if (speed2 > speed_max_mps_ * speed_max_mps_) {
     return EdgeFault::kSpeed;
   }
-  const Eigen::Vector2d force = inverse_.surgeForce(motion.velocity, motion.acceleration);
-  const double limit = force.dot(motion.velocity) >= 0.0 ? force_ahead_n_ : force_astern_n_;
+  const Eigen::Vector2d through = inverse_.throughWater(motion.velocity);
+  const Eigen::Vector2d force = inverse_.push(through, motion.velocity, motion.acceleration);
+  const double limit = force.dot(through) >= 0.0 ? force_ahead_n_ : force_astern_n_;
   return force.squaredNorm() > limit * limit ? EdgeFault::kForce : EdgeFault::kNone;
 }
 
@@ -80,11 +82,12 @@ EdgeFault EdgeCheck::check(const trajectory::Piece& piece, double start_s) const
 }
 
 EdgeFault EdgeCheck::checkTurning(const vessel::FlatPoint& z) const {
+  const Eigen::Vector2d through = inverse_.throughWater(z.velocity);
   const double speed = z.velocity.norm();
   if (speed < kSlowMps) {
     return EdgeFault::kNone;
   }
-  const double floor = kLeastForceShare * 2.0 * thrusters_.ahead_max_n;
+  const double floor = kLeastForceShare * 2.0 * vessel_.thrusters.ahead_max_n;
   const Eigen::Vector2d w = inverse_.headingForce(z.velocity, z.acceleration);
   const Eigen::Vector2d w1 = inverse_.headingForceRate(z.acceleration, z.jerk);
   const double force2 = w.squaredNorm();
@@ -93,7 +96,7 @@ EdgeFault EdgeCheck::checkTurning(const vessel::FlatPoint& z) const {
     return EdgeFault::kYawRate;
   }
   const double turning = std::abs(cross(z.velocity, z.acceleration)) / (speed * speed);
-  const bool undefined = w.dot(z.velocity) < 0.0 || force2 < floor * floor;
+  const bool undefined = w.dot(through) < 0.0 || force2 < floor * floor;
   return turning > kTurningRadps && undefined ? EdgeFault::kHeading : EdgeFault::kNone;
 }
 
@@ -119,7 +122,7 @@ bool EdgeCheck::isClear(const trajectory::Piece& piece, double start_s) const {
     const Motion m = motionAt(piece, t);
     const auto bow = [&]() -> Eigen::Vector2d {
       const Eigen::Vector2d w = inverse_.headingForce(m.velocity, m.acceleration);
-      const Eigen::Vector2d along = w.squaredNorm() > 1e-6 ? w : m.velocity;
+      const Eigen::Vector2d along = w.squaredNorm() > 1e-6 ? w : inverse_.throughWater(m.velocity);
       return along / std::max(along.norm(), 1e-6);
     };
     return hull_.slack(*obstacles_, m.position, start_s + t, limits_.clearance_m, bow, centre);

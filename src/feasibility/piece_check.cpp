@@ -57,14 +57,20 @@ struct PieceCheck::Point {
 
 PieceCheck::PieceCheck(const trajectory::Piece& piece, const vessel::Parameters& vessel,
                        const SafetyLimits& limits, const Tolerances& tolerances)
-    : piece_(piece), vessel_(vessel), inverse_(vessel), limits_(limits), tolerances_(tolerances) {
+    : piece_(piece),
+      vessel_(vessel),
+      inverse_(vessel, limits.disturbance),
+      limits_(limits),
+      tolerances_(tolerances) {
   velocity_ = trajectory::differentiate<8>(piece.position);
   acceleration_ = trajectory::differentiate<7>(velocity_);
   jerk_ = trajectory::differentiate<6>(acceleration_);
   snap_ = trajectory::differentiate<5>(jerk_);
   if (piece.kind == trajectory::PieceKind::kSail) {
     direction_ = trajectory::lineOf(piece);
-    straight_ = direction_.squaredNorm() > 0.5;
+    // With a load from abeam the hull goes crabwise.
+    straight_ =
+        direction_.squaredNorm() > 0.5 && std::abs(inverse_.loadAbeam(direction_)) <= kSwayN;
   }
 }
 
@@ -81,7 +87,8 @@ inline PieceCheck::Point PieceCheck::at(double t_s) const {
   }
   z.jerk = evaluate<5>(jerk_, t_s);
   z.snap = evaluate<4>(snap_, t_s);
-  const vessel::Sailing sailing = inverse_.sailing(z, z.velocity, kLeastHeadingForceN);
+  const vessel::Sailing sailing =
+      inverse_.sailing(z, inverse_.throughWater(z.velocity), kLeastHeadingForceN);
   p.yaw_rate_radps = sailing.yaw_rate_radps;
   p.heading_force_n = sailing.bow.firmness_n;
   p.bow = sailing.bow.ahead;
@@ -111,10 +118,11 @@ Eigen::Vector2d PieceCheck::bowAt(double t_s) const {
     return direction_;
   }
   const Eigen::Vector2d velocity = evaluate<7>(velocity_, t_s);
-  Eigen::Vector2d ahead = velocity;
-  if (velocity.norm() < kSlowMps) {
+  Eigen::Vector2d ahead = inverse_.throughWater(velocity);
+  if (ahead.norm() < kSlowMps) {
     const double inward = std::min(1e-2, 0.25 * piece_.duration_s);
-    ahead = evaluate<7>(velocity_, t_s < 0.5 * piece_.duration_s ? t_s + inward : t_s - inward);
+    ahead = inverse_.throughWater(
+        evaluate<7>(velocity_, t_s < 0.5 * piece_.duration_s ? t_s + inward : t_s - inward));
   }
   const Eigen::Vector2d w = inverse_.headingForce(velocity, evaluate<6>(acceleration_, t_s));
   return inverse_.bow(w, ahead, kLeastHeadingForceN).ahead;
@@ -185,11 +193,13 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
       const double norm = std::abs(p.heading_force_n);
       report.heading_force_n = std::min(report.heading_force_n, norm);
       const double side = p.heading_force_n >= 0.0 ? 1.0 : -1.0;
-      const double cosine = side * p.bow.dot(p.velocity) / std::max(speed, 1e-12);
-      if (speed > kSlowMps && (std::abs(cosine) < kAcrossCosine || cosine * branch < 0.0)) {
+      const Eigen::Vector2d through = inverse_.throughWater(p.velocity);
+      const double flow = through.norm();
+      const double cosine = side * p.bow.dot(through) / std::max(flow, 1e-12);
+      if (flow > kSlowMps && (std::abs(cosine) < kAcrossCosine || cosine * branch < 0.0)) {
         report.fault = Fault::kHeadingJump;
       }
-      branch = speed > kSlowMps ? cosine : 0.0;
+      branch = flow > kSlowMps ? cosine : 0.0;
       if (norm < least_force) {
         report.fault = Fault::kHeadingUndefined;
       }

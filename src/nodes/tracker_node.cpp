@@ -237,6 +237,7 @@ TrackerStatus TrackerNode::status() const {
   message.cycles_on_time = cycles.on_time_share;
   message.disturbance = {command.outside_force_n.x(), command.outside_force_n.y(),
                          command.outside_moment_nm};
+  message.estimate = ros_bridge::toMessage(command.disturbance);
   return message;
 }
 

@@ -11,6 +11,8 @@
 #include <deque>
 #include <string>
 
+#include "otter_nav/ros/conversions.hpp"
+
 namespace otter_nav::nodes {
 
 class TrackerWatch {
@@ -56,6 +58,8 @@ class TrackerWatch {
   }
   // The force of wind and current it estimates, N.
   [[nodiscard]] double disturbance() const { return disturbance_n_; }
+  // What makes it, as far as that is known; the last one that was finite.
+  [[nodiscard]] const vessel::DisturbanceEstimate& estimate() const { return estimate_; }
 
  private:
   void count(const TrackerStatus& status) {
@@ -65,6 +69,9 @@ class TrackerWatch {
     faults_ = gave_up && status.trajectory_id == sailing_id_ ? faults_ + 1 : 0;
     reason_ = status.reason;
     disturbance_n_ = std::hypot(status.disturbance[0], status.disturbance[1]);
+    if (const auto estimate = ros_bridge::disturbanceEstimate(status.estimate)) {
+      estimate_ = *estimate;
+    }
   }
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -75,6 +82,7 @@ class TrackerWatch {
   std::uint32_t sailing_id_ = kNone;
   int faults_ = 0;
   double disturbance_n_ = 0.0;
+  vessel::DisturbanceEstimate estimate_;
   double latest_s_ = 0.0;              // stamp of the last status
   std::deque<TrackerStatus> waiting_;  // to count, in the order they came
   std::string reason_;

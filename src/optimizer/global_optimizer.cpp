@@ -110,6 +110,7 @@ class GlobalOptimizer::Solver {
     problem_.targets.limits = attempt.limits;
     problem_.targets.weights = attempt.weights;
     problem_.targets.obstacles = obstacles_;
+    problem_.setDisturbance(limits_.disturbance);
     initial_.options = attempt.initial;
     end_options_ = attempt.ends;
   }

@@ -87,7 +87,7 @@ void LocalOptimizer::pullTowards(const feasibility::EdgeCheck& check, const Knot
   const double need =
       check.clearance() + 0.5 * kMarginM + kSquareCells * field.geometry().resolution_m;
   const double force = check.forceMax();
-  const vessel::InverseDynamics inverse(vessel_);
+  const vessel::InverseDynamics& inverse = check.inverse();
   const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
   States states;
   int stretch = -1;  // first point of the colliding stretch
@@ -116,7 +116,7 @@ void LocalOptimizer::pullTowards(const feasibility::EdgeCheck& check, const Knot
       pull.target.col(1) = 0.95 * check.speedMax() / speed * z.col(1);
       pull.weight[1] = kWeightDynamics * growth;
     }
-    const double asked = inverse.surgeForce(z.col(1), z.col(2)).norm();
+    const double asked = inverse.push(inverse.throughWater(z.col(1)), z.col(1), z.col(2)).norm();
     if (asked > force) {
       pull.target.col(2) = z.col(2) * (force / asked);
       pull.weight[2] = kWeightDynamics * growth;

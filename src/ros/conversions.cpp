@@ -127,4 +127,43 @@ Result<OdometrySample> odometrySample(const nav_msgs::Odometry& message, const s
   return sample;
 }
 
+DisturbanceEstimate toMessage(const vessel::DisturbanceEstimate& estimate) {
+  const vessel::Disturbance& mean = estimate.mean;
+  DisturbanceEstimate message;
+  message.force = {mean.force_n.x(), mean.force_n.y()};
+  message.moment = mean.moment_nm;
+  message.current = {mean.current_mps.x(), mean.current_mps.y()};
+  message.wind = {mean.wind_mps.x(), mean.wind_mps.y()};
+  for (int i = 0; i < estimate.covariance.size(); ++i) {  // symmetric: rows or columns first
+    message.covariance[static_cast<std::size_t>(i)] = estimate.covariance.data()[i];
+  }
+  return message;
+}
+
+Result<vessel::DisturbanceEstimate> disturbanceEstimate(const DisturbanceEstimate& message) {
+  vessel::DisturbanceEstimate estimate;
+  vessel::Disturbance& mean = estimate.mean;
+  mean.force_n = {message.force[0], message.force[1]};
+  mean.moment_nm = message.moment;
+  mean.current_mps = {message.current[0], message.current[1]};
+  mean.wind_mps = {message.wind[0], message.wind[1]};
+  for (int i = 0; i < estimate.covariance.size(); ++i) {
+    estimate.covariance.data()[i] = message.covariance[static_cast<std::size_t>(i)];
+  }
+  const struct {
+    const char* name;
+    bool finite;
+  } fields[] = {{"force", mean.force_n.allFinite()},
+                {"moment", std::isfinite(mean.moment_nm)},
+                {"current", mean.current_mps.allFinite()},
+                {"wind", mean.wind_mps.allFinite()},
+                {"covariance", estimate.covariance.allFinite()}};
+  for (const auto& field : fields) {
+    if (!field.finite) {
+      return failure(std::string("disturbance estimate: ") + field.name + " is not finite");
+    }
+  }
+  return estimate;
+}
+
 }  // namespace otter_nav::ros_bridge

@@ -206,6 +206,24 @@ void Estimator::update(const vessel::State& measured) {
   }
 }
 
+vessel::DisturbanceEstimate Estimator::disturbanceEstimate() const {
+  using Estimate = vessel::DisturbanceEstimate;
+  constexpr double kCalmM2ps2 = 1.0;  // below it the wind's slope over q is bounded
+  Estimate estimate;
+  estimate.mean = disturbance_;
+  // w = q / sqrt|q|
+  const double size = std::max(wind_pressure_.norm(), kCalmM2ps2);
+  const Eigen::Vector2d n = wind_pressure_ / size;
+  Eigen::Matrix<double, Estimate::kSize, Estimate::kSize> by_state;
+  by_state.setIdentity();
+  by_state.block<2, 2>(Estimate::kWind, Estimate::kWind) =
+      (Eigen::Matrix2d::Identity() - 0.5 * n * n.transpose()) / std::sqrt(size);
+  estimate.covariance = by_state *
+                        covariance_.block<Estimate::kSize, Estimate::kSize>(kForce, kForce) *
+                        by_state.transpose();
+  return estimate;
+}
+
 void Estimator::limit() {
   const auto clampNorm = [](Eigen::Vector2d& v, double limit) {
     const double norm = v.norm();

@@ -28,6 +28,8 @@ class Estimator {
 
   [[nodiscard]] const vessel::State& state() const { return state_; }
   [[nodiscard]] const vessel::Disturbance& disturbance() const { return disturbance_; }
+  // The same with its covariance; that of the wind, whose state is another, to first order.
+  [[nodiscard]] vessel::DisturbanceEstimate disturbanceEstimate() const;
   // measured minus estimate, heading in [-pi, pi].
   [[nodiscard]] vessel::State innovation(const vessel::State& measured) const;
 

@@ -30,6 +30,9 @@ class Navigator {
   // The state at `time_s`, psi continuous, thrusts following the last command.
   [[nodiscard]] vessel::State predict(double time_s) const;
   [[nodiscard]] const vessel::Disturbance& disturbance() const { return estimator_.disturbance(); }
+  [[nodiscard]] vessel::DisturbanceEstimate disturbanceEstimate() const {
+    return estimator_.disturbanceEstimate();
+  }
   // Why odometry was refused last; empty once it is accepted again.
   [[nodiscard]] std::string_view reason() const { return reason_; }
   [[nodiscard]] double age(double now_s) const { return now_s - stamp_s_; }

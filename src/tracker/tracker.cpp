@@ -319,10 +319,10 @@ void Tracker::Core::finish(double now_s, const vessel::State& state, Command& co
   navigator_.addCommand(now_s, command.thrusts);
   command.mode = mode_;
   command.estimate = state;
-  command.disturbance = navigator_.disturbance();
+  command.disturbance = navigator_.disturbanceEstimate();
   const double psi = state[kPsi];
   const vessel::OutsideLoad load =
-      vessel::outsideLoad(psi, vessel_.manoeuvring, command.disturbance);
+      vessel::outsideLoad(psi, vessel_.manoeuvring, command.disturbance.mean);
   command.outside_force_n = Eigen::Rotation2Dd(psi) * Vector2d(load.surge_n, load.sway_n);
   command.outside_moment_nm = load.yaw_nm;
   if (command.reason.empty()) {

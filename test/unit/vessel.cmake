@@ -6,3 +6,5 @@ otter_nav_test(unit_trajectory SOURCES ${CMAKE_CURRENT_LIST_DIR}/trajectory/traj
 otter_nav_test(unit_polynomial SOURCES ${CMAKE_CURRENT_LIST_DIR}/trajectory/polynomial_test.cpp ROOMS trajectory)
 otter_nav_test(unit_dual SOURCES ${CMAKE_CURRENT_LIST_DIR}/base/dual_test.cpp ROOMS base)
 otter_nav_test(unit_vessel_scripted SOURCES ${CMAKE_CURRENT_LIST_DIR}/vessel/scripted_vessel_test.cpp ROOMS vessel)
+otter_nav_test(unit_vessel_steady_motion
+               SOURCES ${CMAKE_CURRENT_LIST_DIR}/vessel/steady_motion_test.cpp ROOMS vessel)

@@ -23,6 +23,7 @@ class EdgeCheck {
   // Begins a query: field and layers of `obstacles` must outlive it.
   void begin(const Obstacles& obstacles, const SafetyLimits& limits);
   [[nodiscard]] const Obstacles& obstacles() const { return *obstacles_; }
+  [[nodiscard]] const vessel::InverseDynamics& inverse() const { return inverse_; }
   [[nodiscard]] double clearance() const { return limits_.clearance_m; }
   // What edges may ask for: a little less than the whole trajectory.
   [[nodiscard]] double speedMax() const { return speed_max_mps_; }
@@ -47,8 +48,8 @@ class EdgeCheck {
   [[nodiscard]] EdgeFault checkTurning(const vessel::FlatPoint& z) const;
   [[nodiscard]] bool isClear(const trajectory::Piece& piece, double start_s) const;
 
+  vessel::Parameters vessel_;
   vessel::InverseDynamics inverse_;
-  vessel::Thrusters thrusters_;
   SafetyLimits limits_;
   HullCover hull_;
   double speed_max_mps_ = 0.0;

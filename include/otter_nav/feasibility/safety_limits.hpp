@@ -3,6 +3,7 @@
 // what aims at less than a limit takes a share of it.
 #pragma once
 
+#include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::feasibility {
@@ -15,6 +16,9 @@ struct SafetyLimits {
   double thrust_share = 0.97;
   double speed_max_mps = 4.9;  // over ground
   double yaw_rate_max_radps = 2.0;
+  // What the thrusters work against besides, all along: every demand of a plan is made and verified
+  // with it (docs/planner.md).
+  vessel::Disturbance disturbance;
 
   // Of a vessel that may use `thrust_share` of what plans usually take, for instance less in wind:
   // its speed falls with it, as under linear drag.

@@ -20,6 +20,7 @@
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/planner/planner.hpp"
 #include "otter_nav/trajectory/timed_trajectory.hpp"
+#include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/pose.hpp"
 
@@ -94,7 +95,8 @@ struct Situation {
   double odometry_stamp_s = 0.0;
   double tracking_error_m = 0.0;  // as the tracker reports it
   double disturbance_n = 0.0;     // magnitude of the force that wind and current exert, estimated
-  bool tracker_fault = false;     // the tracker can't follow and brakes by itself
+  vessel::DisturbanceEstimate disturbance;  // the same as the tracker has it, with its covariance
+  bool tracker_fault = false;               // the tracker can't follow and brakes by itself
   std::string tracker_reason;
 };
 

@@ -27,7 +27,8 @@ struct Query {
   // the trajectory being sailed.
   trajectory::Boundary start;
   trajectory::Boundary goal;  // at rest
-  // What the plan must keep to: clearance, hull, shares of thrust, speed.
+  // What the plan must keep to: clearance, hull, shares of thrust, speed; and the wind, current and
+  // force it is made with.
   feasibility::SafetyLimits limits;
   std::uint64_t seed = 1;
   // What is being sailed, cut to begin at `start`: tried first, kept where nothing better is

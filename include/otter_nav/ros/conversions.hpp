@@ -4,6 +4,7 @@
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
+#include <otter_nav/DisturbanceEstimate.h>
 #include <ros/time.h>
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/pose.hpp"
 #include "otter_nav/vessel/types.hpp"
 
@@ -44,5 +46,10 @@ struct OdometrySample {
 [[nodiscard]] Result<OdometrySample> odometrySample(const nav_msgs::Odometry& message,
                                                     const std::string& frame,
                                                     const std::string& child_frame);
+
+[[nodiscard]] DisturbanceEstimate toMessage(const vessel::DisturbanceEstimate& estimate);
+// An error names the field that is not finite.
+[[nodiscard]] Result<vessel::DisturbanceEstimate> disturbanceEstimate(
+    const DisturbanceEstimate& message);
 
 }  // namespace otter_nav::ros_bridge

@@ -40,7 +40,7 @@ struct Command {
   double tracking_error_m = 0.0;                    // of the estimate
   double time_left_s = 0.0;                         // of the trajectory
   bool at_goal = false;                             // holds the spot with its heading
-  vessel::Disturbance disturbance;                  // the estimate
+  vessel::DisturbanceEstimate disturbance;
   // What it pushes with on the present heading, wind included: earth frame, and yaw moment.
   Eigen::Vector2d outside_force_n = Eigen::Vector2d::Zero();
   double outside_moment_nm = 0.0;

@@ -135,6 +135,28 @@ class InverseDynamics {
                                            const Eigen::Vector2d& acceleration) const {
     return model_.m1_kg * acceleration + model_.d1_kgps * velocity - surge_offset_n_;
   }
+  [[nodiscard]] Eigen::Vector2d throughWater(const Eigen::Vector2d& velocity) const {
+    return velocity - disturbance_.current_mps;
+  }
+  // The same with the wind's load ahead, for a hull roughly along `ahead`.
+  [[nodiscard]] Eigen::Vector2d push(const Eigen::Vector2d& ahead, const Eigen::Vector2d& velocity,
+                                     const Eigen::Vector2d& acceleration) const {
+    const Eigen::Vector2d force = surgeForce(velocity, acceleration);
+    if (!windy_) {
+      return force;
+    }
+    const Eigen::Vector2d e = ahead / std::max(ahead.norm(), 1e-9);
+    return force - wind(e).x * e;
+  }
+  // What pushes a hull at rest to port of `ahead`, N; zero in calm water.
+  [[nodiscard]] double loadAbeam(const Eigen::Vector2d& ahead) const {
+    return cross(ahead, sway_offset_n_) + air(ahead).y;
+  }
+  // The most that wind, current and force push a hull at rest with along its length, N.
+  [[nodiscard]] double greatestLoad() const {
+    return surge_offset_n_.norm() +
+           (windy_ ? wind_.wind_surge_kgpm * disturbance_.wind_mps.squaredNorm() : 0.0);
+  }
   // z'' from w, and z''' from w'.
   [[nodiscard]] Eigen::Vector2d accelerationFrom(const Eigen::Vector2d& heading_force,
                                                  const Eigen::Vector2d& velocity) const {

@@ -27,6 +27,15 @@ struct Disturbance {
   double moment_nm = 0.0;
 };
 
+// A disturbance as it is known: what is likeliest, and how sure of it one is.
+struct DisturbanceEstimate {
+  // Rows and columns of the covariance: force x, y (N), moment (N m), current x, y and wind x, y
+  // (m/s), earth frame. What is not estimated has no variance.
+  enum Index : int { kForce = 0, kMoment = 2, kCurrent = 3, kWind = 5, kSize = 7 };
+  Disturbance mean;
+  Eigen::Matrix<double, kSize, kSize> covariance = Eigen::Matrix<double, kSize, kSize>::Zero();
+};
+
 // Surge, sway, yaw: forces N and moment N m, or accelerations. Each of its own type, since each
 // may depend on different variables.
 template <typename Surge, typename Sway, typename Yaw>

@@ -72,7 +72,8 @@ class SpeedLimit final : public Cost {
   }
 };
 
-// |w| by its component along the course: a heading against the course counts as missing it all.
+// |w| by its component along the course through the water: a heading against the course counts as
+// missing it all.
 class HeadingForceLimit final : public Cost {
  public:
   explicit HeadingForceLimit(double force_scale_n) : scale_n_(force_scale_n) {}
@@ -80,11 +81,12 @@ class HeadingForceLimit final : public Cost {
   void add(const Targets& targets, Point& point) const override {
     constexpr double kSlowMps = 0.5;
     const Eigen::Vector2d velocity = point.path().col(1);
-    const double speed = velocity.norm();
+    const Eigen::Vector2d through = point.dynamics.throughWater(velocity);
+    const double speed = through.norm();
     if (speed <= 1e-3) {
       return;
     }
-    const Eigen::Vector2d course = velocity / speed;
+    const Eigen::Vector2d course = through / speed;
     const Eigen::Vector2d w = point.dynamics.headingForce(velocity, point.path().col(2));
     const double missing = (targets.limits.heading_force_n - course.dot(w)) / scale_n_;
     point.addHinge(targets.weights.dynamics, missing, kForceKnee, [&] {

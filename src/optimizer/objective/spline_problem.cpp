@@ -94,7 +94,9 @@ void pinAll(const Spline& spline, System& system) {
 }  // namespace
 
 SplineProblem::SplineProblem(const vessel::Parameters& vessel)
-    : dynamics_(vessel), force_floor_n_(2.0 * kForceFloorShare * vessel.thrusters.ahead_max_n) {
+    : vessel_(vessel),
+      dynamics_(vessel),
+      force_floor_n_(2.0 * kForceFloorShare * vessel.thrusters.ahead_max_n) {
   for (std::size_t i = 0; i < lobatto_.size(); ++i) {
     lobatto_[i] = trajectory::septicBasis(trajectory::kLobatto.at[i]);
   }

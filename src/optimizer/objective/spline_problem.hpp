@@ -23,6 +23,11 @@ class SplineProblem {
 
   Targets targets;
 
+  // What the vessel works against from now on.
+  void setDisturbance(const vessel::Disturbance& disturbance) {
+    dynamics_ = vessel::InverseDynamics(vessel_, disturbance);
+  }
+
   // F; with `system`, also its quadratic model: diagonal and below hold the Hessian, right the
   // negative gradient, with what is not free pinned to zero.
   double evaluate(const Spline& spline, System* system) const;
@@ -35,6 +40,7 @@ class SplineProblem {
 
   void addPiece(PieceModel& piece) const;
 
+  vessel::Parameters vessel_;
   vessel::InverseDynamics dynamics_;
   double force_floor_n_;
   std::array<trajectory::SepticBasis, trajectory::kLobattoPoints> lobatto_;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "otter_nav/feasibility/hull_cover.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -86,6 +87,7 @@ Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parame
   attempt.initial.force_share = 0.9 * share;
   attempt.initial.speed_max_mps = 0.97 * attempt.limits.speed_mps;
   attempt.initial.clearance_m = attempt.limits.clearance_m;
+  attempt.initial.load_n = vessel::InverseDynamics(vessel, safety.disturbance).greatestLoad();
   attempt.ends = endsOf(care, vessel, safety, share);
   return attempt;
 }

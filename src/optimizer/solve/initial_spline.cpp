@@ -46,7 +46,7 @@ void appendArc(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
 // The greatest steady speed in a turn for which the thrust suffices.
 double InitialSpline::speedIn(double curvature_per_m) const {
   const vessel::InverseDynamics inverse(vessel_);
-  const double force = 2.0 * vessel_.thrusters.ahead_max_n * options.force_share;
+  const double force = 2.0 * vessel_.thrusters.ahead_max_n * options.force_share - options.load_n;
   double low = 0.0;
   double high = options.speed_max_mps;
   const double k = std::abs(curvature_per_m);
@@ -65,8 +65,9 @@ double InitialSpline::speedIn(double curvature_per_m) const {
 
 void InitialSpline::setSpeeds(double speed_from, double speed_to) {
   const vessel::PaperModel& m = vessel_.paper;
-  const double ahead = 2.0 * vessel_.thrusters.ahead_max_n * options.force_share;
-  const double astern = 2.0 * vessel_.thrusters.astern_max_n * options.force_share;
+  const double share = 2.0 * options.force_share;
+  const double ahead = share * vessel_.thrusters.ahead_max_n - options.load_n;
+  const double astern = share * vessel_.thrusters.astern_max_n - options.load_n;
   line_.setSpeeds(
       [&](double curvature) { return speedIn(curvature); },
       [&](double v) { return std::max(kRampShare * (ahead - m.d1_kgps * v) / m.m1_kg, 0.05); },

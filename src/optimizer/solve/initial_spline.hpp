@@ -18,6 +18,7 @@ struct InitialOptions {
   double force_share = 0.85;  // of both thrusters together, for the first guess of the speed
   double speed_max_mps = 4.6;
   double clearance_m = 1.0;  // by Obstacles::smooth
+  double load_n = 0.0;       // that wind and current take of the force, at worst
 };
 
 // Where the spline begins and ends, under way. The directions count where there is little speed.

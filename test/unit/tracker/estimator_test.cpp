@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "otter_nav/base/rk4.hpp"
@@ -83,6 +84,13 @@ TEST(Estimator, FindsTheWindOfAVesselThatKnowsItsLoads) {
   }
   EXPECT_LT((estimator.disturbance().wind_mps - sea.disturbance.wind_mps).norm(), 0.5);
   EXPECT_LT(estimator.disturbance().force_n.norm(), 2.5);  // the prior's share
+  // What is told of the uncertainty covers the error.
+  using Estimate = vessel::DisturbanceEstimate;
+  const Estimate told = estimator.disturbanceEstimate();
+  const Eigen::Vector2d off = told.mean.wind_mps - sea.disturbance.wind_mps;
+  const Eigen::Matrix2d of_wind = told.covariance.block<2, 2>(Estimate::kWind, Estimate::kWind);
+  EXPECT_LT(off.dot(of_wind.inverse() * off), 9.0);
+  EXPECT_EQ(told.covariance(Estimate::kCurrent, Estimate::kCurrent), 0.0);  // not estimated
 }
 
 // Largest error of the estimated velocity against the motion without its waves.

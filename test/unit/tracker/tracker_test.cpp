@@ -72,8 +72,9 @@ TEST_F(TrackerTest, SailsALineAndHoldsItsEndUnderAForce) {
   EXPECT_EQ(command.mode, Mode::kTracking);
   EXPECT_LT(command.tracking_error_m, 0.05);
   // A steady course doesn't tell a force from a current; their sum counts.
-  const double pull = command.disturbance.force_n.x() +
-                      vessel_.manoeuvring.surge_drag_kgps * command.disturbance.current_mps.x();
+  const double pull =
+      command.disturbance.mean.force_n.x() +
+      vessel_.manoeuvring.surge_drag_kgps * command.disturbance.mean.current_mps.x();
   EXPECT_NEAR(pull, -4.0, 0.5);
   command = sail(65.0);
   EXPECT_EQ(command.mode, Mode::kHolding);
