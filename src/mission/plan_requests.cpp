@@ -61,6 +61,27 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
   return ask(now_s, std::move(request), goal, thrust_share, From::kSailed, obstacles);
 }
 
+std::optional<double> PlanRequests::joint(double now_s,
+                                          const trajectory::TimedTrajectory& sailed) const {
+  const std::optional<double> at =
+      joiningTime(sailed.trajectory, now_s + latency.seconds() - sailed.start_time_s);
+  return at ? std::optional<double>(sailed.start_time_s + *at) : std::nullopt;
+}
+
+PlanRequest PlanRequests::onward(double now_s, trajectory::TimedTrajectory lead,
+                                 double thrust_share, const vessel::Pose& goal,
+                                 const feasibility::Obstacles& obstacles) {
+  const trajectory::Sample sample =
+      lead.trajectory.sample(lead.trajectory.duration(), vessel_);
+  PlanRequest request;
+  request.query.start.flat = sample.flat;
+  request.query.start.psi_rad = sample.state[vessel::kPsi];
+  request.start_time_s = lead.start_time_s + lead.trajectory.duration();
+  request = ask(now_s, std::move(request), goal, thrust_share, From::kSailed, obstacles);
+  asked_->lead = std::move(lead);
+  return request;
+}
+
 PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
                                      const vessel::Pose& goal,
                                      const feasibility::Obstacles& obstacles) {
@@ -99,7 +120,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   request.moving = from != From::kRest;
   const double conceded =
       from == From::kVessel ? std::max(0.0, thrust_share - safety.freeThrustShare()) : 0.0;
-  asked_ = Asked{request, from, false, now_s, conceded};
+  asked_ = Asked{request, from, false, now_s, conceded, {}};
   return request;
 }
 

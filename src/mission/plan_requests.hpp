@@ -40,6 +40,8 @@ class PlanRequests {
     bool improves = false;  // asked for only to be faster
     double since_s = 0.0;
     double conceded_thrust_share = 0.0;  // more than free, for a vessel too fast for less
+    // What the plan continues, from the sailed trajectory on; empty: that itself.
+    trajectory::TimedTrajectory lead;
   };
 
   PlanRequests(const SupervisorOptions& options, const vessel::Parameters& vessel,
@@ -52,6 +54,12 @@ class PlanRequests {
   std::optional<PlanRequest> fromSailed(double now_s, const trajectory::TimedTrajectory& sailed,
                                         double thrust_share, const vessel::Pose& goal,
                                         const feasibility::Obstacles& obstacles);
+  // From the end of a way that itself begins on the sailed one.
+  PlanRequest onward(double now_s, trajectory::TimedTrajectory lead, double thrust_share,
+                     const vessel::Pose& goal, const feasibility::Obstacles& obstacles);
+  // When something new can begin on the sailed trajectory.
+  [[nodiscard]] std::optional<double> joint(double now_s,
+                                            const trajectory::TimedTrajectory& sailed) const;
   PlanRequest fromVessel(double now_s, const vessel::State& state, const vessel::Pose& goal,
                          const feasibility::Obstacles& obstacles);
 

@@ -1,5 +1,6 @@
 #include "otter_nav/mission/supervisor.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -69,7 +70,8 @@ class Supervisor::Impl {
       : options_(options),
         vessel_(vessel),
         plans_(options, vessel, seed),
-        retries_(options.rounds_from_rest, options.stops_max) {}
+        retries_(options.rounds_from_rest, options.stops_max),
+        pilot_(options.encounter, vessel) {}
 
   Result<Orders> setGoal(const Moment& m, const vessel::Pose& goal) {
     if (const Status status = checkGoal(goal, m.obstacles, safety().narrowest()); !status) {
@@ -84,6 +86,7 @@ class Supervisor::Impl {
     cancelled_ = false;
     suspended_.reset();
     replans_ = 0;
+    pilot_.newGoal(m.now_s);
     return follow(kGoalRules, m);
   }
 
@@ -110,6 +113,7 @@ class Supervisor::Impl {
 
   Orders update(const Moment& m) {
     safety().feel(m.situation.disturbance_n);
+    lookOut(m);
     if (plans_.overdue(m.now_s)) {
       return planFailed(m, "no answer from the planner", plans_.take());
     }
@@ -185,6 +189,19 @@ class Supervisor::Impl {
     const double at = sailed_.elapsed(m.now_s);
     return conflict_.found && conflict_.time_s - at < kHorizonS && !stop(m, at + kReserveS).clear;
   }
+  // Other vessels ask for another way than the one being sailed.
+  bool shouldMakeWay(const Moment& m) {
+    if (m.situation.tracks.empty()) {
+      return false;
+    }
+    const std::optional<double> joint = plans_.joint(m.now_s, sailed_);
+    if (!joint) {
+      return false;
+    }
+    way_made_ = pilot_.decide(
+        {m.now_s, sailed_, goal_.position, *joint, planned_limits_, m.obstacles});
+    return way_made_.has_value();
+  }
   bool isFarOff(const Moment& m) {
     return m.situation.tracking_error_m > options_.tracking_error_max_m;
   }
@@ -236,6 +253,19 @@ class Supervisor::Impl {
   Orders planFromSailed(const Moment& m) {
     return {
         plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles), {}, false};
+  }
+  Orders makeWay(const Moment& m) {
+    TimedTrajectory path = std::move(way_made_->path);
+    if (!way_made_->to_the_goal) {
+      return {plans_.onward(m.now_s, std::move(path), planned_thrust_share_, goal_, m.obstacles),
+              {},
+              false};
+    }
+    plans_.drop();
+    ++replans_;
+    sailed_ = stopping::splice(sailed_, m.now_s, path);
+    enter(Phase::kSailing);
+    return {std::nullopt, sailed_, false};
   }
   Orders planFromFarOff(const Moment& m) {
     safety().leftBehind();
@@ -371,6 +401,7 @@ class Supervisor::Impl {
       {kReplanning, &Impl::mustBrake, &Impl::brake},
       {kReplanning, &Impl::isClearAgain, &Impl::keepThePlan, kGoesOn},
       {kUnderWay, &Impl::mustWait, &Impl::keepOn},
+      {kUnderWay, &Impl::shouldMakeWay, &Impl::makeWay},
       {kUnderWay, &Impl::isFarOff, &Impl::planFromFarOff},
       {kUnderWay, &Impl::lacksThrust, &Impl::planWithLessThrust},
       {kReplanning, &Impl::always, &Impl::planFromSailed},
@@ -414,6 +445,18 @@ class Supervisor::Impl {
     return follow(kSuspendRules, m);
   }
 
+  void lookOut(const Moment& m) {
+    constexpr double kCruiseShare = 0.99;  // of the speed that plans may have
+    if (!knowsPlace(m) || sailed_.trajectory.empty() ||
+        (m.situation.tracks.empty() && pilot_.encounters().empty())) {
+      return;
+    }
+    const vessel::State& x = m.situation.state;
+    const Eigen::Rotation2D<double> map_from_base(x[vessel::kPsi]);
+    pilot_.observe(m.now_s, {x.head<2>(), map_from_base * x.segment<2>(vessel::kSurge)},
+                   m.situation.tracks, goal_.position,
+                   kCruiseShare * planned_limits_.speed_max_mps);
+  }
   bool knowsPlace(const Moment& m) {
     return m.situation.state.allFinite() &&
            m.now_s - m.situation.odometry_stamp_s <= options_.odometry_timeout_s;
@@ -448,6 +491,7 @@ class Supervisor::Impl {
   Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequests::Asked& asked) {
     sailed_ = std::move(plan);
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
+    planned_limits_ = asked.request.query.limits;
     planned_thrust_share_ = asked.request.thrust_share;
     if (asked.from != From::kSailed) {
       conceded_thrust_share_ = asked.conceded_thrust_share;
@@ -504,23 +548,29 @@ class Supervisor::Impl {
   Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
     constexpr double kLateM = 0.3;
     constexpr double kImproveShare = 0.05;  // of the time left, that an improvement saves
-    const double starts = asked.request.start_time_s;
+    TimedTrajectory next{plan.trajectory, asked.request.start_time_s};
+    if (!asked.lead.trajectory.empty()) {
+      std::vector<trajectory::Piece> pieces = asked.lead.trajectory.pieces();
+      pieces.insert(pieces.end(), plan.trajectory.pieces().begin(), plan.trajectory.pieces().end());
+      next = {Trajectory(std::move(pieces)), asked.lead.start_time_s};
+    }
+    const double starts = next.start_time_s;
     const double late = m.now_s - starts;
     const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position;
-    if (late > 0.0 && (plan.trajectory.flat(late).position - there).norm() > kLateM) {
+    if (late > 0.0 && (next.trajectory.flat(late).position - there).norm() > kLateM) {
       plans_.latency.late(late);
       return asked.improves ? Orders{} : planFromSailed(m);
     }
     if (asked.improves &&
-        late + plan.trajectory.duration() > (1.0 - kImproveShare) * sailed_.left(m.now_s)) {
+        late + next.trajectory.duration() > (1.0 - kImproveShare) * sailed_.left(m.now_s)) {
       return {};
     }
     ++replans_;
     plans_.latency.onTime();
     if (asked.from == From::kVessel) {
-      return sail(m, {plan.trajectory, starts}, asked);
+      return sail(m, std::move(next), asked);
     }
-    return sail(m, stopping::splice(sailed_, m.now_s, {plan.trajectory, starts}), asked);
+    return sail(m, stopping::splice(sailed_, m.now_s, next), asked);
   }
   Orders planFailed(const Moment& m, const std::string& why, const PlanRequests::Asked& asked) {
     if (asked.improves) {
@@ -554,6 +604,7 @@ class Supervisor::Impl {
   TimedTrajectory sailed_;
   double planned_clearance_m_ = 0.0;   // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;  // and with
+  feasibility::SafetyLimits planned_limits_;  // all of it
   // Of it, what was more than free already when it was asked for, for want of a plan with less: no
   // ground to replace it.
   double conceded_thrust_share_ = 0.0;
@@ -567,6 +618,8 @@ class Supervisor::Impl {
   int replans_ = 0;
   PlanRequests plans_;
   RetryBudget retries_;
+  encounter::Pilot pilot_;
+  std::optional<encounter::Manoeuvre> way_made_;  // what the last decision found
 };
 
 const char* name(Phase phase) {
@@ -623,6 +676,9 @@ const TimedTrajectory& Supervisor::sailed() const {
 }
 double Supervisor::plannedClearance() const {
   return impl_->planned_clearance_m_;
+}
+std::vector<encounter::Encounter> Supervisor::encounters() const {
+  return impl_->pilot_.encounters();
 }
 int Supervisor::replans() const {
   return impl_->replans_;

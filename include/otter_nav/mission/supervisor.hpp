@@ -17,8 +17,10 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
+#include "otter_nav/encounter/pilot.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/planner/planner.hpp"
+#include "otter_nav/traffic/track.hpp"
 #include "otter_nav/trajectory/timed_trajectory.hpp"
 #include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
@@ -57,6 +59,7 @@ struct SupervisorOptions {
   double arrival_distance_m = 0.9;
   double arrival_heading_rad = 0.15;
   double improve_period_s = 0.0;
+  encounter::Options encounter;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
@@ -84,6 +87,7 @@ struct SupervisorOptions {
     fields("arrival_heading_rad", o.arrival_heading_rad, {0.01, 3.2}, "this heading, and slow");
     fields("improve_period_s", o.improve_period_s, {0.0, 600.0},
            "of plans asked for only to be faster; 0: none");
+    fields.group("encounter", o.encounter, "other vessels, and the rules of the road");
   }
 };
 [[nodiscard]] Result<SupervisorOptions> readSupervisorOptions(config::Section section);
@@ -98,6 +102,7 @@ struct Situation {
   vessel::DisturbanceEstimate disturbance;  // the same as the tracker has it, with its covariance
   bool tracker_fault = false;               // the tracker can't follow and brakes by itself
   std::string tracker_reason;
+  std::vector<traffic::Track> tracks;  // of other vessels, on the clock of `now_s`
 };
 
 // A question to the planner. What it must keep to comes with it.
@@ -162,6 +167,8 @@ class Supervisor {
   [[nodiscard]] const trajectory::TimedTrajectory& sailed() const;
   // What it was planned to keep from the hull's centre, m; 0 for a manoeuvre without a plan.
   [[nodiscard]] double plannedClearance() const;
+  // Other vessels with risk of collision, and which rule of the road applies to each.
+  [[nodiscard]] std::vector<encounter::Encounter> encounters() const;
   // Plans taken while under way, after the first.
   [[nodiscard]] int replans() const;
   [[nodiscard]] int stops() const;

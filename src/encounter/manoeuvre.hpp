@@ -1,0 +1,41 @@
+// From what was decided to a trajectory the hull can follow: turns and changes of speed without a
+// jump up to the third derivative, or the sailed way taken more slowly.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::encounter {
+
+// How long a turn and a change of speed take that leave the thrusters some room.
+class Handling {
+ public:
+  Handling(const vessel::Parameters& vessel, double cruise_mps);
+  // Between two velocities, s.
+  [[nodiscard]] double changeDuration(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+
+ private:
+  double turn_rate_radps_;
+  double turn_least_s_;
+};
+
+// A change to `velocity`, half done at `at_s`.
+struct Change {
+  double at_s = 0.0;
+  double duration_s = 0.0;
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+};
+
+// From `start` (moving; its acceleration dies out in the first seconds) through the changes in
+// order up to `end_s`.
+[[nodiscard]] trajectory::Trajectory steer(const vessel::FlatPoint& start,
+                                           const std::vector<Change>& changes, double end_s);
+
+// `sailed` from `at_s` on, its time running at `share` for about `hold_s`, then as before.
+[[nodiscard]] trajectory::Trajectory slowDown(const trajectory::Trajectory& sailed, double at_s,
+                                              double share, double hold_s, double change_s);
+
+}  // namespace otter_nav::encounter

@@ -1,0 +1,428 @@
+#include "otter_nav/encounter/pilot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <map>
+
+#include "encounter/candidates.hpp"
+#include "encounter/manoeuvre.hpp"
+#include "encounter/prospect.hpp"
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
+
+namespace otter_nav::encounter {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+constexpr double kCourseS = 2.0;  // courses over ground are means over this
+// A candidate must be better than what is being sailed by this, s: its polyline is only roughly
+// what would be sailed, and tracks wander.
+constexpr double kBetterS = 6.0;
+constexpr double kPeriodS = 1.0;
+constexpr double kUnderWayS = 15.0;  // at most, until the cruising speed is reached
+
+// What is remembered of a track.
+struct Memory {
+  traffic::Track track;
+  Motion motion;  // now
+  Record record;
+  double began_s = 0.0;
+  double aspect_rad = 0.0;
+  double seen_s = 0.0;
+  // Its steady velocity, and when it last changed; negative: never since it was first seen.
+  Eigen::Vector2d steady = Eigen::Vector2d::Zero();
+  double changed_s = -1.0;
+};
+
+// A course of straight legs along a trajectory, from `from_s` on, times from `zero_s`.
+Course along(const trajectory::TimedTrajectory& sailed, double from_s, double zero_s) {
+  constexpr double kStepS = 1.0;
+  constexpr double kOffM = 0.15;  // of the trajectory from a leg
+  Course course;
+  const double start = sailed.elapsed(from_s);
+  const double end = sailed.trajectory.duration();
+  const double shift = from_s - zero_s - start;
+  double t = std::clamp(start, 0.0, end);
+  Eigen::Vector2d p = sailed.trajectory.flat(t).position;
+  while (t < end - 1e-6) {
+    double next = std::min(end, t + kStepS);
+    Eigen::Vector2d q = sailed.trajectory.flat(next).position;
+    // Doubled as long as the middle stays near.
+    while (next < end) {
+      const double further = std::min(end, t + 2.0 * (next - t));
+      const Eigen::Vector2d r = sailed.trajectory.flat(further).position;
+      const double share = (next - t) / (further - t);
+      const double quarter = 0.5 * (t + next);
+      if ((q - p - share * (r - p)).norm() > kOffM ||
+          (sailed.trajectory.flat(quarter).position - p - 0.5 * share * (r - p)).norm() > kOffM) {
+        break;
+      }
+      next = further;
+      q = r;
+    }
+    course.legs.push_back({t + shift, p, (q - p) / (next - t)});
+    t = next;
+    p = q;
+  }
+  course.end_s = t + shift;
+  return course;
+}
+
+}  // namespace
+
+std::string describe(const Encounter& e) {
+  std::array<char, 240> text{};
+  std::snprintf(text.data(), text.size(),
+                "vessel %d: %s (rule %s), since %.0f s, when she bore %.0f deg and saw us at %.0f "
+                "deg; %.0f m off, nearest %.0f m in %.0f s%s",
+                e.id, name(e.role), rule(e.role), e.since_s, e.bearing_rad / kDegree,
+                e.aspect_rad / kDegree, e.range_m, e.approach.distance_m, e.approach.time_s,
+                e.acted ? ", acted" : "");
+  return text.data();
+}
+
+class Pilot::Impl {
+ public:
+  Impl(const Options& options, const vessel::Parameters& vessel)
+      : options_(options), vessel_(vessel), chooser_(options, vessel) {}
+
+  void newGoal(double now_s) {
+    goal_time_s_ = now_s;
+    under_way_ = false;
+    decided_s_ = -1e9;
+  }
+
+  void observe(double now_s, const Motion& own, const std::vector<traffic::Track>& tracks,
+               const Eigen::Vector2d& goal, double cruise_mps) {
+    now_s_ = now_s;
+    remember(now_s, own, goal, cruise_mps);
+    for (const traffic::Track& track : tracks) {
+      see(now_s, track);
+    }
+    for (auto it = memories_.begin(); it != memories_.end();) {
+      constexpr double kForgottenS = 5.0;
+      it = now_s - it->second.seen_s > kForgottenS ? memories_.erase(it) : std::next(it);
+    }
+    for (auto& [id, memory] : memories_) {
+      follow(now_s, memory);
+    }
+  }
+
+  std::optional<Manoeuvre> decide(const Outset& outset) {
+    if (memories_.empty() || outset.now_s - decided_s_ < kPeriodS) {
+      return std::nullopt;
+    }
+    decided_s_ = outset.now_s;
+    const double zero = outset.now_s;
+    Water water{outset.obstacles.field(), outset.limits.clearance_m, {}, {}, 0.0};
+    water.sailed = along(outset.sailed, outset.joint_s, zero);
+    water.cruise_mps = cruise_mps_;
+    if (water.sailed.legs.empty() || water.sailed.legs.front().velocity.norm() < 0.3) {
+      return std::nullopt;
+    }
+    const std::vector<Other> others = othersNow(water.field);
+    const double keep = chooser_.price(water.sailed, others, 1e9);
+    // Nothing to gain: nobody near, and the way is as straight as it can be.
+    const double straight =
+        water.sailed.legs.front().from_s +
+        (outset.goal - water.sailed.legs.front().position).norm() / water.cruise_mps;
+    if (keep < straight + kBetterS) {
+      return std::nullopt;
+    }
+    for (const Leg& leg : water.sailed.legs) {
+      if (water.way.empty() || (leg.position - water.way.back()).norm() > 5.0) {
+        water.way.push_back(leg.position);
+      }
+    }
+    if (!water.way.empty()) {
+      water.way.erase(water.way.begin());
+    }
+    water.way.push_back(outset.goal);
+    constexpr std::size_t kTried = 4;
+    for (const Choice& choice : chooser_.choose(water, others, kTried)) {
+      if (choice.price + kBetterS >= keep || choice.intent.wait_s > kPeriodS) {
+        return std::nullopt;  // the best can wait, or isn't worth it
+      }
+      if (std::optional<Manoeuvre> manoeuvre = realise(outset, water, choice, others, keep)) {
+        return manoeuvre;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::vector<Encounter> encounters() const {
+    std::vector<Encounter> all;
+    for (const auto& [id, memory] : memories_) {
+      if (memory.record.role == Role::kNone) {
+        continue;
+      }
+      Encounter e;
+      e.id = id;
+      e.role = memory.record.role;
+      e.since_s = memory.began_s;
+      e.bearing_rad = memory.record.bearing_rad;
+      e.aspect_rad = memory.aspect_rad;
+      e.range_m = (memory.motion.position - own_.position).norm();
+      e.approach = nearestApproach(own_, memory.motion);
+      e.acted = memory.record.acted;
+      all.push_back(e);
+    }
+    return all;
+  }
+
+ private:
+  // Our own course as a mean; while getting under way, the course and speed we are about to have.
+  void remember(double now_s, const Motion& own, const Eigen::Vector2d& goal, double cruise_mps) {
+    cruise_mps_ = cruise_mps;
+    trail_.push_back({now_s, own.position});
+    while (trail_.size() > 2 && now_s - trail_[1].first >= kCourseS - 1e-6) {
+      trail_.pop_front();
+    }
+    const double span = now_s - trail_.front().first;
+    own_ = own;
+    if (span > 0.5) {
+      own_.velocity = (own.position - trail_.front().second) / span;
+    }
+    constexpr double kCruising = 0.92;
+    under_way_ = under_way_ || own_.velocity.norm() > kCruising * cruise_mps ||
+                 now_s - goal_time_s_ > kUnderWayS;
+    if (!under_way_ && (goal - own.position).norm() > 1.0) {
+      own_.velocity = cruise_mps * (goal - own.position).normalized();
+    }
+  }
+
+  void see(double now_s, const traffic::Track& track) {
+    const bool first = memories_.find(track.id) == memories_.end();
+    Memory& memory = memories_[track.id];
+    memory.track = track;
+    memory.motion = Motion{track.position, track.velocity}.after(now_s - track.stamp_s);
+    memory.seen_s = now_s;
+    if (first) {
+      memory.steady = track.velocity;
+    }
+    constexpr double kChangeMps = 0.2;
+    constexpr double kSigmas = 3.0;
+    constexpr double kFollow = 0.02;
+    const double deviation = std::sqrt(std::max(track.covariance(2, 2), track.covariance(3, 3)));
+    if ((track.velocity - memory.steady).norm() >
+        kChangeMps + 0.1 * track.velocity.norm() + kSigmas * deviation) {
+      memory.changed_s = now_s;
+      memory.steady = track.velocity;
+    } else {
+      memory.steady += kFollow * (track.velocity - memory.steady);
+    }
+  }
+
+  void follow(double now_s, Memory& memory) const {
+    Record& record = memory.record;
+    const Approach approach = nearestApproach(own_, memory.motion);
+    const double range = (memory.motion.position - own_.position).norm();
+    if (record.role == Role::kNone) {
+      if (own_.velocity.norm() > 0.3 && riskOfCollision(approach)) {
+        record = Record();
+        record.role = classify(own_, memory.motion);
+        record.kept_velocity = own_.velocity;
+        record.bearing_rad = bearing(own_, memory.motion);
+        memory.began_s = now_s;
+        memory.aspect_rad = aspect(own_, memory.motion);
+      }
+      return;
+    }
+    constexpr double kClearM = 40.0;
+    if (approach.time_s < 0.0 && range > kClearM) {
+      record = Record();
+      return;
+    }
+    if (!under_way_ || approach.time_s < 0.0) {
+      return;
+    }
+    const double speed = own_.velocity.norm();
+    const double share = speed / std::max(0.1, record.kept_velocity.norm());
+    const double turn =
+        speed > 0.3 ? -wrapAngle(own_.course() -
+                                 std::atan2(record.kept_velocity.y(), record.kept_velocity.x()))
+                    : 0.0;
+    const bool turns = std::abs(turn) > kActionRad;
+    if (turns || std::abs(share - 1.0) > kActionShare) {
+      record.acted = true;
+      if (turns && record.first_turn == 0) {
+        record.first_turn = turn > 0.0 ? 1 : -1;
+      }
+      record.slowed_first = record.slowed_first || (record.first_turn == 0 && share <= 0.5);
+      record.turn_max_rad = std::max(record.turn_max_rad, std::abs(turn));
+      record.slowest_share = std::min(record.slowest_share, share);
+    }
+  }
+
+  // Straight on only as long as she has kept it up, and not over land.
+  double knownFor(const Memory& memory, const map::DistanceField& field) const {
+    constexpr double kLongS = 300.0;
+    constexpr double kLeastS = 8.0;
+    double known = memory.changed_s < 0.0
+                       ? kLongS
+                       : std::max(kLeastS, 3.0 * (now_s_ - memory.changed_s));
+    const double speed = memory.motion.velocity.norm();
+    if (speed < 0.2 || !field.geometry().contains(memory.motion.position)) {
+      return known;
+    }
+    const double land = 0.5 * memory.track.beam_m;
+    double t = 0.0;
+    while (t < known) {
+      const Eigen::Vector2d p = memory.motion.after(t).position;
+      if (!field.geometry().contains(p)) {
+        break;
+      }
+      const double clear = field.clearance(p);
+      if (clear < land && t > kLeastS) {
+        return t;
+      }
+      t += std::max(2.0, clear - land) / speed;
+    }
+    return known;
+  }
+
+  std::vector<Other> othersNow(const map::DistanceField& field) const {
+    std::vector<Other> others;
+    for (const auto& [id, memory] : memories_) {
+      const traffic::Track& track = memory.track;
+      Other other;
+      other.id = id;
+      other.motion = memory.motion;
+      other.length_m = track.length_m;
+      other.beam_m = track.beam_m;
+      other.heading_rad = track.heading_rad;
+      other.position_deviation_m =
+          std::sqrt(0.5 * (track.covariance(0, 0) + track.covariance(1, 1)));
+      other.velocity_deviation_mps =
+          std::sqrt(0.5 * (track.covariance(2, 2) + track.covariance(3, 3)));
+      other.known_s = knownFor(memory, field);
+      other.record = memory.record;
+      other.record.since_s = memory.began_s - now_s_;
+      others.push_back(other);
+    }
+    return others;
+  }
+
+  // The choice as a trajectory that the hull can follow; nothing if it can't, or if that is not as
+  // good as it looked.
+  std::optional<Manoeuvre> realise(const Outset& outset, const Water& water, const Choice& choice,
+                                   const std::vector<Other>& others, double keep) const {
+    const trajectory::Trajectory& sailed = outset.sailed.trajectory;
+    const double at = outset.sailed.elapsed(outset.joint_s);
+    const Handling handling(vessel_, water.cruise_mps);
+    const vessel::FlatPoint start = sailed.flat(at);
+    Manoeuvre manoeuvre;
+    for (const double slower : {1.0, 1.4, 2.0}) {
+      Course course;
+      if (choice.intent.alongTheWay()) {
+        const Eigen::Vector2d v = start.velocity;
+        manoeuvre.path.trajectory =
+            slowDown(sailed, at, choice.intent.share, choice.intent.hold_s,
+                     slower * handling.changeDuration(v, choice.intent.share * v));
+        manoeuvre.to_the_goal = true;
+      } else {
+        std::vector<Change> changes;
+        const double zero = outset.joint_s - outset.now_s;  // the course's time of the joint
+        const double begin = zero + choice.intent.wait_s;
+        double end = 0.0;
+        Eigen::Vector2d before = start.velocity;
+        for (std::size_t k = 1; k <= choice.tail && k < choice.course.legs.size(); ++k) {
+          const Leg& leg = choice.course.legs[k];
+          if (leg.from_s <= begin + 1e-9) {
+            continue;
+          }
+          Change change;
+          change.duration_s = slower * handling.changeDuration(before, leg.velocity);
+          change.at_s = std::max(leg.from_s - zero, 0.5 * change.duration_s);
+          change.velocity = leg.velocity;
+          end = std::max(end, change.at_s + 0.5 * change.duration_s);
+          before = leg.velocity;
+          changes.push_back(change);
+        }
+        constexpr double kSteadyS = 1.0;
+        manoeuvre.path.trajectory = steer(start, changes, end + kSteadyS);
+      }
+      manoeuvre.path.start_time_s = outset.joint_s;
+      if (manoeuvre.path.trajectory.empty()) {
+        return std::nullopt;
+      }
+      feasibility::SafetyLimits limits = outset.limits;
+      limits.clearance_m =
+          std::min(limits.clearance_m, outset.obstacles.field().clearance(start.position) - 0.1);
+      // What is sailed may be at the limit of speed: its acceleration dies out beyond it.
+      constexpr double kSpeedTolerance = 1.015;
+      limits.speed_max_mps *= kSpeedTolerance;
+      const feasibility::Verification verification = feasibility::verify(
+          manoeuvre.path.trajectory, outset.obstacles.startingAt(outset.joint_s), vessel_, limits);
+      if (!verification.ok) {
+        continue;
+      }
+      course = along(manoeuvre.path, outset.joint_s, outset.now_s);
+      if (!manoeuvre.to_the_goal) {
+        lead(course, choice, water);
+      }
+      constexpr double kStillBetterS = 3.0;
+      if (chooser_.price(course, others, 1e9) + kStillBetterS < keep) {
+        return manoeuvre;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // The rest of the way after a manoeuvre, as the choice has it.
+  static void lead(Course& course, const Choice& choice, const Water& water) {
+    Eigen::Vector2d from = course.legs.back().position +
+                           (course.end_s - course.legs.back().from_s) * course.legs.back().velocity;
+    double t = course.end_s;
+    for (std::size_t k = choice.tail; k < choice.course.legs.size(); ++k) {
+      const Leg& leg = choice.course.legs[k];
+      const Eigen::Vector2d to =
+          leg.position + (choice.course.endOf(k) - leg.from_s) * leg.velocity;
+      const double distance = (to - from).norm();
+      if (distance < 0.1) {
+        continue;
+      }
+      course.legs.push_back({t, from, water.cruise_mps / distance * (to - from)});
+      t += distance / water.cruise_mps;
+      from = to;
+    }
+    course.end_s = t;
+  }
+
+  Options options_;
+  vessel::Parameters vessel_;
+  Chooser chooser_;
+  std::map<int, Memory> memories_;
+  std::deque<std::pair<double, Eigen::Vector2d>> trail_;
+  Motion own_;
+  double cruise_mps_ = 0.0;
+  double now_s_ = 0.0;
+  double goal_time_s_ = 0.0;
+  double decided_s_ = -1e9;
+  bool under_way_ = false;
+};
+
+Pilot::Pilot(const Options& options, const vessel::Parameters& vessel)
+    : impl_(std::make_unique<Impl>(options, vessel)) {}
+Pilot::~Pilot() = default;
+Pilot::Pilot(Pilot&&) noexcept = default;
+Pilot& Pilot::operator=(Pilot&&) noexcept = default;
+
+void Pilot::newGoal(double now_s) {
+  impl_->newGoal(now_s);
+}
+void Pilot::observe(double now_s, const Motion& own, const std::vector<traffic::Track>& tracks,
+                    const Eigen::Vector2d& goal, double cruise_mps) {
+  impl_->observe(now_s, own, tracks, goal, cruise_mps);
+}
+std::optional<Manoeuvre> Pilot::decide(const Outset& outset) {
+  return impl_->decide(outset);
+}
+std::vector<Encounter> Pilot::encounters() const {
+  return impl_->encounters();
+}
+
+}  // namespace otter_nav::encounter

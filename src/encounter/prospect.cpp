@@ -1,0 +1,311 @@
+#include "encounter/prospect.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
+
+namespace otter_nav::encounter {
+namespace {
+
+constexpr double kStillMps = 0.15;
+// A turn takes its time: it begins so much before the corner of the polyline that stands for it.
+constexpr double kTurnLeadS = 4.0;
+// More than the rules ask: what sailing along the polyline only roughly may lose.
+constexpr double kEarlyMoreM = 3.0;
+constexpr double kEarlyMoreS = 4.0;
+constexpr double kTurnMoreRad = 0.05;
+constexpr double kSlowShare = 0.48;
+constexpr double kAtOnceS = 5.0;  // if the risk arises late, the action follows within this
+constexpr double kBroadRad = 70.0 * kPi / 180.0;
+// Her lane: to either side of her track; the outline of ours comes on top.
+constexpr double kLaneM = 2.0;
+constexpr double kLaneCrossingM = 75.0;
+constexpr double kLaneOvertakingM = 20.0;
+constexpr double kClearAfterM = 40.0;  // past and clear, once they draw apart
+
+// Squared distance of the segment a-b from the box |x| <= half.x, |y| <= half.y.
+double distanceToBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                     const Eigen::Vector2d& half) {
+  // Clip: does the segment enter the box?
+  double from = 0.0;
+  double to = 1.0;
+  const Eigen::Vector2d d = b - a;
+  bool outside = false;
+  for (int k = 0; k < 2; ++k) {
+    if (std::abs(d[k]) < 1e-12) {
+      outside = outside || std::abs(a[k]) > half[k];
+      continue;
+    }
+    const double u = (-half[k] - a[k]) / d[k];
+    const double v = (half[k] - a[k]) / d[k];
+    from = std::max(from, std::min(u, v));
+    to = std::min(to, std::max(u, v));
+  }
+  if (!outside && from <= to) {
+    return 0.0;
+  }
+  const auto ofPoint = [&](const Eigen::Vector2d& p) {
+    return std::hypot(std::max(0.0, std::abs(p.x()) - half.x()),
+                      std::max(0.0, std::abs(p.y()) - half.y()));
+  };
+  double least = std::min(ofPoint(a), ofPoint(b));
+  const double length2 = d.squaredNorm();
+  if (length2 > 1e-12) {
+    for (const double x : {-half.x(), half.x()}) {
+      for (const double y : {-half.y(), half.y()}) {
+        const Eigen::Vector2d corner(x, y);
+        const double share = std::clamp((corner - a).dot(d) / length2, 0.0, 1.0);
+        least = std::min(least, (a + share * d - corner).norm());
+      }
+    }
+  }
+  return least;
+}
+
+bool crossesBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double x0, double x1, double y) {
+  const Eigen::Vector2d middle(0.5 * (x0 + x1), 0.0);
+  return distanceToBox(a - middle, b - middle, {0.5 * (x1 - x0), y}) == 0.0;
+}
+
+double starboardTurn(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  return -std::atan2(cross(from, to), from.dot(to));
+}
+
+Eigen::Vector2d turned(const Eigen::Vector2d& v, double left_rad) {
+  const double c = std::cos(left_rad);
+  const double s = std::sin(left_rad);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+}  // namespace
+
+Outlook Prospect::look(const Course& own, const Other& other) const {
+  Outlook out;
+  out.outlines_m = std::numeric_limits<double>::infinity();
+  const double her_speed = other.motion.velocity.norm();
+  const double her_course = her_speed > kStillMps ? other.motion.course() : other.heading_rad;
+  const Eigen::Vector2d ahead(std::cos(her_course), std::sin(her_course));
+  const Eigen::Vector2d port = across(ahead);
+  const auto inHerFrame = [&](const Eigen::Vector2d& v) {
+    return Eigen::Vector2d(v.dot(ahead), v.dot(port));
+  };
+  const double end = std::min(own.end_s, other.known_s);
+  const double half_length = 0.5 * hull_.length_m;
+  const double half_beam = 0.5 * hull_.beam_m;
+
+  // Distances first: what counts before the nearest approach is known then.
+  double nearest2 = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < own.legs.size() && own.legs[k].from_s < end; ++k) {
+    const Leg& leg = own.legs[k];
+    const double duration = std::min(own.endOf(k), end) - leg.from_s;
+    const Eigen::Vector2d from = leg.position - other.motion.after(leg.from_s).position;
+    const Eigen::Vector2d closing = leg.velocity - other.motion.velocity;
+    const double speed2 = closing.squaredNorm();
+    const double at =
+        speed2 > 1e-9 ? std::clamp(-from.dot(closing) / speed2, 0.0, duration) : 0.0;
+    const double distance2 = (from + at * closing).squaredNorm();
+    if (distance2 < nearest2) {
+      nearest2 = distance2;
+      out.nearest_s = leg.from_s + at;
+    }
+    const double reach = 0.5 * (other.length_m + other.beam_m) + half_length + half_beam;
+    if (std::sqrt(distance2) - reach < out.outlines_m) {
+      const double speed = leg.velocity.norm();
+      const double c = speed > kStillMps ? std::abs(leg.velocity.dot(ahead)) / speed : 1.0;
+      const double s = speed > kStillMps ? std::abs(leg.velocity.dot(port)) / speed : 1.0;
+      const Eigen::Vector2d half(0.5 * other.length_m + half_length * c + half_beam * s,
+                                 0.5 * other.beam_m + half_length * s + half_beam * c);
+      out.outlines_m = std::min(
+          out.outlines_m,
+          distanceToBox(inHerFrame(from), inHerFrame(from + duration * closing), half));
+    }
+  }
+  if (!options_.rules_of_the_road) {
+    return out;
+  }
+
+  Record record = other.record;
+  if (record.role == Role::kOvertaking || record.role == Role::kGiveWay ||
+      record.role == Role::kHeadOn) {
+    out.from_s = -std::numeric_limits<double>::infinity();
+  }
+  bool past = false;
+  Eigen::Vector2d before = own.legs.empty() ? Eigen::Vector2d(0.0, 0.0) : own.legs[0].velocity;
+  for (std::size_t k = 0; k < own.legs.size() && own.legs[k].from_s < end && !past; ++k) {
+    const Leg& leg = own.legs[k];
+    const double to = std::min(own.endOf(k), end);
+    const Motion she = other.motion.after(leg.from_s);
+    if (record.role == Role::kNone) {
+      // Each course that the turn sweeps over counts, then the leg's.
+      constexpr double kSweepRad = 0.26;
+      const double turn = -starboardTurn(before, leg.velocity);
+      const int steps =
+          before.norm() > kStillMps && leg.velocity.norm() > kStillMps
+              ? static_cast<int>(std::abs(turn) / kSweepRad)
+              : 0;
+      for (int i = k == 0 ? steps + 1 : 1; i <= steps + 1 && record.role == Role::kNone; ++i) {
+        const Motion we{leg.position, i > steps ? leg.velocity
+                                                : turned(before, turn * i / (steps + 1.0))};
+        const Approach approach = nearestApproach(we, she);
+        const double wait = i > steps ? std::max(0.0, approach.time_s - kRiskS + 1e-6) : 0.0;
+        if (approach.time_s <= 0.0 || approach.distance_m >= kRiskM || approach.time_s - wait >= kRiskS ||
+            leg.from_s + wait >= to) {
+          continue;
+        }
+        const Motion we_then = we.after(wait);
+        const Motion she_then = she.after(wait);
+        record.role = classify(we_then, she_then);
+        record.since_s = leg.from_s + wait;
+        record.kept_velocity = we.velocity;
+        record.bearing_rad = bearing(we_then, she_then);
+        out.from_s = record.since_s;
+      }
+    }
+    before = leg.velocity;
+    if (record.role == Role::kNone) {
+      continue;
+    }
+    const Eigen::Vector2d from = leg.position - she.position;
+    const Eigen::Vector2d closing = leg.velocity - other.motion.velocity;
+    const double kept_speed = record.kept_velocity.norm();
+    const double share = leg.velocity.norm() / std::max(0.1, kept_speed);
+    const double turn = leg.velocity.norm() > kStillMps
+                            ? starboardTurn(record.kept_velocity, leg.velocity)
+                            : 0.0;
+    const bool turns = std::abs(turn) > kActionRad;
+    const bool slows = std::abs(share - 1.0) > kActionShare;
+    const bool before_nearest = leg.from_s < out.nearest_s;
+    if (before_nearest && (turns || slows) && leg.from_s >= record.since_s - 1e-6) {
+      if (!record.acted) {
+        record.acted = true;
+        out.acted_s = leg.from_s;
+        const Approach left = nearestApproach({leg.position, record.kept_velocity}, she);
+        if (givesWay(record.role)) {
+          const bool early = from.norm() >= options_.early_m + kEarlyMoreM ||
+                             left.time_s >= options_.early_s + kEarlyMoreS ||
+                             leg.from_s - record.since_s <= kAtOnceS;
+          out.broken |= early ? 0U : kLate;
+        } else {
+          const bool early = left.time_s + kTurnLeadS > options_.stand_on_until_s &&
+                             from.norm() > options_.stand_on_until_m;
+          out.broken |= early ? kActedEarly : 0U;
+        }
+      }
+      if (turns && record.first_turn == 0) {
+        record.first_turn = turn > 0.0 ? 1 : -1;
+      }
+      if (share <= kSlowShare && record.first_turn == 0) {
+        record.slowed_first = true;
+      }
+      record.turn_max_rad = std::max(record.turn_max_rad, std::abs(turn));
+      record.slowest_share = std::min(record.slowest_share, share);
+      if (record.role == Role::kStandOn && turns && turn < 0.0) {
+        out.broken |= kToPort;
+      }
+    }
+    if (record.role == Role::kGiveWay || record.role == Role::kOvertaking) {
+      const double ahead_m =
+          record.role == Role::kGiveWay ? kLaneCrossingM : kLaneOvertakingM;
+      const Eigen::Vector2d a = inHerFrame(from);
+      const Eigen::Vector2d b = inHerFrame(from + (to - leg.from_s) * closing);
+      if (crossesBox(a, b, 0.0, ahead_m + half_length + 0.5 * other.length_m,
+                     kLaneM + half_length)) {
+        out.broken |= kIntoHerLane;
+      }
+    }
+    past = to > out.nearest_s && (from + (to - leg.from_s) * closing).norm() > kClearAfterM;
+  }
+  out.role = record.role;
+  out.to_s = out.nearest_s;
+  if (out.role == Role::kNone || out.nearest_s <= 0.0) {
+    return out;
+  }
+  if (givesWay(record.role)) {
+    const bool turned_boldly =
+        record.turn_max_rad >= options_.apparent_turn_rad + kTurnMoreRad;
+    out.broken |= record.acted ? 0U : kLate;
+    if (record.role != Role::kOvertaking && !turned_boldly &&
+        record.slowest_share > kSlowShare) {
+      out.broken |= kNotApparent;
+    }
+    const bool to_starboard = record.first_turn >= 0;
+    const bool narrow = std::abs(record.bearing_rad) < kBroadRad;
+    if ((record.role == Role::kHeadOn && record.first_turn != 1) ||
+        (record.role == Role::kGiveWay && narrow && !to_starboard && !record.slowed_first)) {
+      out.broken |= kWrongTurn;
+    }
+    if (record.role == Role::kHeadOn) {
+      // Port to port: we pass on her port side.
+      std::size_t k = 0;
+      while (k + 1 < own.legs.size() && own.legs[k + 1].from_s <= out.nearest_s) {
+        ++k;
+      }
+      const Eigen::Vector2d us =
+          own.legs[k].position + (out.nearest_s - own.legs[k].from_s) * own.legs[k].velocity;
+      if ((us - other.motion.after(out.nearest_s).position).dot(port) < 0.0) {
+        out.broken |= kWrongSide;
+      }
+    }
+  }
+  return out;
+}
+
+double Prospect::price(const Course& own, const std::vector<Other>& others,
+                       double give_up_above) const {
+  // In seconds: a rule broken, a metre too near, a near miss, a contact.
+  constexpr double kRuleS = 60.0;
+  constexpr double kNearS = 14.0;
+  constexpr double kNearMissS = 30.0;
+  constexpr double kTouchS = 150.0;
+  constexpr double kContactS = 1000.0;
+  constexpr double kMoreM = 1.3;  // for the outlines' ways beside the polyline
+  constexpr double kUncertainMaxM = 4.0;
+  constexpr double kDistantS = 150.0;
+  constexpr double kContactM = 0.8;
+  constexpr std::size_t kMost = 32;
+  Outlook looks[kMost];
+  const std::size_t count = std::min(others.size(), kMost);
+  double price = 0.0;
+  for (std::size_t j = 0; j < count && price <= give_up_above; ++j) {
+    const Other& other = others[j];
+    Outlook& look = looks[j];
+    look = this->look(own, other);
+    const double uncertain =
+        std::min(kUncertainMaxM, std::hypot(other.position_deviation_m,
+                                            other.velocity_deviation_mps * look.nearest_s));
+    const double wanted = options_.outline_wanted_m + kMoreM + uncertain;
+    const double least = options_.outline_least_m + 0.5 * kMoreM;
+    const double r = look.outlines_m;
+    double near = 0.0;
+    near += kNearS * std::max(0.0, wanted - r);
+    near += kNearMissS * std::max(0.0, least - r);
+    near += kTouchS * std::max(0.0, 3.0 - r);
+    near += r < kContactM ? kContactS : 0.0;
+    price += near / (1.0 + std::pow(look.nearest_s / kDistantS, 2));
+    for (unsigned bits = look.broken & ~(kActedEarly | kToPort); bits != 0; bits &= bits - 1) {
+      price += kRuleS;
+    }
+  }
+  // Whoever gives way to one need not stand on for another (rule 2).
+  for (std::size_t j = 0; j < count && price <= give_up_above; ++j) {
+    const unsigned standing = looks[j].broken & (kActedEarly | kToPort);
+    if (standing == 0) {
+      continue;
+    }
+    bool excused = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      excused = excused || (givesWay(looks[i].role) && looks[i].from_s <= looks[j].acted_s &&
+                            looks[j].acted_s <= looks[i].to_s);
+    }
+    if (!excused) {
+      price += kRuleS * ((standing & kActedEarly) != 0 ? 1 : 0) +
+               kRuleS * ((standing & kToPort) != 0 ? 1 : 0);
+    }
+  }
+  return price;
+}
+
+}  // namespace otter_nav::encounter

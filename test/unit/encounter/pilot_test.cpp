@@ -1,0 +1,119 @@
+#include "otter_nav/encounter/pilot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "encounter/manoeuvre.hpp"
+#include "open_water.hpp"
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
+
+namespace otter_nav::encounter {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+// We go north at 2 m/s from (0, -200) along a straight trajectory; the other is at the origin with
+// us after 100 s.
+class PilotTest : public ::testing::Test {
+ protected:
+  PilotTest() {
+    vessel::FlatPoint start;
+    start.position = {0.0, -200.0};
+    start.velocity = {0.0, 2.0};
+    sailed_ = {steer(start, {}, 200.0), 0.0};
+    limits_ = feasibility::SafetyLimits::of(vessel_);
+    limits_.speed_max_mps = 2.0;
+    pilot_.newGoal(-60.0);
+  }
+
+  traffic::Track trackAt(double heading_deg, double speed, double now) const {
+    traffic::Track track;
+    track.id = 7;
+    track.stamp_s = now;
+    track.velocity = speed * Eigen::Vector2d(std::sin(heading_deg * kDegree),
+                                             std::cos(heading_deg * kDegree));
+    track.position = (now - 100.0) * track.velocity;
+    track.heading_rad = std::atan2(track.velocity.y(), track.velocity.x());
+    track.length_m = 6.0;
+    track.beam_m = 2.0;
+    return track;
+  }
+
+  std::optional<Manoeuvre> decideAt(double now, double heading_deg, double speed) {
+    for (double t = now - 3.0; t <= now; t += 0.5) {
+      const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+      pilot_.observe(t, {z.position, z.velocity}, {trackAt(heading_deg, speed, t)}, {0.0, 200.0},
+                     1.98);
+    }
+    return pilot_.decide({now, sailed_, {0.0, 200.0}, now + 0.3, limits_, water_});
+  }
+
+  vessel::Parameters vessel_ = *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) +
+                                                       "/config/vessels/otter_gazebo.yaml");
+  map::DistanceField water_ = test::openWater();
+  feasibility::SafetyLimits limits_;
+  trajectory::TimedTrajectory sailed_;
+  Pilot pilot_{Options(), vessel_};
+};
+
+TEST_F(PilotTest, GivesWayToStarboardHeadOn) {
+  const std::optional<Manoeuvre> way = decideAt(10.0, 180.0, 2.0);
+  ASSERT_TRUE(way);
+  const auto encounters = pilot_.encounters();
+  ASSERT_EQ(encounters.size(), 1U);
+  EXPECT_EQ(encounters[0].role, Role::kHeadOn);
+  EXPECT_NE(describe(encounters[0]).find("rule 14"), std::string::npos);
+  double turn = 0.0;
+  for (double t = 0.0; t < way->path.trajectory.duration(); t += 0.5) {
+    const Eigen::Vector2d v = way->path.trajectory.flat(t).velocity;
+    turn = std::max(turn, std::atan2(v.x(), v.y()));
+    EXPECT_GT(v.x(), -1e-3);  // to starboard first, and not to port before it is over
+    if (turn > 0.52) {
+      break;
+    }
+  }
+  EXPECT_GT(turn, 30.0 * kDegree);
+}
+
+TEST_F(PilotTest, TheWayContinuesWhatIsSailedAndIsVerified) {
+  const std::optional<Manoeuvre> way = decideAt(10.0, 270.0, 2.0);
+  ASSERT_TRUE(way);
+  const vessel::FlatPoint was = sailed_.trajectory.flat(way->path.start_time_s);
+  const vessel::FlatPoint is = way->path.trajectory.flat(0.0);
+  EXPECT_NEAR((is.position - was.position).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((is.velocity - was.velocity).norm(), 0.0, 1e-9);
+  limits_.speed_max_mps = 2.01;
+  const auto verification =
+      feasibility::verify(way->path.trajectory, water_, vessel_, limits_);
+  EXPECT_TRUE(verification.ok) << verification.reason;
+}
+
+TEST_F(PilotTest, StandsOnUntilSheHasNotActed) {
+  EXPECT_FALSE(decideAt(10.0, 67.5, 2.0));
+  ASSERT_EQ(pilot_.encounters().size(), 1U);
+  EXPECT_EQ(pilot_.encounters()[0].role, Role::kStandOn);
+  EXPECT_FALSE(decideAt(60.0, 67.5, 2.0));
+  std::optional<Manoeuvre> way;
+  double now = 66.0;
+  for (; now < 90.0 && !way; now += 1.0) {
+    way = decideAt(now, 67.5, 2.0);
+  }
+  ASSERT_TRUE(way);
+  EXPECT_GE(now, 69.0);  // 30 s left
+  EXPECT_LE(now, 80.0);
+}
+
+TEST_F(PilotTest, NobodyNearNothingToDo) {
+  EXPECT_FALSE(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}));
+  traffic::Track far = trackAt(180.0, 2.0, 10.0);
+  far.position.x() += 60.0;
+  pilot_.observe(10.0, {{0.0, -180.0}, {0.0, 2.0}}, {far}, {0.0, 200.0}, 2.0);
+  EXPECT_FALSE(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}));
+  EXPECT_TRUE(pilot_.encounters().empty());
+}
+
+}  // namespace
+}  // namespace otter_nav::encounter

@@ -1,0 +1,130 @@
+#include "encounter/prospect.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+
+namespace otter_nav::encounter {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+
+Eigen::Vector2d north(double speed, double to_starboard_deg = 0.0) {
+  return speed * Eigen::Vector2d(std::sin(to_starboard_deg * kDegree),
+                                 std::cos(to_starboard_deg * kDegree));
+}
+
+// From (0, -200) on legs of given course and duration.
+Course sail(const std::vector<std::pair<Eigen::Vector2d, double>>& legs) {
+  Course course;
+  Eigen::Vector2d p(0.0, -200.0);
+  for (const auto& [velocity, duration] : legs) {
+    course.legs.push_back({course.end_s, p, velocity});
+    p += duration * velocity;
+    course.end_s += duration;
+  }
+  return course;
+}
+
+Other meeting(double heading_deg, double speed) {
+  Other other;
+  other.motion.velocity = north(speed, heading_deg);
+  other.motion.position = -100.0 * other.motion.velocity;
+  other.heading_rad = other.motion.course();
+  other.length_m = 6.0;
+  other.beam_m = 2.0;
+  other.known_s = 300.0;
+  return other;
+}
+
+vessel::Hull hull() {
+  vessel::Hull hull;
+  hull.length_m = 2.0;
+  hull.beam_m = 1.08;
+  return hull;
+}
+
+Outlook look(const Course& course, const Other& other) {
+  return Prospect(Options(), hull()).look(course, other);
+}
+
+TEST(Prospect, OutlinesAreExact) {
+  // Abeam of each other at rest relative to each other: 20 m between the centres.
+  Other other = meeting(0.0, 2.0);
+  other.motion.position = {20.0, -200.0};
+  EXPECT_NEAR(look(sail({{north(2.0), 50.0}}), other).outlines_m, 20.0 - 1.0 - 0.54, 1e-9);
+  // Bow to bow, and she crosses 12 m ahead of where we turn away.
+  other = meeting(180.0, 2.0);
+  other.motion.position = {0.0, -100.0};
+  EXPECT_NEAR(look(sail({{north(2.0), 10.0}}), other).outlines_m, 60.0 - 1.0 - 3.0, 1e-9);
+  other = meeting(90.0, 2.0);
+  other.motion.position = {-40.0, -150.0};
+  const Course short_of = sail({{north(2.0), 19.0}, {north(-2.0), 20.0}});
+  EXPECT_NEAR(look(short_of, other).outlines_m, 12.0 - 1.0 - 1.0, 1e-9);
+  EXPECT_DOUBLE_EQ(look(sail({{north(2.0), 200.0}}), meeting(180.0, 2.0)).outlines_m, 0.0);
+}
+
+TEST(Prospect, HeadOnAsksForABoldTurnToStarboardInTime) {
+  const Other other = meeting(180.0, 2.0);
+  const auto broken = [&](const std::vector<std::pair<Eigen::Vector2d, double>>& legs) {
+    return look(sail(legs), other).broken;
+  };
+  EXPECT_EQ(broken({{north(2.0), 10.0}, {north(2.0, 40.0), 15.0}, {north(2.0), 120.0}}), 0U);
+  EXPECT_NE(broken({{north(2.0), 200.0}}) & kLate, 0U);
+  EXPECT_NE(broken({{north(2.0), 85.0}, {north(2.0, 40.0), 15.0}, {north(2.0), 90.0}}) & kLate, 0U);
+  EXPECT_EQ(broken({{north(2.0), 10.0}, {north(2.0, 15.0), 40.0}, {north(2.0), 120.0}}),
+            unsigned{kNotApparent});
+  const unsigned to_port =
+      broken({{north(2.0), 10.0}, {north(2.0, -40.0), 15.0}, {north(2.0), 120.0}});
+  EXPECT_EQ(to_port, unsigned{kWrongTurn} | unsigned{kWrongSide});
+}
+
+TEST(Prospect, CrossingAheadIsHerLane) {
+  const Other other = meeting(270.0, 2.0);
+  const auto broken = [&](const std::vector<std::pair<Eigen::Vector2d, double>>& legs) {
+    return look(sail(legs), other).broken;
+  };
+  // To port and round ahead of her bow; to starboard under her stern; slowing down.
+  EXPECT_NE(broken({{north(2.0), 5.0}, {north(2.0, -40.0), 15.0}, {north(2.0), 160.0}}) &
+                (kIntoHerLane | kWrongTurn),
+            0U);
+  EXPECT_EQ(broken({{north(2.0), 5.0}, {north(2.0, 45.0), 30.0}, {north(2.0), 160.0}}), 0U);
+  EXPECT_EQ(broken({{north(2.0), 5.0}, {north(0.8), 25.0}, {north(2.0), 190.0}}), 0U);
+}
+
+TEST(Prospect, WhoStandsOnWaits) {
+  const Other other = meeting(67.5, 2.0);  // from port
+  ASSERT_EQ(look(sail({{north(2.0), 200.0}}), other).role, Role::kStandOn);
+  EXPECT_EQ(look(sail({{north(2.0), 200.0}}), other).broken, 0U);
+  const auto broken = [&](double at_s, double turn_deg) {
+    return look(sail({{north(2.0), at_s}, {north(2.0, turn_deg), 20.0}, {north(2.0), 100.0}}),
+                other)
+        .broken;
+  };
+  EXPECT_EQ(broken(50.0, 50.0), unsigned{kActedEarly});
+  EXPECT_EQ(broken(80.0, 50.0), 0U);
+  EXPECT_EQ(broken(80.0, -50.0), unsigned{kToPort});
+}
+
+// Rule 2: giving way to one comes before standing on for another.
+TEST(Prospect, GivingWayExcusesFromStandingOn) {
+  const Prospect prospect(Options(), hull());
+  const Course early = sail({{north(2.0), 5.0}, {north(0.8), 30.0}, {north(2.0), 190.0}});
+  const double alone = prospect.price(early, {meeting(67.5, 2.0)}, 1e9);
+  const double both = prospect.price(early, {meeting(67.5, 2.0), meeting(270.0, 2.0)}, 1e9);
+  EXPECT_GT(alone, 50.0);
+  EXPECT_LT(both, alone - 50.0);
+}
+
+TEST(Prospect, WithoutRulesDistancesCountAlone) {
+  Options options;
+  options.rules_of_the_road = false;
+  const Course to_port = sail({{north(2.0), 5.0}, {north(2.0, -40.0), 20.0}, {north(2.0), 150.0}});
+  EXPECT_GT(Prospect(Options(), hull()).price(to_port, {meeting(180.0, 2.0)}, 1e9), 50.0);
+  EXPECT_EQ(Prospect(options, hull()).price(to_port, {meeting(180.0, 2.0)}, 1e9), 0.0);
+}
+
+}  // namespace
+}  // namespace otter_nav::encounter
