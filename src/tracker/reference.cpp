@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -58,6 +59,7 @@ void ReferenceSource::start(const trajectory::Trajectory* trajectory, double sta
   lag_s_ = 0.0;
   waited_at_s_ = now_s;
   joins_ = false;
+  rests_ = false;
   // The heading in force goes on where the new trajectory's own is about the same.
   const double psi = course(now_s).psi_rad;
   if (!started_ || std::abs(wrapAngle(psi - psi_rad_)) > kSameHeadingRad) {
@@ -77,11 +79,23 @@ void ReferenceSource::join(double now_s, const Vector2d& offset, const Vector2d&
   joins_ = true;
 }
 
+void ReferenceSource::rest(const Vector2d& position, double psi_rad) {
+  rests_ = true;
+  joins_ = false;
+  rest_position_ = position;
+  rest_psi_rad_ = psi_rad;
+}
+
 double ReferenceSource::end() const {
   return trajectory_ == nullptr ? start_s_ : start_s_ + trajectory_->duration() + lag_s_;
 }
 
 vessel::FlatPoint ReferenceSource::flat(double time_s) const {
+  if (rests_) {
+    vessel::FlatPoint there;
+    there.position = rest_position_;
+    return there;
+  }
   vessel::FlatPoint z = trajectory_->flat(time_s - start_s_ - lag_s_);
   if (time_s >= end()) {
     z.velocity.setZero();
@@ -102,6 +116,13 @@ vessel::FlatPoint ReferenceSource::flat(double time_s) const {
 }
 
 trajectory::Sample ReferenceSource::at(double time_s) const {
+  if (rests_) {
+    trajectory::Sample there;
+    there.flat = flat(time_s);
+    there.state << rest_position_, rest_psi_rad_, 0.0, 0.0, 0.0;
+    there.heading_force_n = std::numeric_limits<double>::infinity();
+    return there;
+  }
   return trajectory_->sample(time_s - start_s_ - lag_s_, vessel_);
 }
 

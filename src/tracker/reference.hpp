@@ -24,6 +24,9 @@ class ReferenceSource {
   void join(double now_s, const Eigen::Vector2d& offset, const Eigen::Vector2d& velocity_offset,
             double duration_s);
 
+  // From now on, until the next start(): at rest there, on this heading.
+  void rest(const Eigen::Vector2d& position, double psi_rad);
+
   // Stages at `start_s` + k step_s; psi near `psi_near_rad`, continuous along the horizon.
   void fill(double start_s, double step_s, int stages, double psi_near_rad,
             const vessel::Disturbance& disturbance, OcpReference& reference);
@@ -56,6 +59,9 @@ class ReferenceSource {
   trajectory::Piece joining_;
   double joining_start_s_ = 0.0;
   bool joins_ = false;
+  bool rests_ = false;
+  Eigen::Vector2d rest_position_ = Eigen::Vector2d::Zero();
+  double rest_psi_rad_ = 0.0;
   // The heading's own state, at a time.
   double psi_rad_ = 0.0;
   double psi_time_s_ = 0.0;

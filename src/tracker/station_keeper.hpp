@@ -1,25 +1,26 @@
-// Holding a spot with two fixed thrusters, and coming to rest there.
+// Holding a spot with two fixed thrusters: on which heading. The tracker's plan does the holding.
 //
-// The hull cannot be pushed sideways, so heading and position compete: while the spot is near, the
-// wanted heading is held and the surge thrust keeps the distance along the hull. When the vessel
-// drifts off, the heading is given up: bow or stern, whichever is nearer, turns into the force that
-// position needs (against the disturbance and back to the spot), which also is how a vessel at
-// anchor lies. Radii with hysteresis keep it from changing its mind.
+// The hull cannot be pushed sideways, so heading and position compete. The wanted heading is held
+// where wind and current set the resting hull aside but slowly; else bow or stern turns into what
+// they push with, which also is how a vessel at anchor lies: the bow, unless the stern is nearer
+// and little thrust is asked for.
 #pragma once
 
-#include "otter_nav/tracker/options.hpp"
-#include "otter_nav/vessel/model.hpp"
+#include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::tracker {
 
 class StationKeeper {
  public:
-  StationKeeper(const HoldingOptions& options, const vessel::Parameters& vessel);
+  explicit StationKeeper(const vessel::Parameters& vessel);
 
-  void start(const Eigen::Vector2d& position, double psi_rad);
-  [[nodiscard]] vessel::Thrusts step(const vessel::State& state,
-                                     const vessel::Disturbance& disturbance);
+  // `heading_rad` is the vessel's own now, from where it turns to `psi_rad`.
+  void start(const Eigen::Vector2d& position, double psi_rad, double heading_rad, double now_s);
+  // The heading to hold from now on; turns slowly when it changes.
+  [[nodiscard]] double heading(double now_s, const vessel::Disturbance& disturbance);
+  [[nodiscard]] const Eigen::Vector2d& position() const { return position_; }
   // Thrusts that slow the vessel down on the heading it has.
   [[nodiscard]] vessel::Thrusts brake(const vessel::State& state,
                                       const vessel::Disturbance& disturbance) const;
@@ -29,19 +30,15 @@ class StationKeeper {
 
  private:
   [[nodiscard]] vessel::Thrusts thrusts(double surge_n, double yaw_nm) const;
-  // Drag through the water and outside force at rest on a heading, earth frame: what the thrust has
-  // to balance.
-  [[nodiscard]] Eigen::Vector2d load(double psi_rad, const vessel::Disturbance& disturbance) const;
+  [[nodiscard]] double intoLoad(const vessel::Disturbance& disturbance) const;
 
-  HoldingOptions options_;
   vessel::Parameters vessel_;
-  double surge_gain_npm_;
   double surge_damping_kgps_;
-  double yaw_gain_nm_;
   double yaw_damping_nms_;
-  double side_load_n_;
   Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
-  double psi_rad_ = 0.0;
+  double psi_rad_ = 0.0;   // wanted
+  double held_rad_ = 0.0;  // what the vessel is told
+  double time_s_ = 0.0;
   bool weathervanes_ = false;
 };
 

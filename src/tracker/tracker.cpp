@@ -23,8 +23,9 @@ using vessel::kSurge;
 using vessel::kSway;
 using vessel::kYawRate;
 
-constexpr double kRestMps = 0.05;
-constexpr double kRestRadps = 0.05;
+constexpr double kRestMps = 0.2;
+constexpr double kRestRadps = 0.2;
+constexpr double kBrakingShare = 0.6;  // of the thrust astern: how far ahead a stop ends
 // A reference farther from the vessel than this is approached along a curve, on which the offset
 // shrinks at this mean speed.
 constexpr double kJoinLengths = 1.5;
@@ -85,14 +86,16 @@ class Tracker::Core {
   void takeOdometry();
   void takeAssignment(double now_s, const vessel::State& state);
   void beginTracking(double now_s, const vessel::State& state);
-  void beginStop(std::string_view reason);
-  void beginHolding();
+  void beginStop(std::string_view reason, double now_s, const vessel::State& state);
+  void beginHolding(double now_s, const vessel::State& state);
+  // The spot where braking ends.
+  void restAhead(double now_s, const vessel::State& state);
   void watchFix(Fix fix, double now_s, const vessel::State& state);
 
   // Each gives the thrusts of its mode.
   vessel::Thrusts track(double now_s, const vessel::State& state, Command& command);
-  vessel::Thrusts hold(const vessel::State& state, Command& command);
-  vessel::Thrusts stop(const vessel::State& state, Fix fix, Command& command);
+  vessel::Thrusts hold(double now_s, const vessel::State& state, Command& command);
+  vessel::Thrusts stop(double now_s, const vessel::State& state, Fix fix, Command& command);
 
   void finish(double now_s, const vessel::State& state, Command& command);
   [[nodiscard]] vessel::Thrusts slew(const vessel::Thrusts& wanted) const;
@@ -114,6 +117,7 @@ class Tracker::Core {
   Mode mode_ = Mode::kIdle;
   std::string_view stop_reason_;
   double lost_since_s_ = 0.0;
+  bool lost_ = false;
   vessel::Thrusts last_thrusts_ = vessel::Thrusts::Zero();
 };
 
@@ -122,7 +126,7 @@ Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
       vessel_(vessel),
       navigator_(options, vessel),
       reference_source_(options, vessel),
-      keeper_(options.holding, vessel),
+      keeper_(vessel),
       controller_(options, vessel) {}
 
 Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double start_s) {
@@ -171,7 +175,7 @@ void Tracker::Core::takeAssignment(double now_s, const vessel::State& state) {
   std::swap(waiting_, sailing_);
   fresh_ = false;
   if (sailing_->trajectory.empty()) {
-    beginStop(sailing_->reason);
+    beginStop(sailing_->reason, now_s, state);
   } else {
     beginTracking(now_s, state);
   }
@@ -192,19 +196,29 @@ void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
   controller_.start(under_way && offset.norm() < kSamePathLengths * vessel_.hull.length_m);
 }
 
-void Tracker::Core::beginStop(std::string_view reason) {
+void Tracker::Core::beginStop(std::string_view reason, double now_s, const vessel::State& state) {
   if (mode_ != Mode::kStopped) {
     mode_ = Mode::kStopping;
+    restAhead(now_s, state);
   }
   stop_reason_ = reason;
-  controller_.dropPlan();
 }
 
-void Tracker::Core::beginHolding() {
+void Tracker::Core::restAhead(double now_s, const vessel::State& state) {
+  const Vector2d velocity = velocityOverGround(state);
+  const double braking_mps2 =
+      kBrakingShare * 2.0 * vessel_.thrusters.astern_max_n / vessel_.manoeuvring.surge_inertia_kg;
+  const Vector2d ahead = braking_mps2 > 0.0
+                             ? (velocity * (0.5 * velocity.norm() / braking_mps2)).eval()
+                             : Vector2d::Zero().eval();
+  keeper_.start(state.head<2>() + ahead, state[kPsi], state[kPsi], now_s);
+  controller_.start(false);
+}
+
+void Tracker::Core::beginHolding(double now_s, const vessel::State& state) {
   mode_ = Mode::kHolding;
   const trajectory::Sample goal = reference_source_.at(reference_source_.end());
-  keeper_.start(goal.state.head<2>(), goal.state[kPsi]);
-  controller_.dropPlan();
+  keeper_.start(goal.state.head<2>(), goal.state[kPsi], state[kPsi], now_s);
 }
 
 vessel::Thrusts Tracker::Core::track(double now_s, const vessel::State& state, Command& command) {
@@ -213,45 +227,52 @@ vessel::Thrusts Tracker::Core::track(double now_s, const vessel::State& state, C
   if (thrusts) {
     return *thrusts;
   }
-  beginStop("no usable plan");
+  beginStop("no usable plan", now_s, state);
   return keeper_.brake(state, navigator_.disturbance());
 }
 
-vessel::Thrusts Tracker::Core::hold(const vessel::State& state, Command& command) {
-  if (keeper_.weathervaning()) {
+vessel::Thrusts Tracker::Core::hold(double now_s, const vessel::State& state, Command& command) {
+  reference_source_.rest(keeper_.position(), keeper_.heading(now_s, navigator_.disturbance()));
+  const auto thrusts =
+      controller_.step(now_s, state, last_thrusts_, navigator_, reference_source_, command);
+  if (command.reason.empty() && keeper_.weathervaning()) {
     command.reason = "the heading yields to the position";
   }
-  return keeper_.step(state, navigator_.disturbance());
+  return thrusts ? *thrusts : keeper_.brake(state, navigator_.disturbance());
 }
 
-vessel::Thrusts Tracker::Core::stop(const vessel::State& state, Fix fix, Command& command) {
-  command.reason = stop_reason_;
+vessel::Thrusts Tracker::Core::stop(double now_s, const vessel::State& state, Fix fix,
+                                    Command& command) {
   const bool rests =
       std::hypot(state[kSurge], state[kSway]) < kRestMps && std::abs(state[kYawRate]) < kRestRadps;
-  if (mode_ == Mode::kStopping && rests) {
+  if (mode_ == Mode::kStopping && rests && fix != Fix::kLost) {
     mode_ = Mode::kStopped;
-    keeper_.start(state.head<2>(), state[kPsi]);
   }
-  if (mode_ == Mode::kStopped) {
-    return fix == Fix::kLost ? vessel::Thrusts::Zero()
-                             : keeper_.step(state, navigator_.disturbance());
+  vessel::Thrusts thrusts = vessel::Thrusts::Zero();
+  if (fix != Fix::kLost) {
+    thrusts = hold(now_s, state, command);
+  } else if (mode_ == Mode::kStopping) {
+    thrusts = keeper_.brake(state, navigator_.disturbance());
   }
-  return keeper_.brake(state, navigator_.disturbance());
+  command.reason = stop_reason_;
+  return thrusts;
 }
 
 // Without odometry the model alone brakes the vessel; when that is too old to mean anything, the
 // thrusters rest until odometry comes back, and the vessel then holds the spot it is found at.
 void Tracker::Core::watchFix(Fix fix, double now_s, const vessel::State& state) {
   if (fix != Fix::kLost) {
-    lost_since_s_ = now_s;
-    if (mode_ == Mode::kFault) {
+    if (mode_ == Mode::kFault || (lost_ && (mode_ == Mode::kStopping || mode_ == Mode::kStopped))) {
       mode_ = Mode::kStopped;
-      keeper_.start(state.head<2>(), state[kPsi]);
+      restAhead(now_s, state);
     }
+    lost_ = false;
+    lost_since_s_ = now_s;
     return;
   }
+  lost_ = true;
   if (mode_ == Mode::kTracking || mode_ == Mode::kHolding) {
-    beginStop("odometry lost");
+    beginStop("odometry lost", now_s, state);
   }
   if (mode_ != Mode::kIdle && now_s - lost_since_s_ > kBrakeBlindS) {
     mode_ = Mode::kFault;
@@ -265,7 +286,7 @@ vessel::Thrusts Tracker::Core::slew(const vessel::Thrusts& wanted) const {
 }
 
 void Tracker::Core::prepare(double next_s) {
-  if (mode_ == Mode::kTracking) {
+  if (mode_ != Mode::kIdle && mode_ != Mode::kFault) {
     controller_.prepare(next_s, last_thrusts_, navigator_, reference_source_);
   }
 }
@@ -282,7 +303,7 @@ Command Tracker::Core::step(double now_s) {
   }
   watchFix(fix, now_s, state);
   if (mode_ == Mode::kTracking && now_s >= reference_source_.end()) {
-    beginHolding();
+    beginHolding(now_s, state);
   }
   if (mode_ == Mode::kTracking) {
     reference_source_.wait(now_s, state.head<2>());
@@ -293,11 +314,11 @@ Command Tracker::Core::step(double now_s) {
       wanted = track(now_s, state, command);
       break;
     case Mode::kHolding:
-      wanted = hold(state, command);
+      wanted = hold(now_s, state, command);
       break;
     case Mode::kStopping:
     case Mode::kStopped:
-      wanted = stop(state, fix, command);
+      wanted = stop(now_s, state, fix, command);
       break;
     case Mode::kFault:
       command.reason = "odometry lost";

@@ -8,3 +8,4 @@ otter_nav_test(unit_dual SOURCES ${CMAKE_CURRENT_LIST_DIR}/base/dual_test.cpp RO
 otter_nav_test(unit_vessel_scripted SOURCES ${CMAKE_CURRENT_LIST_DIR}/vessel/scripted_vessel_test.cpp ROOMS vessel)
 otter_nav_test(unit_vessel_steady_motion
                SOURCES ${CMAKE_CURRENT_LIST_DIR}/vessel/steady_motion_test.cpp ROOMS vessel)
+otter_nav_test(unit_vessel_rest SOURCES ${CMAKE_CURRENT_LIST_DIR}/vessel/rest_test.cpp ROOMS vessel)

@@ -76,18 +76,6 @@ struct OdometryOptions {
   }
 };
 
-struct HoldingOptions {
-  double heading_radius_m = 0.5;
-  double weathervane_radius_m = 0.8;
-
-  template <typename Self, typename Fields>
-  static void describe(Self& o, Fields& fields) {
-    fields("heading_radius_m", o.heading_radius_m, {1e-6, 100.0}, "inside, the heading is held");
-    fields("weathervane_radius_m", o.weathervane_radius_m, {o.heading_radius_m, 100.0},
-           "outside, position alone counts");
-  }
-};
-
 struct Options {
   Method method = Method::kFlatness;
   int stages = 40;
@@ -97,7 +85,6 @@ struct Options {
   Weights flatness;
   EstimatorOptions estimator;
   OdometryOptions odometry;
-  HoldingOptions holding;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
@@ -114,7 +101,6 @@ struct Options {
     fields.group("flatness", o.flatness, "weights per second of horizon");
     fields.group("estimator", o.estimator, "standard deviations");
     fields.group("odometry", o.odometry, "");
-    fields.group("holding", o.holding, "station at the end of a trajectory");
   }
 };
 

@@ -61,10 +61,9 @@ TEST(Handover, HoldsTheGoalAndItsHeadingInALightWind) {
   EXPECT_LT(std::abs(sea.truth()[vessel::kPsi]), 0.1);
 }
 
-// Each vessel lies as close as its gains, which come from its own inertia and drag, let it: the
-// distances that fixed gains of 25 N/m held, 0.49 m and 0.56 m, are not exceeded.
+// The plan of the next seconds holds the spot, with what wind and waves leave.
 TEST(Handover, HoldsTheSpotInTheWeatherOfThePaper) {
-  for (const auto& [vessel, most_m] : {std::pair{"otter_gazebo", 0.5}, std::pair{"otter", 0.56}}) {
+  for (const auto& [vessel, most_m] : {std::pair{"otter_gazebo", 0.15}, std::pair{"otter", 0.2}}) {
     double squares = 0.0;
     int seconds = 0;
     for (const double course : {1.3, 2.6, 3.9, 5.2}) {

@@ -25,11 +25,11 @@ TEST(TrackerOptions, TheNodesDefaultsAreWhatShips) {
 TEST(TrackerOptions, AreReadStrictly) {
   YAML::Node node = YAML::Load(config::toYaml(Options{}));
   EXPECT_TRUE(config::read<Options>(config::Section(node, "tracker")));
-  node["holding"]["weathervane_radius_m"] = 0.1;  // inside heading_radius_m
+  node["horizon_s"] = 0.01;
   const auto narrow = config::read<Options>(config::Section(node, "tracker"));
   ASSERT_FALSE(narrow);
-  EXPECT_NE(narrow.error().message.find("weathervane_radius_m"), std::string::npos);
-  node["holding"]["weathervane_radius_m"] = 0.8;
+  EXPECT_NE(narrow.error().message.find("horizon_s"), std::string::npos);
+  node["horizon_s"] = 6.0;
   node["thrust_share"] = 0.9;
   const auto unknown = config::read<Options>(config::Section(node, "tracker"));
   ASSERT_FALSE(unknown);

@@ -1,0 +1,31 @@
+// Lying still in wind and current. A hull with fixed thrusters has none against what pushes it
+// abeam: a heading can be held at rest as far as that sets it aside slowly, and the one along the
+// load always, as long as the thrust lasts.
+#pragma once
+
+#include "otter_nav/vessel/motion_law.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::vessel {
+
+// Faster is not at rest.
+constexpr double kRestMps = 0.25;
+
+// At which speed over ground, m/s, a hull that makes no way along its heading is set aside: its
+// sway drag balances the load abeam, and the current carries it.
+[[nodiscard]] double setAside(const ManoeuvringModel& model, const Disturbance& disturbance,
+                              double psi_rad);
+// Whether it lies on that heading: set aside by no more than `most_mps`.
+[[nodiscard]] inline bool canLie(const ManoeuvringModel& model, const Disturbance& disturbance,
+                                 double psi_rad, double most_mps = kRestMps) {
+  return setAside(model, disturbance, psi_rad) <= most_mps;
+}
+// The heading on which the whole load comes from ahead, found from the one that meets the load as
+// it is on `psi_rad`; `psi_rad` itself without any load.
+[[nodiscard]] double headingIntoLoad(const ManoeuvringModel& model, const Disturbance& disturbance,
+                                     double psi_rad);
+// The thrust ahead that holds the hull at rest there, N; negative is astern.
+[[nodiscard]] double surgeAtRest(const ManoeuvringModel& model, const Disturbance& disturbance,
+                                 double psi_rad);
+
+}  // namespace otter_nav::vessel

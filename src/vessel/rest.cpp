@@ -1,0 +1,51 @@
+#include "otter_nav/vessel/rest.hpp"
+
+#include <cmath>
+
+#include "otter_nav/vessel/inverse_dynamics.hpp"
+
+namespace otter_nav::vessel {
+namespace {
+
+Demand atRest(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad) {
+  return demandOf(model, disturbance, psi_rad, 0.0, 0.0, Eigen::Vector2d::Zero(),
+                  Eigen::Vector2d::Zero());
+}
+
+}  // namespace
+
+double setAside(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad) {
+  const double cosine = std::cos(psi_rad);
+  const double sine = std::sin(psi_rad);
+  const double abeam = std::abs(outsideForce(cosine, sine, model, disturbance).sway);
+  const bool to_port = outsideForce(cosine, sine, model, disturbance).sway > 0.0;
+  // d v + q v^2 = |Y|
+  const double d = model.sway_drag_kgps;
+  const double q = model.sway_drag_quadratic_kgpm;
+  const double through = 2.0 * abeam / (d + std::sqrt(d * d + 4.0 * q * abeam) + 1e-12);
+  const Eigen::Vector2d& current = disturbance.current_mps;
+  return std::abs((to_port ? through : -through) +
+                  portPart(cosine, sine, current.x(), current.y()));
+}
+
+double headingIntoLoad(const ManoeuvringModel& model, const Disturbance& disturbance,
+                       double psi_rad) {
+  constexpr double kNoLoadN = 1e-6;
+  constexpr int kIterations = 20;
+  double psi = psi_rad;
+  for (int i = 0; i < kIterations; ++i) {
+    const Demand demand = atRest(model, disturbance, psi);
+    if (std::hypot(demand.tau.surge_n, demand.sway_n) < kNoLoadN) {
+      return psi;
+    }
+    // Towards the force that the load asks for; wind loads turn with the hull themselves.
+    psi += std::atan2(demand.sway_n, demand.tau.surge_n);
+  }
+  return psi;
+}
+
+double surgeAtRest(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad) {
+  return atRest(model, disturbance, psi_rad).tau.surge_n;
+}
+
+}  // namespace otter_nav::vessel

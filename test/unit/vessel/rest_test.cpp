@@ -1,0 +1,65 @@
+#include "otter_nav/vessel/rest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
+
+namespace otter_nav::vessel {
+namespace {
+
+ManoeuvringModel windy() {
+  ManoeuvringModel model;
+  model.sway_drag_quadratic_kgpm = 15.0;
+  model.wind_surge_kgpm = 0.5;
+  model.wind_sway_kgpm = 0.5;
+  model.wind_yaw_kg = -0.66;
+  return model;
+}
+
+// The speed at which nothing is left of the sway balance.
+TEST(Rest, IsSetAsideUntilTheDragBalancesTheLoad) {
+  Disturbance disturbance;
+  disturbance.force_n = {0.0, 12.0};
+  for (const double psi : {0.0, 0.7, 2.0, -3.0}) {
+    const ManoeuvringModel model = windy();
+    const double speed = setAside(model, disturbance, psi);
+    const double port = std::cos(psi) > 0.0 ? speed : -speed;
+    const Eigen::Vector2d velocity = port * Eigen::Vector2d(-std::sin(psi), std::cos(psi));
+    EXPECT_NEAR(demandOf(model, disturbance, psi, 0.0, 0.0, velocity, {0.0, 0.0}).sway_n, 0.0,
+                1e-9);
+  }
+  Disturbance stream;
+  stream.current_mps = {0.0, 0.5};
+  EXPECT_NEAR(setAside(windy(), stream, 0.0), 0.5, 1e-12);
+  EXPECT_NEAR(setAside(windy(), stream, 0.5 * kPi), 0.0, 1e-12);
+}
+
+TEST(Rest, LiesOnHeadingsAlongTheLoadAndOnAnyInCalmWater) {
+  Disturbance gale;
+  gale.wind_mps = {8.0, 0.0};
+  EXPECT_TRUE(canLie(windy(), {}, 1.0));
+  EXPECT_TRUE(canLie(windy(), gale, kPi));
+  EXPECT_TRUE(canLie(windy(), gale, 0.0));
+  EXPECT_FALSE(canLie(windy(), gale, 0.5 * kPi));
+  EXPECT_FALSE(canLie(windy(), gale, kPi - 0.7));
+}
+
+TEST(Rest, TurnsTheBowIntoTheLoad) {
+  for (const double seen_from : {-3.0, -1.5, 0.0, 0.1, 1.5, 2.9}) {
+    Disturbance weather;
+    weather.wind_mps = {5.0, 5.0};
+    weather.current_mps = {0.3, -0.2};
+    weather.force_n = {2.0, 4.0};
+    const double psi = headingIntoLoad(windy(), weather, seen_from);
+    const Demand demand = demandOf(windy(), weather, psi, 0.0, 0.0, {0.0, 0.0}, {0.0, 0.0});
+    EXPECT_NEAR(demand.sway_n, 0.0, 1e-6);
+    EXPECT_GT(surgeAtRest(windy(), weather, psi), 20.0);
+  }
+  EXPECT_EQ(headingIntoLoad(windy(), {}, 0.4), 0.4);
+}
+
+}  // namespace
+}  // namespace otter_nav::vessel
