@@ -1,0 +1,74 @@
+// Tracks of other vessels from lidar, radar and AIS. No clock of its own: every call brings its
+// time, and the same calls give the same tracks.
+//
+//   Tracker tracker(options, chart, own_hull);
+//   tracker.addScan(stamp_s, sensor, own, scan);
+//   tracker.addRadar(stamp_s, positions_in_map, own.position);
+//   tracker.addAis(stamp_s, sentence);
+//   planner_obstacles.add(TrackLayer(tracker.tracks(), {}));
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "otter_nav/ais/local_frame.hpp"
+#include "otter_nav/base/result.hpp"
+#include "otter_nav/config/section.hpp"
+#include "otter_nav/map/occupancy_map.hpp"
+#include "otter_nav/traffic/track.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::traffic {
+
+struct Options {
+  double radar_range_m = 145.0;
+  double radar_noise_m = 1.0;
+  ais::Datum datum;
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("radar_range_m", o.radar_range_m, {1.0, 100000.0}, "nearer vessels ought to be seen");
+    fields("radar_noise_m", o.radar_noise_m, {0.01, 100.0}, "standard deviation, each axis");
+    fields.group("datum", o.datum, "the map's origin on the globe");
+  }
+};
+
+// What a scan says of things that move.
+struct ScanVerdict {
+  // A beam each: whether it met a vessel that is tracked and has moved. What such beams met does
+  // not belong into a map of what stands.
+  std::vector<bool> on_vessel;
+  // Where a vessel was met before it was known to be one: what a map holds there is a ghost.
+  std::vector<Eigen::Vector2d> ghosts;
+};
+
+class Tracker {
+ public:
+  // `chart` may have no cells; what it shows is never taken for a vessel.
+  Tracker(const Options& options, const map::OccupancyGrid& chart, const vessel::Hull& own_hull);
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+
+  // The reference stays valid until the next scan.
+  const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor,
+                             const map::HullPose& own, const map::Scan& scan);
+  // All positions seen at once, from a sensor at `own`.
+  void addRadar(double stamp_s, const std::vector<Eigen::Vector2d>& positions,
+                const Eigen::Vector2d& own);
+  // A sentence as received; an error says why it is none.
+  [[nodiscard]] Status addAis(double stamp_s, std::string_view sentence);
+  // Forgets tracks that were not heard or seen of for too long.
+  void forget(double now_s);
+
+  // Those that are confirmed, each at the instant it was last measured.
+  [[nodiscard]] const std::vector<Track>& tracks() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace otter_nav::traffic

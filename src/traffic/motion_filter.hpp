@@ -1,0 +1,68 @@
+// One vessel's motion: straight ahead or turning, as an interacting multiple model filter (Blom and
+// Bar-Shalom 1988) whose models are updated by weighted measurements (probabilistic data
+// association, Bar-Shalom and others 2011, chapters 3 and 11).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace otter_nav::traffic {
+
+// [x m, y m, v_x m/s, v_y m/s, omega rad/s], map frame.
+using MotionState = Eigen::Matrix<double, 5, 1>;
+using MotionCovariance = Eigen::Matrix<double, 5, 5>;
+
+// The state's first two (position) or four (and velocity) components, observed.
+struct Measurement {
+  bool has_velocity = false;
+  Eigen::Vector4d value = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+};
+
+class MotionFilter {
+ public:
+  static constexpr std::size_t kModels = 2;  // straight ahead, turning
+  using PerModel = std::array<double, kModels>;
+
+  // Where a first measurement says; a velocity that isn't measured may be anything up to a few m/s.
+  MotionFilter(const Measurement& first, double stamp_s);
+
+  [[nodiscard]] double stamp() const { return stamp_s_; }
+  // Moves on; times that lie back change nothing.
+  void predict(double time_s);
+
+  // Density of the measurement by each model, and by all.
+  [[nodiscard]] PerModel likelihoods(const Measurement& measurement) const;
+  [[nodiscard]] double likelihood(const PerModel& by_model) const;
+  // Squared Mahalanobis distance to the predicted measurement, the models taken together.
+  [[nodiscard]] double distance2(const Measurement& measurement) const;
+
+  // One of `candidates` is the vessel's with its probability, none with what is left to 1.
+  struct Candidate {
+    Measurement measurement;
+    PerModel likelihoods;
+    double probability = 1.0;
+  };
+  void update(const std::vector<Candidate>& candidates);
+  // The vessel's for certain.
+  void update(const Measurement& measurement);
+
+  // Of all models together.
+  [[nodiscard]] MotionState state() const;
+  [[nodiscard]] MotionCovariance covariance() const;
+  [[nodiscard]] double turningProbability() const { return models_[1].weight; }
+
+ private:
+  struct Model {
+    MotionState x = MotionState::Zero();
+    MotionCovariance P = MotionCovariance::Zero();
+    double weight = 0.5;
+  };
+  void mix(double dt_s);
+
+  std::array<Model, kModels> models_;
+  double stamp_s_ = 0.0;
+};
+
+}  // namespace otter_nav::traffic

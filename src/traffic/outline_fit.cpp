@@ -1,0 +1,92 @@
+#include "outline_fit.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "otter_nav/base/angles.hpp"
+
+namespace otter_nav::traffic {
+namespace {
+
+constexpr int kDirections = 30;
+constexpr double kLeastDistanceM = 0.03;  // nearer is as good as on the side: the lidar's noise
+
+// Distance of a projection to the nearer end of its span.
+double toEnd(double value, const Span& span) {
+  return std::min(value - span.low, span.high - value);
+}
+
+}  // namespace
+
+Span spanOf(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& axis) {
+  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Eigen::Vector2d& p : points) {
+    const double along = axis.dot(p);
+    span.low = std::min(span.low, along);
+    span.high = std::max(span.high, along);
+  }
+  return span;
+}
+
+double rectangleDirection(const std::vector<Eigen::Vector2d>& points) {
+  double best = 0.0;
+  double best_closeness = -1.0;
+  for (int k = 0; k < kDirections; ++k) {
+    const double direction = 0.5 * kPi * k / kDirections;
+    const Eigen::Vector2d ahead(std::cos(direction), std::sin(direction));
+    const Eigen::Vector2d port(-ahead.y(), ahead.x());
+    const Span along = spanOf(points, ahead);
+    const Span athwart = spanOf(points, port);
+    double closeness = 0.0;
+    for (const Eigen::Vector2d& p : points) {
+      const double off = std::min(toEnd(ahead.dot(p), along), toEnd(port.dot(p), athwart));
+      closeness += 1.0 / std::max(off, kLeastDistanceM);
+    }
+    if (closeness > best_closeness) {
+      best_closeness = closeness;
+      best = direction;
+    }
+  }
+  return best;
+}
+
+double rectangleDeviation(const std::vector<Eigen::Vector2d>& points, double direction_rad) {
+  const Eigen::Vector2d ahead(std::cos(direction_rad), std::sin(direction_rad));
+  const Eigen::Vector2d port(-ahead.y(), ahead.x());
+  const Span along = spanOf(points, ahead);
+  const Span athwart = spanOf(points, port);
+  double sum = 0.0;
+  for (const Eigen::Vector2d& p : points) {
+    const double off = std::min(toEnd(ahead.dot(p), along), toEnd(port.dot(p), athwart));
+    sum += off * off;
+  }
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
+// |p|^2 = 2 c.p + (r^2 - |c|^2), linear in c and the bracket.
+Circle circleThrough(const std::vector<Eigen::Vector2d>& points) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  const Eigen::Vector2d near = points.front();
+  for (const Eigen::Vector2d& point : points) {
+    const Eigen::Vector2d p = point - near;
+    const Eigen::Vector3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
+    normal += row * row.transpose();
+    right += p.squaredNorm() * row;
+  }
+  const Eigen::Vector3d solution = (normal + 1e-9 * Eigen::Matrix3d::Identity()).inverse() * right;
+  Circle circle;
+  circle.radius_m = std::sqrt(std::max(0.0, solution[2] + solution.head<2>().squaredNorm()));
+  circle.centre = near + solution.head<2>();
+  double sum = 0.0;
+  for (const Eigen::Vector2d& p : points) {
+    const double off = (p - circle.centre).norm() - circle.radius_m;
+    sum += off * off;
+  }
+  circle.deviation_m = std::sqrt(sum / static_cast<double>(points.size()));
+  return circle;
+}
+
+}  // namespace otter_nav::traffic

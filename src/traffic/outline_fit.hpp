@@ -1,0 +1,41 @@
+// The echoes of one thing, and the outline that fits them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace otter_nav::traffic {
+
+// Echoes that hang together, map frame, in the order of the beams.
+struct Cluster {
+  std::vector<Eigen::Vector2d> points;
+  std::vector<std::size_t> beams;  // that met them
+  int new_points = 0;              // in water that was seen free before
+};
+
+// Along an axis: from `low` to `high`.
+struct Span {
+  double low = 0.0;
+  double high = 0.0;
+  [[nodiscard]] double length() const { return high - low; }
+  [[nodiscard]] double middle() const { return 0.5 * (low + high); }
+};
+[[nodiscard]] Span spanOf(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& axis);
+
+// The direction, in [0, pi / 2), along and across which the points lie closest to two sides of a
+// rectangle (Zhang and others, Efficient L-shape fitting for vehicle detection using laser
+// scanners, IV 2017: search over directions by closeness).
+[[nodiscard]] double rectangleDirection(const std::vector<Eigen::Vector2d>& points);
+
+// A circle through the points (Kasa's least squares). `deviation_m` is of the distances to it.
+struct Circle {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double radius_m = 0.0;
+  double deviation_m = 0.0;
+};
+[[nodiscard]] Circle circleThrough(const std::vector<Eigen::Vector2d>& points);
+// Of the points' distances to the nearer pair of sides of a rectangle in direction `direction_rad`.
+[[nodiscard]] double rectangleDeviation(const std::vector<Eigen::Vector2d>& points,
+                                        double direction_rad);
+
+}  // namespace otter_nav::traffic

@@ -1,0 +1,187 @@
+#include "scan_clusters.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "otter_nav/base/angles.hpp"
+
+namespace otter_nav::traffic {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLeastHeightM = 0.15;  // lower is the water
+constexpr double kHullMarginM = 0.3;
+constexpr double kCoastM = 0.6;  // echoes this near charted land are the land's
+constexpr std::size_t kFewestPoints = 3;
+constexpr double kLargestM = 30.0;  // larger things are land that no chart shows
+// Echoes of beams side by side hang together when they are this near (Borges and Aldon's idea:
+// nearer than a surface seen at a grazing angle would have them).
+constexpr double kGapM = 0.4;
+constexpr double kGapPerSpacing = 3.0;
+constexpr std::size_t kMostSkipped = 3;
+
+}  // namespace
+
+ScanClusters::ScanClusters(const map::OccupancyGrid& chart, const vessel::Hull& own_hull)
+    : geometry_(chart.geometry), charted_(chart.cells.size(), false), own_hull_(own_hull) {
+  const int reach = static_cast<int>(std::ceil(kCoastM / geometry_.resolution_m));
+  for (int row = 0; row < geometry_.height && !chart.cells.empty(); ++row) {
+    for (int column = 0; column < geometry_.width; ++column) {
+      if (chart.at(column, row) != map::Cell::kOccupied) {
+        continue;
+      }
+      for (int y = row - reach; y <= row + reach; ++y) {
+        for (int x = column - reach; x <= column + reach; ++x) {
+          if (geometry_.containsCell(x, y)) {
+            charted_[geometry_.index(x, y)] = true;
+          }
+        }
+      }
+    }
+  }
+}
+
+bool ScanClusters::isCharted(const Eigen::Vector2d& point) const {
+  if (charted_.empty() || !geometry_.contains(point)) {
+    return false;
+  }
+  const Eigen::Vector2i cell = geometry_.cellAt(point);
+  return charted_[geometry_.index(cell.x(), cell.y())];
+}
+
+void ScanClusters::readEchoes(const map::SensorPose& sensor, const map::HullPose& own,
+                              const map::Scan& scan) {
+  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(sensor.yaw_rad, Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(sensor.pitch_rad, Eigen::Vector3d::UnitY()) *
+                                    Eigen::AngleAxisd(sensor.roll_rad, Eigen::Vector3d::UnitX()))
+                                       .toRotationMatrix();
+  const Eigen::Rotation2Dd hull_from_map(-own.psi_rad);
+  const Eigen::Vector2d half(0.5 * own_hull_.length_m + kHullMarginM,
+                             0.5 * own_hull_.beam_m + kHullMarginM);
+  echoes_.clear();
+  others_.clear();
+  directions_.assign(scan.ranges_m.size(), Eigen::Vector2d::Zero());
+  free_m_.assign(scan.ranges_m.size(), kNaN);
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double range = scan.ranges_m[i];
+    const bool nothing = std::isinf(range) && range > 0.0;
+    if (!nothing && !(range >= scan.range_min_m && range <= scan.range_max_m)) {
+      continue;
+    }
+    const double angle = scan.angle_min_rad + scan.angle_increment_rad * static_cast<double>(i);
+    const Eigen::Vector3d beam = rotation * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    const double level = beam.head<2>().norm();
+    // No farther than where the beam comes too near the water.
+    double reach = nothing ? scan.range_max_m : range;
+    if (beam.z() < 0.0) {
+      reach = std::min(reach, (kLeastHeightM - sensor.position.z()) / beam.z());
+    }
+    directions_[i] = beam.head<2>() / level;
+    free_m_[i] = std::max(0.0, reach * level);
+    if (nothing || sensor.position.z() + range * beam.z() < kLeastHeightM) {
+      continue;
+    }
+    const Eigen::Vector2d point = (sensor.position + range * beam).head<2>();
+    if (((hull_from_map * (point - own.position)).cwiseAbs().array() <= half.array()).all()) {
+      continue;
+    }
+    if (isCharted(point)) {
+      others_.push_back(point);
+    } else {
+      echoes_.push_back({i, point, range * level, memory_.isNew(point)});
+    }
+  }
+}
+
+void ScanClusters::remember() {
+  for (const Echo& echo : echoes_) {
+    memory_.met(echo.point);
+  }
+  for (const Eigen::Vector2d& point : others_) {
+    memory_.met(point);
+  }
+  constexpr double kShortOfEchoM = 0.5;
+  for (std::size_t i = 0; i < free_m_.size(); i += 2) {
+    if (free_m_[i] > kShortOfEchoM) {  // not for NaN
+      memory_.passed(eye_, eye_ + (free_m_[i] - kShortOfEchoM) * directions_[i]);
+    }
+  }
+}
+
+void ScanClusters::divide(std::size_t beams, double increment_rad) {
+  clusters_.clear();
+  const auto belong = [&](const Echo& a, const Echo& b, std::size_t skipped) {
+    const double spacing = std::max(a.range_m, b.range_m) * std::abs(increment_rad);
+    return skipped <= kMostSkipped &&
+           (a.point - b.point).norm() <
+               kGapM + kGapPerSpacing * spacing * static_cast<double>(skipped);
+  };
+  for (std::size_t k = 0; k < echoes_.size(); ++k) {
+    const bool goes_on =
+        k > 0 && belong(echoes_[k - 1], echoes_[k], echoes_[k].beam - echoes_[k - 1].beam);
+    if (!goes_on) {
+      clusters_.emplace_back();
+    }
+    Cluster& cluster = clusters_.back();
+    cluster.points.push_back(echoes_[k].point);
+    cluster.beams.push_back(echoes_[k].beam);
+    cluster.new_points += echoes_[k].is_new ? 1 : 0;
+  }
+  // A full turn's last beam is beside its first.
+  const bool full_turn = std::abs(increment_rad) * static_cast<double>(beams) > 2.0 * kPi - 0.1;
+  if (full_turn && clusters_.size() > 1 &&
+      belong(echoes_.back(), echoes_.front(), echoes_.front().beam + beams - echoes_.back().beam)) {
+    Cluster& first = clusters_.front();
+    Cluster& last = clusters_.back();
+    last.points.insert(last.points.end(), first.points.begin(), first.points.end());
+    last.beams.insert(last.beams.end(), first.beams.begin(), first.beams.end());
+    last.new_points += first.new_points;
+    std::swap(first, last);
+    clusters_.pop_back();
+  }
+  clusters_.erase(std::remove_if(clusters_.begin(), clusters_.end(),
+                                 [](const Cluster& cluster) {
+                                   return cluster.points.size() < kFewestPoints ||
+                                          (cluster.points.front() - cluster.points.back()).norm() >
+                                              kLargestM;
+                                 }),
+                  clusters_.end());
+}
+
+const std::vector<Cluster>& ScanClusters::gather(double stamp_s, const map::SensorPose& sensor,
+                                                 const map::HullPose& own, const map::Scan& scan) {
+  eye_ = sensor.position.head<2>();
+  yaw_rad_ = sensor.yaw_rad;
+  angle_min_rad_ = scan.angle_min_rad;
+  increment_rad_ = scan.angle_increment_rad;
+  range_max_m_ = scan.range_max_m;
+  memory_.begin(stamp_s, eye_);
+  readEchoes(sensor, own, scan);
+  remember();
+  divide(scan.ranges_m.size(), scan.angle_increment_rad);
+  return clusters_;
+}
+
+bool ScanClusters::inSight(const Eigen::Vector2d& position, double across_m) const {
+  const Eigen::Vector2d off = position - eye_;
+  const double range = off.norm();
+  if (range + 0.5 > range_max_m_ || free_m_.empty()) {
+    return false;
+  }
+  const double half = std::atan2(0.25 * across_m, std::max(range, 0.1));
+  const double bearing = std::atan2(off.y(), off.x()) - yaw_rad_;
+  for (const double side : {-half, 0.0, half}) {
+    const double turns =
+        std::remainder(bearing + side - angle_min_rad_ - kPi, 2.0 * kPi) + kPi;  // 0 to 2 pi
+    const auto beam = static_cast<std::size_t>(std::lround(turns / increment_rad_));
+    if (beam < free_m_.size() && free_m_[beam] > range - 0.5 * across_m - 0.5) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace otter_nav::traffic

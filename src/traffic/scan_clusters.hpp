@@ -1,0 +1,53 @@
+// A scan's echoes, without what the chart shows and the own hull, gathered into things.
+#pragma once
+
+#include <vector>
+
+#include "otter_nav/map/occupancy_map.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+#include "outline_fit.hpp"
+#include "scan_memory.hpp"
+
+namespace otter_nav::traffic {
+
+class ScanClusters {
+ public:
+  ScanClusters(const map::OccupancyGrid& chart, const vessel::Hull& own_hull);
+
+  // In the order of the beams. The reference stays valid until the next scan.
+  const std::vector<Cluster>& gather(double stamp_s, const map::SensorPose& sensor,
+                                     const map::HullPose& own, const map::Scan& scan);
+  // Whether something at `position`, this far across, could be seen in the scan gathered last: not
+  // beyond its range, not behind something nearer.
+  [[nodiscard]] bool inSight(const Eigen::Vector2d& position, double across_m) const;
+
+ private:
+  struct Echo {
+    std::size_t beam = 0;
+    Eigen::Vector2d point;
+    double range_m = 0.0;  // over ground
+    bool is_new = false;
+  };
+  [[nodiscard]] bool isCharted(const Eigen::Vector2d& point) const;
+  void readEchoes(const map::SensorPose& sensor, const map::HullPose& own, const map::Scan& scan);
+  void remember();
+  void divide(std::size_t beams, double increment_rad);
+
+  map::GridGeometry geometry_;
+  std::vector<bool> charted_;  // land, and the cells next to it
+  vessel::Hull own_hull_;
+  ScanMemory memory_;
+  std::vector<Echo> echoes_;             // uncharted ones
+  std::vector<Eigen::Vector2d> others_;  // the charted ones
+  std::vector<Cluster> clusters_;
+  // Of each beam, over ground: direction, and how far it saw nothing (NaN: it says nothing).
+  std::vector<Eigen::Vector2d> directions_;
+  std::vector<double> free_m_;
+  Eigen::Vector2d eye_ = Eigen::Vector2d::Zero();
+  double yaw_rad_ = 0.0;
+  double angle_min_rad_ = 0.0;
+  double increment_rad_ = 1.0;
+  double range_max_m_ = 0.0;
+};
+
+}  // namespace otter_nav::traffic

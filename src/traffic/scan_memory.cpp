@@ -1,0 +1,140 @@
+#include "scan_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace otter_nav::traffic {
+namespace {
+
+constexpr int kSide = 128;
+constexpr double kCellM = 0.5;
+constexpr int kMarginCells = 24;  // the square moves when the vessel is nearer to its middle's edge
+constexpr std::uint8_t kSeenFree = 5;  // scans
+constexpr float kNewForS = 3.0F;
+constexpr float kFreeHoldsS = 20.0F;  // what was free so long ago says nothing
+constexpr float kEchoHoldsS = 1.0F;   // what was met so long ago doesn't stand there any more
+
+int modulo(int value) {
+  return ((value % kSide) + kSide) % kSide;
+}
+
+}  // namespace
+
+ScanMemory::ScanMemory() : cells_(static_cast<std::size_t>(kSide) * kSide) {}
+
+Eigen::Vector2i ScanMemory::cellAt(const Eigen::Vector2d& p) const {
+  return {static_cast<int>(std::floor(p.x() / kCellM)),
+          static_cast<int>(std::floor(p.y() / kCellM))};
+}
+bool ScanMemory::contains(const Eigen::Vector2i& cell) const {
+  const Eigen::Vector2i off = cell - corner_;
+  return off.minCoeff() >= 0 && off.maxCoeff() < kSide;
+}
+std::size_t ScanMemory::indexOf(const Eigen::Vector2i& cell) const {
+  return static_cast<std::size_t>(modulo(cell.y()) * kSide + modulo(cell.x()));
+}
+
+void ScanMemory::begin(double time_s, const Eigen::Vector2d& eye) {
+  now_s_ = static_cast<float>(time_s);
+  const Eigen::Vector2i middle = cellAt(eye) - Eigen::Vector2i::Constant(kSide / 2);
+  if (!placed_) {
+    corner_ = middle;
+    placed_ = true;
+    return;
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const int shift = middle[axis] - corner_[axis];
+    if (std::abs(shift) < kMarginCells / 2) {
+      continue;
+    }
+    // Columns or rows that come in anew hold what left on the other side.
+    const int count = std::min(std::abs(shift), kSide);
+    for (int k = 0; k < count; ++k) {
+      const int line =
+          shift > 0 ? corner_[axis] + kSide + shift - 1 - k : corner_[axis] + shift + k;
+      for (int i = 0; i < kSide; ++i) {
+        Eigen::Vector2i cell;
+        cell[axis] = line;
+        cell[1 - axis] = i;
+        cells_[indexOf(cell)] = Cell();
+      }
+    }
+    corner_[axis] = middle[axis];
+  }
+}
+
+bool ScanMemory::standsSince(const Cell& cell) const {
+  if (cell.met_since_s < 0.0F || now_s_ - cell.met_last_s > kEchoHoldsS) {
+    return false;
+  }
+  return cell.free_count < kSeenFree || now_s_ - cell.met_since_s > kNewForS;
+}
+
+bool ScanMemory::isNew(const Eigen::Vector2d& point) const {
+  const Eigen::Vector2i at = cellAt(point);
+  if (!contains(at)) {
+    return false;
+  }
+  const Cell& here = cells_[indexOf(at)];
+  if (here.free_count < kSeenFree || now_s_ - here.free_last_s > kFreeHoldsS) {
+    return false;
+  }
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const Eigen::Vector2i around = at + Eigen::Vector2i(dx, dy);
+      if (contains(around) && standsSince(cells_[indexOf(around)])) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void ScanMemory::met(const Eigen::Vector2d& point) {
+  const Eigen::Vector2i at = cellAt(point);
+  if (!contains(at)) {
+    return;
+  }
+  Cell& cell = cells_[indexOf(at)];
+  if (cell.met_since_s < 0.0F || now_s_ - cell.met_last_s > kEchoHoldsS) {
+    cell.met_since_s = now_s_;
+  }
+  cell.met_last_s = now_s_;
+}
+
+// Every quarter of a metre; a cell that was met lately is left alone, so that a beam that passes
+// beside something in the same cell doesn't take it away.
+void ScanMemory::passed(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const Eigen::Vector2d along = to - from;
+  const double length = along.norm();
+  const int steps = static_cast<int>(length / (0.8 * kCellM));
+  if (steps < 1) {
+    return;
+  }
+  const Eigen::Vector2d step = along / steps;
+  Eigen::Vector2d p = from;
+  for (int k = 0; k < steps; ++k, p += step) {
+    const Eigen::Vector2i at = cellAt(p);
+    if (!contains(at)) {
+      return;
+    }
+    Cell& cell = cells_[indexOf(at)];
+    if (cell.free_last_s == now_s_) {
+      continue;
+    }
+    if (cell.met_since_s >= 0.0F) {
+      if (now_s_ - cell.met_last_s < kEchoHoldsS) {
+        continue;
+      }
+      cell.met_since_s = -1.0F;
+      cell.free_count = 0;
+    }
+    if (now_s_ - cell.free_last_s > kFreeHoldsS) {
+      cell.free_count = 0;
+    }
+    cell.free_last_s = now_s_;
+    cell.free_count = static_cast<std::uint8_t>(std::min<int>(cell.free_count + 1, 250));
+  }
+}
+
+}  // namespace otter_nav::traffic

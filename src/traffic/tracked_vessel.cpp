@@ -1,0 +1,183 @@
+#include "tracked_vessel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
+
+namespace otter_nav::traffic {
+namespace {
+
+// Standard deviations of a middle found from echoes. Errors of scan after scan are alike (the fit
+// is wrong in the same way), so that they weigh less than fifteen of them a second would.
+constexpr double kSeenSideM = 0.5;
+constexpr double kGuessedSideM = 1.2;
+constexpr double kLeastSizeM = 0.5;
+constexpr int kYoungHits = 5;
+
+constexpr double kLeastCourseSpeedMps = 0.3;
+constexpr double kCourseSigmas = 3.0;
+
+Eigen::Vector2d unit(double angle_rad) {
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
+
+// The middle along an axis, with its standard deviation.
+struct Middle {
+  double at = 0.0;
+  double deviation_m = kSeenSideM;
+};
+
+// `eye` and `other_seen`: the sensor along this axis, and whether it sees the sides that lie along
+// it (from beside the outline). From ahead or astern only the near end is seen, and the rest is
+// half the size away.
+Middle middleAlong(const Span& span, double eye, bool whole_seen, double size_m, bool size_known) {
+  const bool whole = whole_seen && span.length() > 0.8 * size_m;
+  if (whole || (whole_seen && !size_known)) {
+    return {span.middle(), kSeenSideM};
+  }
+  const double half = 0.5 * std::max(size_m, span.length());
+  const double deviation = size_known ? kSeenSideM : kGuessedSideM;
+  if (std::abs(eye - span.low) < std::abs(eye - span.high)) {
+    return {span.low + half, deviation};
+  }
+  return {span.high - half, deviation};
+}
+
+}  // namespace
+
+std::optional<double> TrackedVessel::course() const {
+  const MotionState x = motion.state();
+  const double speed = x.segment<2>(2).norm();
+  const double deviation = std::sqrt(0.5 * motion.covariance().block<2, 2>(2, 2).trace());
+  if (speed < kLeastCourseSpeedMps || speed < kCourseSigmas * deviation) {
+    return std::nullopt;
+  }
+  return std::atan2(x[3], x[2]);
+}
+
+void TrackedVessel::followCourse() {
+  if (const std::optional<double> now = course()) {
+    heading_rad = now;
+    has_moved = true;
+  }
+}
+
+Track TrackedVessel::track() const {
+  const MotionState x = motion.state();
+  Track track;
+  track.id = id;
+  track.mmsi = mmsi;
+  track.stamp_s = motion.stamp();
+  track.position = x.head<2>();
+  track.velocity = keeps_place ? Eigen::Vector2d::Zero() : Eigen::Vector2d(x.segment<2>(2));
+  track.turn_rate_radps = keeps_place ? 0.0 : x[4];
+  track.covariance = motion.covariance().topLeftCorner<4, 4>();
+  if (keeps_place) {
+    track.covariance.rightCols<2>().setZero();
+    track.covariance.bottomRows<2>().setZero();
+  }
+  track.shape = heading_rad ? Shape::kBox : Shape::kDisc;
+  track.heading_rad = heading_rad.value_or(0.0);
+  track.length_m = length_m;
+  track.beam_m = beam_m;
+  if (!heading_rad) {
+    // A disc round the reported position that holds the hull wherever it points.
+    const double reach =
+        dimensions ? std::hypot(std::max(dimensions->to_bow_m, dimensions->to_stern_m),
+                                std::max(dimensions->to_port_m, dimensions->to_starboard_m))
+                   : 0.5 * std::max(length_m, beam_m);
+    track.length_m = track.beam_m = 2.0 * reach;
+  }
+  track.existence = existence;
+  track.sources = sources;
+  return track;
+}
+
+Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d& eye) const {
+  const bool young = hits < kYoungHits && size == Size::kGuessed;
+  const double direction =
+      heading_rad && !young ? *heading_rad : rectangleDirection(cluster.points);
+  const Eigen::Vector2d ahead = unit(direction);
+  const Eigen::Vector2d port = across(ahead);
+  const Span along = spanOf(cluster.points, ahead);
+  const Span athwart = spanOf(cluster.points, port);
+  const double eye_along = ahead.dot(eye);
+  const double eye_athwart = port.dot(eye);
+  Middle middle[2];
+  if (young || !heading_rad) {
+    middle[0] = {along.middle(), kGuessedSideM};
+    middle[1] = {athwart.middle(), kGuessedSideM};
+  } else {
+    const bool known = size != Size::kGuessed;
+    const bool from_beside = eye_athwart < athwart.low || eye_athwart > athwart.high;
+    const bool from_end = eye_along < along.low || eye_along > along.high;
+    middle[0] = middleAlong(along, eye_along, from_beside, length_m, known);
+    middle[1] = middleAlong(athwart, eye_athwart, from_end, beam_m, known);
+  }
+  const Eigen::Matrix2d axes = (Eigen::Matrix2d() << ahead, port).finished();
+  const Eigen::Vector2d variances(middle[0].deviation_m * middle[0].deviation_m,
+                                  middle[1].deviation_m * middle[1].deviation_m);
+  Measurement measurement;
+  measurement.value.head<2>() = middle[0].at * ahead + middle[1].at * port;
+  measurement.covariance.topLeftCorner<2, 2>() = axes * variances.asDiagonal() * axes.transpose();
+  return measurement;
+}
+
+void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye) {
+  if (size == Size::kReported) {
+    return;
+  }
+  constexpr double kGrows = 0.3;  // of the difference, a scan
+  constexpr double kShrinks = 0.01;
+  const auto learn = [](double& known, double seen, bool guessed) {
+    known += (guessed ? 1.0 : (seen > known ? kGrows : kShrinks)) * (seen - known);
+  };
+  if (!heading_rad) {
+    return;
+  }
+  const Eigen::Vector2d ahead = unit(*heading_rad);
+  const Eigen::Vector2d port = across(ahead);
+  const Span along = spanOf(cluster.points, ahead);
+  const Span athwart = spanOf(cluster.points, port);
+  const double eye_along = ahead.dot(eye);
+  const double eye_athwart = port.dot(eye);
+  const bool from_beside = eye_athwart < athwart.low || eye_athwart > athwart.high;
+  const bool from_end = eye_along < along.low || eye_along > along.high;
+  const bool guessed = size == Size::kGuessed;
+  // Both have to be seen before a guess is left; a side that isn't can be as long as the other.
+  if (guessed && !(from_beside && from_end)) {
+    length_m = std::max(length_m, along.length());
+    beam_m = std::max(beam_m, athwart.length());
+    return;
+  }
+  if (from_beside) {
+    learn(length_m, std::max(along.length(), kLeastSizeM), guessed);
+  }
+  if (from_end) {
+    learn(beam_m, std::max(athwart.length(), kLeastSizeM), guessed);
+  }
+  size = Size::kSeen;
+}
+
+void TrackedVessel::takeDimensions(const ais::Message& message) {
+  if (!message.hasDimensions()) {
+    return;
+  }
+  dimensions = message;
+  size = Size::kReported;
+  length_m = message.to_bow_m + message.to_stern_m;
+  beam_m = message.to_port_m + message.to_starboard_m;
+}
+
+Eigen::Vector2d TrackedVessel::middleFromReported() const {
+  if (!dimensions || !heading_rad) {
+    return Eigen::Vector2d::Zero();
+  }
+  const Eigen::Vector2d ahead = unit(*heading_rad);
+  return 0.5 * (dimensions->to_bow_m - dimensions->to_stern_m) * ahead +
+         0.5 * (dimensions->to_port_m - dimensions->to_starboard_m) * across(ahead);
+}
+
+}  // namespace otter_nav::traffic

@@ -1,0 +1,60 @@
+// One vessel that is, or may be, there: its motion, its outline and how sure it is.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "motion_filter.hpp"
+#include "otter_nav/ais/message.hpp"
+#include "otter_nav/traffic/track.hpp"
+#include "outline_fit.hpp"
+
+namespace otter_nav::traffic {
+
+struct TrackedVessel {
+  TrackedVessel(int the_id, const Measurement& first, double time_s, Source source)
+      : id(the_id), motion(first, time_s), first_s(time_s), last_s(time_s), sources(source) {}
+
+  int id;
+  MotionFilter motion;
+  double existence = 0.2;
+  bool confirmed = false;
+  bool has_moved = false;  // for certain, at some time
+  double first_s;
+  double last_s;  // when it was last seen or heard
+  int hits = 1;
+  int moving_hits = 0;  // scans in which it was met in water seen free before
+  std::uint32_t sources;
+
+  // Outline. A size is taken as a guess until something measures it.
+  enum class Size { kGuessed, kSeen, kReported };
+  Size size = Size::kGuessed;
+  double length_m = 7.0;
+  double beam_m = 2.5;
+  std::optional<double> heading_rad;
+
+  std::uint32_t mmsi = 0;
+  double last_ais_s = -1e9;
+  bool keeps_place = false;  // at anchor, moored, or an aid to navigation
+  std::optional<ais::Message> dimensions;
+
+  std::vector<Eigen::Vector2d> unconfirmed_points;  // echoes that went into the map meanwhile
+
+  // Course, if the motion tells one.
+  [[nodiscard]] std::optional<double> course() const;
+  // Takes the course as the heading where there is one.
+  void followCourse();
+  [[nodiscard]] Track track() const;
+
+  // Where the outline's middle is if `cluster`, seen from `eye`, is this vessel: not the points'
+  // middle, but the sides that are seen, with half the size from there on.
+  [[nodiscard]] Measurement measure(const Cluster& cluster, const Eigen::Vector2d& eye) const;
+  // What a cluster that is this vessel says of its size.
+  void learnSize(const Cluster& cluster, const Eigen::Vector2d& eye);
+  // Dimensions reported by AIS: the size, and where in the outline the reported position is.
+  void takeDimensions(const ais::Message& message);
+  [[nodiscard]] Eigen::Vector2d middleFromReported() const;
+};
+
+}  // namespace otter_nav::traffic

@@ -1,0 +1,492 @@
+#include "otter_nav/traffic/tracker.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "association.hpp"
+#include "otter_nav/base/angles.hpp"
+#include "scan_clusters.hpp"
+#include "tracked_vessel.hpp"
+
+namespace otter_nav::traffic {
+namespace {
+
+constexpr double kGate2 = 16.0;      // squared Mahalanobis distance
+constexpr double kLivesS = 300.0;    // a vessel is there for so long on average
+constexpr double kConfirmed = 0.95;  // existence
+constexpr double kGone = 0.02;
+constexpr int kFewestHits = 3;
+constexpr double kOutOfReach = 0.1;  // with a lower chance to be detected nothing is concluded
+
+// Lidar.
+constexpr double kLidarDetection = 0.9;
+constexpr double kLidarClutterPerM2 = 2e-3;
+constexpr double kFirstExistence = 0.2;
+constexpr int kFewestNew = 2;  // echoes of a cluster in water seen free, to begin a track
+constexpr int kFewestMovingHits = 8;
+constexpr double kFewestSeconds = 1.0;
+constexpr double kTentativeS = 5.0;      // what is not confirmed by then is dropped
+constexpr double kOutlineMarginM = 0.7;  // echoes this near a vessel's outline are hers
+constexpr double kLostS = 30.0;          // neither seen nor heard for so long
+
+// Radar.
+constexpr double kRadarDetection = 0.9;
+constexpr double kRadarClutterPerM2 = 1e-5;
+
+// AIS.
+constexpr double kAisPositionM = 2.5;  // standard deviations, each axis
+constexpr double kAisInaccurateM = 8.0;
+constexpr double kAisVelocityMps = 0.15;
+constexpr double kAisGate2 = 25.0;  // four measured figures
+constexpr double kSlowKnots = 2.0;  // class B reports every three minutes only
+constexpr double kAnchoredKnots = 0.5;
+constexpr double kAisKeptS = 100.0;  // three reports missed
+constexpr double kAisSlowKeptS = 600.0;
+constexpr double kAidDiameterM = 3.0;
+
+constexpr double kSameM = 3.0;  // two tracks nearer than this, and alike, are one vessel
+
+double radiansFromEast(double degrees_from_north) {
+  return wrapAngle((90.0 - degrees_from_north) * kPi / 180.0);
+}
+
+Measurement positionMeasurement(const Eigen::Vector2d& position, double deviation_m) {
+  Measurement measurement;
+  measurement.value.head<2>() = position;
+  measurement.covariance.topLeftCorner<2, 2>().diagonal().setConstant(deviation_m * deviation_m);
+  return measurement;
+}
+
+}  // namespace
+
+class Tracker::Impl {
+ public:
+  Impl(const Options& options, const map::OccupancyGrid& chart, const vessel::Hull& own_hull)
+      : options_(options), frame_(options.datum), clusters_(chart, own_hull) {}
+
+  const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor,
+                             const map::HullPose& own, const map::Scan& scan) {
+    const std::vector<Cluster>& clusters = clusters_.gather(stamp_s, sensor, own, scan);
+    const Eigen::Vector2d eye = sensor.position.head<2>();
+    verdict_.on_vessel.assign(scan.ranges_m.size(), false);
+    verdict_.ghosts.clear();
+    Look look;
+    look.stamp_s = stamp_s;
+    look.detections = clusters.size();
+    look.clutter_per_m2 = kLidarClutterPerM2;
+    look.source = kLidar;
+    look.measure = [&](const TrackedVessel& vessel, std::size_t k) {
+      return vessel.measure(clusters[k], eye);
+    };
+    look.canBe = [&](const TrackedVessel& vessel, std::size_t k) {
+      const Eigen::Vector2d middle = vessel.motion.state().head<2>();
+      const double reach = 2.0 * std::max(vessel.length_m, vessel.beam_m) + 10.0;
+      return (clusters[k].points.front() - middle).norm() < reach;
+    };
+    look.detection = [&](const TrackedVessel& vessel) {
+      return clusters_.inSight(vessel.motion.state().head<2>(), vessel.beam_m)
+                 ? (vessel.motion.covariance().topLeftCorner<2, 2>().trace() < 4.0 ? kLidarDetection
+                                                                                   : 0.5)
+                 : 0.0;
+    };
+    look.seen = [&](TrackedVessel& vessel, std::size_t k) {
+      vessel.moving_hits += clusters[k].new_points >= kFewestNew ? 1 : 0;
+      vessel.learnSize(clusters[k], eye);
+      if (!vessel.confirmed) {
+        vessel.unconfirmed_points.insert(vessel.unconfirmed_points.end(),
+                                         clusters[k].points.begin(), clusters[k].points.end());
+      }
+    };
+    const std::vector<double> taken = associate(look);
+    for (std::size_t k = 0; k < clusters.size(); ++k) {
+      if (taken[k] < 0.3 && clusters[k].new_points >= kFewestNew &&
+          2 * clusters[k].new_points > static_cast<int>(clusters[k].points.size())) {
+        begin(clusters[k], eye, stamp_s);
+      }
+    }
+    judge(stamp_s);
+    findOnVessels(clusters);
+    return verdict_;
+  }
+
+  void addRadar(double stamp_s, const std::vector<Eigen::Vector2d>& positions,
+                const Eigen::Vector2d& own) {
+    Look look;
+    look.stamp_s = stamp_s;
+    look.detections = positions.size();
+    look.clutter_per_m2 = kRadarClutterPerM2;
+    look.source = kRadar;
+    look.measure = [&](const TrackedVessel& /*vessel*/, std::size_t k) {
+      return positionMeasurement(positions[k], options_.radar_noise_m);
+    };
+    look.canBe = [](const TrackedVessel& /*vessel*/, std::size_t /*k*/) { return true; };
+    look.detection = [&](const TrackedVessel& vessel) {
+      const double range = (vessel.motion.state().head<2>() - own).norm();
+      return range < options_.radar_range_m && !vessel.keeps_place ? kRadarDetection : 0.0;
+    };
+    look.seen = [](TrackedVessel& /*vessel*/, std::size_t /*k*/) {};
+    const std::vector<double> taken = associate(look);
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+      if (taken[k] < 0.3) {
+        vessels_.emplace_back(next_id_++, positionMeasurement(positions[k], options_.radar_noise_m),
+                              stamp_s, kRadar);
+      }
+    }
+    unite();
+    judge(stamp_s);
+  }
+
+  Status addAis(double stamp_s, std::string_view sentence) {
+    Result<std::optional<ais::Message>> decoded = decoder_.add(sentence);
+    if (!decoded) {
+      return failure("AIS: " + decoded.error().message);
+    }
+    if (*decoded) {
+      take(stamp_s, **decoded);
+      judge(stamp_s);
+    }
+    return {};
+  }
+
+  void forget(double now_s) { judge(now_s); }
+
+  [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
+
+ private:
+  // Detections that came at once from one sensor.
+  struct Look {
+    double stamp_s = 0.0;
+    std::size_t detections = 0;
+    double clutter_per_m2 = 0.0;
+    Source source = kLidar;
+    std::function<Measurement(const TrackedVessel&, std::size_t)> measure;
+    std::function<bool(const TrackedVessel&, std::size_t)> canBe;
+    std::function<double(const TrackedVessel&)> detection;  // probability
+    std::function<void(TrackedVessel&, std::size_t)> seen;  // most probably this one
+  };
+
+  // Moves the tracks on and updates them; each detection's probability of being somebody's.
+  std::vector<double> associate(const Look& look) {
+    std::vector<std::size_t> of_track;
+    std::vector<double> detection;
+    std::vector<double> none;
+    std::vector<std::vector<Link>> links;
+    std::vector<std::vector<MotionFilter::Candidate>> candidates;
+    for (std::size_t v = 0; v < vessels_.size(); ++v) {
+      TrackedVessel& vessel = vessels_[v];
+      const double chance = look.detection(vessel);
+      if (chance < kOutOfReach) {
+        continue;
+      }
+      vessel.existence *= std::exp(-(look.stamp_s - vessel.motion.stamp()) / kLivesS);
+      vessel.motion.predict(look.stamp_s);
+      of_track.push_back(v);
+      detection.push_back(chance);
+      none.push_back(1.0 - vessel.existence * chance);
+      links.emplace_back();
+      candidates.emplace_back();
+      for (std::size_t k = 0; k < look.detections; ++k) {
+        if (!look.canBe(vessel, k)) {
+          continue;
+        }
+        MotionFilter::Candidate candidate;
+        candidate.measurement = look.measure(vessel, k);
+        if (vessel.motion.distance2(candidate.measurement) > kGate2) {
+          continue;
+        }
+        candidate.likelihoods = vessel.motion.likelihoods(candidate.measurement);
+        links.back().push_back(
+            {k, vessel.existence * chance * vessel.motion.likelihood(candidate.likelihoods) /
+                    look.clutter_per_m2});
+        candidates.back().push_back(std::move(candidate));
+      }
+    }
+    const Marginals marginals = jointMarginals(none, links, look.detections);
+    std::vector<double> taken(look.detections, 0.0);
+    for (std::size_t t = 0; t < of_track.size(); ++t) {
+      TrackedVessel& vessel = vessels_[of_track[t]];
+      for (std::size_t l = 0; l < links[t].size(); ++l) {
+        taken[links[t][l].detection] += marginals.links[t][l];
+      }
+      update(look, vessel, detection[t], marginals.none[t], marginals.links[t], links[t],
+             candidates[t]);
+    }
+    return taken;
+  }
+
+  // Existence first, then the motion given that the vessel exists (Musicki and Evans 2004).
+  static void update(const Look& look, TrackedVessel& vessel, double detection, double none,
+                     const std::vector<double>& probabilities, const std::vector<Link>& links,
+                     std::vector<MotionFilter::Candidate>& candidates) {
+    const double unseen = vessel.existence * (1.0 - detection) /
+                          (1.0 - vessel.existence * detection);  // exists, given no detection
+    double exists = none * unseen;
+    for (const double probability : probabilities) {
+      exists += probability;
+    }
+    vessel.existence = std::clamp(exists, 0.0, 0.9999);
+    if (exists <= 0.0 || candidates.empty()) {
+      return;
+    }
+    std::size_t best = 0;
+    for (std::size_t l = 0; l < links.size(); ++l) {
+      candidates[l].probability = probabilities[l] / exists;
+      best = probabilities[l] > probabilities[best] ? l : best;
+    }
+    vessel.motion.update(candidates);
+    if (probabilities[best] > 0.5) {
+      vessel.last_s = look.stamp_s;
+      ++vessel.hits;
+      vessel.sources |= look.source;
+      vessel.followCourse();
+      look.seen(vessel, links[best].detection);
+    }
+  }
+
+  void begin(const Cluster& cluster, const Eigen::Vector2d& eye, double stamp_s) {
+    const double direction = rectangleDirection(cluster.points);
+    const Eigen::Vector2d ahead(std::cos(direction), std::sin(direction));
+    TrackedVessel vessel(next_id_, positionMeasurement(cluster.points.front(), 1.0), stamp_s,
+                         kLidar);
+    const Measurement first = vessel.measure(cluster, eye);
+    vessel.motion = MotionFilter(first, stamp_s);
+    vessel.existence = kFirstExistence;
+    const double along = spanOf(cluster.points, ahead).length();
+    const double athwart = spanOf(cluster.points, {-ahead.y(), ahead.x()}).length();
+    vessel.length_m = std::max(1.0, std::max(along, athwart));
+    vessel.beam_m = std::max(1.0, std::min(along, athwart));
+    vessel.moving_hits = 1;
+    vessel.unconfirmed_points = cluster.points;
+    vessels_.push_back(std::move(vessel));
+    ++next_id_;
+  }
+
+  void take(double stamp_s, const ais::Message& m) {
+    if (m.type == 21 && m.is_virtual) {
+      return;
+    }
+    const auto known = std::find_if(vessels_.begin(), vessels_.end(),
+                                    [&](const TrackedVessel& v) { return v.mmsi == m.mmsi; });
+    if (!m.hasPosition()) {
+      if (known != vessels_.end()) {
+        known->takeDimensions(m);
+      } else if (m.hasDimensions()) {
+        remember(m);
+      }
+      return;
+    }
+    TrackedVessel& vessel = known != vessels_.end() ? *known : matching(stamp_s, m);
+    vessel.takeDimensions(m);
+    vessel.mmsi = m.mmsi;
+    vessel.sources |= kAis;
+    vessel.last_s = vessel.last_ais_s = stamp_s;
+    vessel.existence = 0.9999;
+    vessel.confirmed = true;
+    const bool lies = m.type == 21 ||
+                      ((m.status == 1 || m.status == 5 || m.status == 6) && m.type <= 3) ||
+                      m.speed_knots < kAnchoredKnots;
+    vessel.keeps_place = lies;
+    if (std::isfinite(m.heading_deg)) {
+      vessel.heading_rad = radiansFromEast(m.heading_deg);
+    }
+    if (vessel.motion.stamp() < stamp_s) {
+      vessel.motion.predict(stamp_s);
+      vessel.motion.update(measured(m, vessel));
+    }
+    vessel.followCourse();
+    if (m.type == 21 && !m.hasDimensions()) {
+      vessel.length_m = vessel.beam_m = kAidDiameterM;
+    }
+  }
+
+  // The outline's middle, and velocity where the report has one.
+  [[nodiscard]] Measurement measured(const ais::Message& m, const TrackedVessel& vessel) const {
+    const double deviation = m.accurate ? kAisPositionM : kAisInaccurateM;
+    const Eigen::Vector2d middle =
+        frame_.toMap(m.latitude_deg, m.longitude_deg) + vessel.middleFromReported();
+    const bool lies = m.type == 21 || m.speed_knots < kAnchoredKnots;
+    if (!lies && !(std::isfinite(m.speed_knots) && std::isfinite(m.course_deg))) {
+      return positionMeasurement(middle, deviation);
+    }
+    const double speed = lies ? 0.0 : m.speed_knots * ais::kKnotMps;
+    const double course = lies ? 0.0 : radiansFromEast(m.course_deg);
+    Measurement measurement;
+    measurement.has_velocity = true;
+    measurement.value << middle.x(), middle.y(), speed * std::cos(course), speed * std::sin(course);
+    measurement.covariance.diagonal() << deviation * deviation, deviation * deviation,
+        kAisVelocityMps * kAisVelocityMps, kAisVelocityMps * kAisVelocityMps;
+    return measurement;
+  }
+
+  // A vessel that is tracked without an identity and fits, or a new one.
+  TrackedVessel& matching(double stamp_s, const ais::Message& m) {
+    TrackedVessel fresh(next_id_, positionMeasurement({0.0, 0.0}, 1.0), stamp_s, kAis);
+    for (const ais::Message& dimensions : known_dimensions_) {
+      if (dimensions.mmsi == m.mmsi) {
+        fresh.takeDimensions(dimensions);
+      }
+    }
+    const Measurement measurement = measured(m, fresh);
+    TrackedVessel* best = nullptr;
+    double best_distance2 = kAisGate2;
+    for (TrackedVessel& vessel : vessels_) {
+      MotionFilter moved = vessel.motion;
+      moved.predict(stamp_s);
+      const double distance2 = moved.distance2(measurement);
+      if (vessel.mmsi == 0 && distance2 < best_distance2) {
+        best = &vessel;
+        best_distance2 = distance2;
+      }
+    }
+    if (best != nullptr) {
+      if (fresh.dimensions) {
+        best->takeDimensions(*fresh.dimensions);
+      }
+      return *best;
+    }
+    ++next_id_;
+    fresh.motion = MotionFilter(measurement, stamp_s);
+    vessels_.push_back(std::move(fresh));
+    return vessels_.back();
+  }
+
+  // Dimensions of a vessel that hasn't said yet where it is.
+  void remember(const ais::Message& m) {
+    constexpr std::size_t kMost = 1000;
+    if (known_dimensions_.size() >= kMost) {
+      known_dimensions_.clear();
+    }
+    known_dimensions_.push_back(m);
+  }
+
+  // Tracks that have become one vessel's: the one with an identity stays, or the older one.
+  void unite() {
+    for (std::size_t a = 0; a < vessels_.size(); ++a) {
+      for (std::size_t b = a + 1; b < vessels_.size(); ++b) {
+        TrackedVessel& first = vessels_[a];
+        TrackedVessel& second = vessels_[b];
+        if ((first.mmsi != 0 && second.mmsi != 0) || second.existence == 0.0 ||
+            first.existence == 0.0) {
+          continue;
+        }
+        if (areAlike(first, second)) {
+          TrackedVessel& stays = second.mmsi != 0 ? second : first;
+          TrackedVessel& goes = second.mmsi != 0 ? first : second;
+          stays.sources |= goes.sources;
+          stays.confirmed = stays.confirmed || goes.confirmed;
+          goes.existence = 0.0;
+        }
+      }
+    }
+  }
+  static bool areAlike(const TrackedVessel& a, const TrackedVessel& b) {
+    const MotionState off = a.motion.state() - b.motion.state();
+    const double apart = off.head<2>().norm();
+    if (apart > std::max(kSameM, 0.5 * std::min(a.length_m, b.length_m)) ||
+        std::abs(a.motion.stamp() - b.motion.stamp()) > 1.0) {
+      return false;
+    }
+    const Eigen::Matrix4d p = (a.motion.covariance() + b.motion.covariance()).topLeftCorner<4, 4>();
+    return off.head<4>().dot(p.inverse() * off.head<4>()) < 9.5;
+  }
+
+  [[nodiscard]] static bool isGone(const TrackedVessel& vessel, double now_s) {
+    if (vessel.existence < kGone) {
+      return true;
+    }
+    if (!vessel.confirmed) {
+      return now_s - vessel.first_s > kTentativeS;
+    }
+    const double unseen = now_s - vessel.last_s;
+    if (vessel.mmsi != 0) {
+      const double speed = vessel.motion.state().segment<2>(2).norm();
+      return unseen >
+             (vessel.keeps_place || speed < kSlowKnots * ais::kKnotMps ? kAisSlowKeptS : kAisKeptS);
+    }
+    return unseen > kLostS;
+  }
+
+  // Confirms, drops, and tells of what is left.
+  void judge(double now_s) {
+    for (TrackedVessel& vessel : vessels_) {
+      if (vessel.confirmed || vessel.existence < kConfirmed || vessel.hits < kFewestHits) {
+        continue;
+      }
+      const bool moves = vessel.has_moved && vessel.moving_hits >= kFewestMovingHits &&
+                         now_s - vessel.first_s >= kFewestSeconds;
+      if ((vessel.sources & (kRadar | kAis)) != 0 || moves) {
+        vessel.confirmed = true;
+        verdict_.ghosts.insert(verdict_.ghosts.end(), vessel.unconfirmed_points.begin(),
+                               vessel.unconfirmed_points.end());
+        vessel.unconfirmed_points = {};
+      }
+    }
+    vessels_.erase(std::remove_if(vessels_.begin(), vessels_.end(),
+                                  [&](const TrackedVessel& v) { return isGone(v, now_s); }),
+                   vessels_.end());
+    tracks_.clear();
+    for (const TrackedVessel& vessel : vessels_) {
+      if (vessel.confirmed) {
+        tracks_.push_back(vessel.track());
+      }
+    }
+  }
+
+  void findOnVessels(const std::vector<Cluster>& clusters) {
+    for (const TrackedVessel& vessel : vessels_) {
+      if (!vessel.confirmed || !vessel.has_moved) {
+        continue;
+      }
+      PredictionOptions now;
+      now.horizon_s = 0.0;
+      const Outline outline = PredictedWay(vessel.track(), now).at(vessel.motion.stamp());
+      for (const Cluster& cluster : clusters) {
+        for (std::size_t k = 0; k < cluster.points.size(); ++k) {
+          if (outline.distanceTo(cluster.points[k]).distance_m < kOutlineMarginM) {
+            verdict_.on_vessel[cluster.beams[k]] = true;
+          }
+        }
+      }
+    }
+  }
+
+  Options options_;
+  ais::LocalFrame frame_;
+  ais::Decoder decoder_;
+  ScanClusters clusters_;
+  std::vector<TrackedVessel> vessels_;
+  std::vector<ais::Message> known_dimensions_;
+  std::vector<Track> tracks_;
+  ScanVerdict verdict_;
+  int next_id_ = 1;
+};
+
+Tracker::Tracker(const Options& options, const map::OccupancyGrid& chart,
+                 const vessel::Hull& own_hull)
+    : impl_(std::make_unique<Impl>(options, chart, own_hull)) {}
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
+const ScanVerdict& Tracker::addScan(double stamp_s, const map::SensorPose& sensor,
+                                    const map::HullPose& own, const map::Scan& scan) {
+  return impl_->addScan(stamp_s, sensor, own, scan);
+}
+void Tracker::addRadar(double stamp_s, const std::vector<Eigen::Vector2d>& positions,
+                       const Eigen::Vector2d& own) {
+  impl_->addRadar(stamp_s, positions, own);
+}
+Status Tracker::addAis(double stamp_s, std::string_view sentence) {
+  return impl_->addAis(stamp_s, sentence);
+}
+void Tracker::forget(double now_s) {
+  impl_->forget(now_s);
+}
+const std::vector<Track>& Tracker::tracks() const {
+  return impl_->tracks();
+}
+
+}  // namespace otter_nav::traffic
