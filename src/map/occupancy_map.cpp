@@ -186,6 +186,22 @@ Result<CellRectangle> OccupancyMap::insertScan(const SensorPose& sensor, const H
   return changed;
 }
 
+CellRectangle OccupancyMap::forget(const std::vector<Eigen::Vector2d>& points) {
+  CellRectangle changed;
+  const GridGeometry& g = sensed_->chart.geometry;
+  for (const Eigen::Vector2d& p : points) {
+    if (!g.contains(p)) {
+      continue;
+    }
+    const Eigen::Vector2i cell = g.cellAt(p);
+    const std::size_t index = g.index(cell.x(), cell.y());
+    if (sensed_->layers.occupied(index) && sensed_->layers.clear(index)) {
+      sensed_->project(index, changed);
+    }
+  }
+  return changed;
+}
+
 CellRectangle OccupancyMap::reset() {
   CellRectangle changed;
   sensed_->layers.reset();

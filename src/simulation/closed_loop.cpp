@@ -68,6 +68,13 @@ bool ClosedLoop::step() {
 void ClosedLoop::sense() {
   const plant::Odometry& odometry = plant_.odometry();
   tracker_.addOdometry(odometry.stamp_s, odometry.state);
+  if (plant_.radarDue()) {
+    sensing_->hear(plant_.radar(), odometry);
+  }
+  if (const Status status = sensing_->hear(time(), plant_.takeAis()); !status) {
+    finish(scenario::Outcome::kError, status.error().message);
+    return;
+  }
   if (!plant_.scanDue()) {
     return;
   }
@@ -157,6 +164,10 @@ void ClosedLoop::carryOut(const mission::Orders& orders) {
     constexpr double kEarlyS = 0.05;
     reply_time_s_ = time() + options_.supervisor.planning_latency_s - kEarlyS;
   }
+}
+
+const std::vector<traffic::Track>& ClosedLoop::tracks() const {
+  return sensing_->tracks();
 }
 
 feasibility::Obstacles ClosedLoop::obstacles() const {

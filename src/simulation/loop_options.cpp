@@ -29,7 +29,10 @@ Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string
   const auto map = config::findFile("config/map.yaml").and_then(map::loadOccupancyMapOptions);
   const auto supervisor =
       config::findFile("config/mission.yaml").and_then(mission::loadSupervisorOptions);
-  if (const Status status = firstFailure(own, plant, preset, planner, tracker, map, supervisor);
+  const auto traffic =
+      config::findFile("config/traffic.yaml").and_then(config::load<traffic::Options>);
+  if (const Status status =
+          firstFailure(own, plant, preset, planner, tracker, map, supervisor, traffic);
       !status) {
     return failure(status.error().message);
   }
@@ -42,6 +45,7 @@ Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string
   o.tracker = *tracker;
   o.map = *map;
   o.supervisor = *supervisor;
+  o.traffic = *traffic;
   return o;
 }
 

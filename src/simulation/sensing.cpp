@@ -1,6 +1,7 @@
 #include "simulation/sensing.hpp"
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <utility>
 
 namespace otter_nav::simulation {
@@ -25,6 +26,7 @@ map::SensorPose sensorPose(const plant::Odometry& odometry, const Eigen::Vector3
 Sensing::Sensing(map::OccupancyGrid chart, const LoopOptions& options)
     : map_(std::move(chart), options.vessel.hull, options.map),
       field_(map_.projection(), {options.field_distance_m, false}),
+      traffic_(options.traffic, map_.chart(), options.vessel.hull),
       lidar_in_base_(options.plant.lidar.position_m) {}
 
 Status Sensing::insert(const plant::Scan& scan, const plant::Odometry& odometry) {
@@ -34,17 +36,47 @@ Status Sensing::insert(const plant::Scan& scan, const plant::Odometry& odometry)
   scan_.range_max_m = scan.range_max_m;
   scan_.ranges_m.assign(scan.ranges.begin(), scan.ranges.end());
   const map::SensorPose pose = sensorPose(odometry, lidar_in_base_);
+  const map::HullPose own{odometry.state.head<2>(), odometry.state[vessel::kPsi]};
+  // What moves stays out of the map, and what it has left there.
+  const traffic::ScanVerdict& verdict = traffic_.addScan(odometry.stamp_s, pose, own, scan_);
+  for (std::size_t i = 0; i < scan_.ranges_m.size(); ++i) {
+    if (verdict.on_vessel[i]) {
+      scan_.ranges_m[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  update(map_.forget(verdict.ghosts));
   if (!field_.geometry().contains(pose.position.head<2>())) {
     return {};
   }
-  const Result<map::CellRectangle> changed =
-      map_.insertScan(pose, {odometry.state.head<2>(), odometry.state[vessel::kPsi]}, scan_);
+  const Result<map::CellRectangle> changed = map_.insertScan(pose, own, scan_);
   if (!changed) {
     return failure(changed.error().message);
   }
-  if (!changed->empty()) {
-    field_.update(map_.projection(), changed->column, changed->row, changed->width,
-                  changed->height);
+  update(*changed);
+  return {};
+}
+
+void Sensing::update(const map::CellRectangle& changed) {
+  if (!changed.empty()) {
+    field_.update(map_.projection(), changed.column, changed.row, changed.width, changed.height);
+  }
+}
+
+void Sensing::hear(const plant::RadarScan& radar, const plant::Odometry& odometry) {
+  const Eigen::Vector2d own = odometry.state.head<2>();
+  const Eigen::Rotation2Dd map_from_base(odometry.state[vessel::kPsi]);
+  std::vector<Eigen::Vector2d> positions;
+  for (const Eigen::Vector2d& position : radar.positions_in_base) {
+    positions.emplace_back(own + map_from_base * position);
+  }
+  traffic_.addRadar(odometry.stamp_s, positions, own);
+}
+
+Status Sensing::hear(double stamp_s, const std::vector<std::string>& ais) {
+  for (const std::string& sentence : ais) {
+    if (Status status = traffic_.addAis(stamp_s, sentence); !status) {
+      return status;
+    }
   }
   return {};
 }

@@ -1,12 +1,16 @@
-// What the vessel knows of the water: the lidar's scans in the occupancy map, and the distance
-// field that follows it.
+// What the vessel knows of the water: the lidar's scans in the occupancy map, the distance field
+// that follows it, and the tracks of other vessels.
 #pragma once
+
+#include <string>
+#include <vector>
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
 #include "otter_nav/plant/signals.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
+#include "otter_nav/traffic/tracker.hpp"
 
 namespace otter_nav::simulation {
 
@@ -17,14 +21,21 @@ class Sensing {
   // Where the odometry says the vessel was, the scan is put into the map. A scan from over the
   // map's edge is left out.
   [[nodiscard]] Status insert(const plant::Scan& scan, const plant::Odometry& odometry);
+  void hear(const plant::RadarScan& radar, const plant::Odometry& odometry);
+  [[nodiscard]] Status hear(double stamp_s, const std::vector<std::string>& ais);
 
   [[nodiscard]] const map::DistanceField& field() const { return field_; }
+  // Of other vessels: confirmed ones, each at the instant it was last measured.
+  [[nodiscard]] const std::vector<traffic::Track>& tracks() const { return traffic_.tracks(); }
 
  private:
   map::OccupancyMap map_;
   map::DistanceField field_;
+  traffic::Tracker traffic_;
   Eigen::Vector3d lidar_in_base_;
   map::Scan scan_;
+
+  void update(const map::CellRectangle& changed);
 };
 
 }  // namespace otter_nav::simulation

@@ -11,6 +11,7 @@ struct Cluster {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::size_t> beams;  // that met them
   int new_points = 0;              // in water that was seen free before
+  bool cut = false;                // goes on beyond the range, or behind something nearer
 };
 
 // Along an axis: from `low` to `high`.

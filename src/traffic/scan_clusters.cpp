@@ -151,6 +151,20 @@ void ScanClusters::divide(std::size_t beams, double increment_rad) {
                   clusters_.end());
 }
 
+bool ScanClusters::isCut(const Cluster& cluster) const {
+  constexpr double kNearerM = 1.0;
+  const auto ends = [&](std::size_t beam, const Eigen::Vector2d& point, std::size_t step) {
+    const double range = (point - eye_).norm();
+    if (range > range_max_m_ - kNearerM) {
+      return true;
+    }
+    const double beside = free_m_[(beam + step) % free_m_.size()];
+    return beside < range - kNearerM;
+  };
+  return ends(cluster.beams.front(), cluster.points.front(), free_m_.size() - 1) ||
+         ends(cluster.beams.back(), cluster.points.back(), 1);
+}
+
 const std::vector<Cluster>& ScanClusters::gather(double stamp_s, const map::SensorPose& sensor,
                                                  const map::HullPose& own, const map::Scan& scan) {
   eye_ = sensor.position.head<2>();
@@ -162,26 +176,31 @@ const std::vector<Cluster>& ScanClusters::gather(double stamp_s, const map::Sens
   readEchoes(sensor, own, scan);
   remember();
   divide(scan.ranges_m.size(), scan.angle_increment_rad);
+  for (Cluster& cluster : clusters_) {
+    cluster.cut = isCut(cluster);
+  }
   return clusters_;
 }
 
-bool ScanClusters::inSight(const Eigen::Vector2d& position, double across_m) const {
+double ScanClusters::inSight(const Eigen::Vector2d& position, double length_m,
+                             double beam_m) const {
   const Eigen::Vector2d off = position - eye_;
   const double range = off.norm();
-  if (range + 0.5 > range_max_m_ || free_m_.empty()) {
-    return false;
+  constexpr double kMarginM = 0.5;
+  if (range - 0.5 * length_m + kMarginM > range_max_m_ || free_m_.empty()) {
+    return 0.0;
   }
-  const double half = std::atan2(0.25 * across_m, std::max(range, 0.1));
+  const double half = std::atan2(0.25 * beam_m, std::max(range, 0.1));
   const double bearing = std::atan2(off.y(), off.x()) - yaw_rad_;
   for (const double side : {-half, 0.0, half}) {
     const double turns =
         std::remainder(bearing + side - angle_min_rad_ - kPi, 2.0 * kPi) + kPi;  // 0 to 2 pi
     const auto beam = static_cast<std::size_t>(std::lround(turns / increment_rad_));
-    if (beam < free_m_.size() && free_m_[beam] > range - 0.5 * across_m - 0.5) {
-      return true;
+    if (beam < free_m_.size() && free_m_[beam] > range - 0.5 * length_m - kMarginM) {
+      return free_m_[beam] > range - 0.5 * beam_m - kMarginM ? 1.0 : 0.5;
     }
   }
-  return false;
+  return 0.0;
 }
 
 }  // namespace otter_nav::traffic

@@ -17,9 +17,11 @@ class ScanClusters {
   // In the order of the beams. The reference stays valid until the next scan.
   const std::vector<Cluster>& gather(double stamp_s, const map::SensorPose& sensor,
                                      const map::HullPose& own, const map::Scan& scan);
-  // Whether something at `position`, this far across, could be seen in the scan gathered last: not
-  // beyond its range, not behind something nearer.
-  [[nodiscard]] bool inSight(const Eigen::Vector2d& position, double across_m) const;
+  // How much of something at `position` could be seen in the scan gathered last: all of it (1), a
+  // part (0.5: its far end is out of range), or nothing (0: it is out of range, behind something
+  // nearer, or where the waves hide it).
+  [[nodiscard]] double inSight(const Eigen::Vector2d& position, double length_m,
+                               double beam_m) const;
 
  private:
   struct Echo {
@@ -32,6 +34,7 @@ class ScanClusters {
   void readEchoes(const map::SensorPose& sensor, const map::HullPose& own, const map::Scan& scan);
   void remember();
   void divide(std::size_t beams, double increment_rad);
+  [[nodiscard]] bool isCut(const Cluster& cluster) const;
 
   map::GridGeometry geometry_;
   std::vector<bool> charted_;  // land, and the cells next to it

@@ -12,16 +12,45 @@ namespace {
 // Standard deviations of a middle found from echoes. Errors of scan after scan are alike (the fit
 // is wrong in the same way), so that they weigh less than fifteen of them a second would.
 constexpr double kSeenSideM = 0.5;
-constexpr double kGuessedSideM = 1.2;
+constexpr double kGuessedSideM = 0.7;
 constexpr double kLeastSizeM = 0.5;
 constexpr int kYoungHits = 5;
 
 constexpr double kLeastCourseSpeedMps = 0.3;
-constexpr double kCourseSigmas = 3.0;
+constexpr double kCourseSigmas = 2.5;
 
 Eigen::Vector2d unit(double angle_rad) {
   return {std::cos(angle_rad), std::sin(angle_rad)};
 }
+
+// A cluster in the axes of a hull: what is seen of it, and from where. A side is seen whole when
+// the line of sight doesn't graze it.
+struct View {
+  Span along;
+  Span athwart;
+  double eye_along = 0.0;
+  double eye_athwart = 0.0;
+  bool from_beside = false;  // the long sides' one is seen
+  bool from_end = false;     // bow or stern is
+
+  View(const Cluster& cluster, const Eigen::Vector2d& eye, const Eigen::Vector2d& ahead)
+      : along(spanOf(cluster.points, ahead)),
+        athwart(spanOf(cluster.points, across(ahead))),
+        eye_along(ahead.dot(eye)),
+        eye_athwart(across(ahead).dot(eye)),
+        from_beside(looksAt(eye_athwart, athwart, eye_along, along)),
+        from_end(looksAt(eye_along, along, eye_athwart, athwart)) {}
+
+ private:
+  static double outside(double value, const Span& span) {
+    return std::max({0.0, span.low - value, value - span.high});
+  }
+  static bool looksAt(double eye, const Span& side, double eye_past, const Span& past) {
+    constexpr double kLeastSlope = 0.25;  // 14 degrees
+    const double farthest = std::max(std::abs(eye_past - past.low), std::abs(eye_past - past.high));
+    return outside(eye, side) > kLeastSlope * farthest;
+  }
+};
 
 // The middle along an axis, with its standard deviation.
 struct Middle {
@@ -29,9 +58,8 @@ struct Middle {
   double deviation_m = kSeenSideM;
 };
 
-// `eye` and `other_seen`: the sensor along this axis, and whether it sees the sides that lie along
-// it (from beside the outline). From ahead or astern only the near end is seen, and the rest is
-// half the size away.
+// `eye`: the sensor along this axis; `whole_seen`: whether it sees the sides that lie along it. If
+// not, only the near end is seen, and the middle is half the size away.
 Middle middleAlong(const Span& span, double eye, bool whole_seen, double size_m, bool size_known) {
   const bool whole = whole_seen && span.length() > 0.8 * size_m;
   if (whole || (whole_seen && !size_known)) {
@@ -101,20 +129,17 @@ Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d
       heading_rad && !young ? *heading_rad : rectangleDirection(cluster.points);
   const Eigen::Vector2d ahead = unit(direction);
   const Eigen::Vector2d port = across(ahead);
-  const Span along = spanOf(cluster.points, ahead);
-  const Span athwart = spanOf(cluster.points, port);
-  const double eye_along = ahead.dot(eye);
-  const double eye_athwart = port.dot(eye);
+  const View view(cluster, eye, ahead);
   Middle middle[2];
   if (young || !heading_rad) {
-    middle[0] = {along.middle(), kGuessedSideM};
-    middle[1] = {athwart.middle(), kGuessedSideM};
+    middle[0] = {view.along.middle(), kGuessedSideM};
+    middle[1] = {view.athwart.middle(), kGuessedSideM};
   } else {
     const bool known = size != Size::kGuessed;
-    const bool from_beside = eye_athwart < athwart.low || eye_athwart > athwart.high;
-    const bool from_end = eye_along < along.low || eye_along > along.high;
-    middle[0] = middleAlong(along, eye_along, from_beside, length_m, known);
-    middle[1] = middleAlong(athwart, eye_athwart, from_end, beam_m, known);
+    middle[0] =
+        middleAlong(view.along, view.eye_along, view.from_beside && !cluster.cut, length_m, known);
+    middle[1] =
+        middleAlong(view.athwart, view.eye_athwart, view.from_end && !cluster.cut, beam_m, known);
   }
   const Eigen::Matrix2d axes = (Eigen::Matrix2d() << ahead, port).finished();
   const Eigen::Vector2d variances(middle[0].deviation_m * middle[0].deviation_m,
@@ -137,26 +162,19 @@ void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye
   if (!heading_rad) {
     return;
   }
-  const Eigen::Vector2d ahead = unit(*heading_rad);
-  const Eigen::Vector2d port = across(ahead);
-  const Span along = spanOf(cluster.points, ahead);
-  const Span athwart = spanOf(cluster.points, port);
-  const double eye_along = ahead.dot(eye);
-  const double eye_athwart = port.dot(eye);
-  const bool from_beside = eye_athwart < athwart.low || eye_athwart > athwart.high;
-  const bool from_end = eye_along < along.low || eye_along > along.high;
+  const View view(cluster, eye, unit(*heading_rad));
   const bool guessed = size == Size::kGuessed;
-  // Both have to be seen before a guess is left; a side that isn't can be as long as the other.
-  if (guessed && !(from_beside && from_end)) {
-    length_m = std::max(length_m, along.length());
-    beam_m = std::max(beam_m, athwart.length());
+  // Both have to be seen before a guess is left; what is cut off is longer than it seems.
+  if (cluster.cut || (guessed && !(view.from_beside && view.from_end))) {
+    length_m = std::max(length_m, view.along.length());
+    beam_m = std::max(beam_m, view.athwart.length());
     return;
   }
-  if (from_beside) {
-    learn(length_m, std::max(along.length(), kLeastSizeM), guessed);
+  if (view.from_beside) {
+    learn(length_m, std::max(view.along.length(), kLeastSizeM), guessed);
   }
-  if (from_end) {
-    learn(beam_m, std::max(athwart.length(), kLeastSizeM), guessed);
+  if (view.from_end) {
+    learn(beam_m, std::max(view.athwart.length(), kLeastSizeM), guessed);
   }
   size = Size::kSeen;
 }

@@ -23,12 +23,14 @@ constexpr double kOutOfReach = 0.1;  // with a lower chance to be detected nothi
 
 // Lidar.
 constexpr double kLidarDetection = 0.9;
+constexpr double kLidarUnplaced = 0.5;
+constexpr double kPlacedM2 = 4.0;
 constexpr double kLidarClutterPerM2 = 2e-3;
 constexpr double kFirstExistence = 0.2;
 constexpr int kFewestNew = 2;  // echoes of a cluster in water seen free, to begin a track
 constexpr int kFewestMovingHits = 8;
 constexpr double kFewestSeconds = 1.0;
-constexpr double kTentativeS = 5.0;      // what is not confirmed by then is dropped
+constexpr double kTentativeS = 8.0;      // what is not confirmed by then is dropped
 constexpr double kOutlineMarginM = 0.7;  // echoes this near a vessel's outline are hers
 constexpr double kLostS = 30.0;          // neither seen nor heard for so long
 
@@ -87,10 +89,11 @@ class Tracker::Impl {
       return (clusters[k].points.front() - middle).norm() < reach;
     };
     look.detection = [&](const TrackedVessel& vessel) {
-      return clusters_.inSight(vessel.motion.state().head<2>(), vessel.beam_m)
-                 ? (vessel.motion.covariance().topLeftCorner<2, 2>().trace() < 4.0 ? kLidarDetection
-                                                                                   : 0.5)
-                 : 0.0;
+      const double seen =
+          clusters_.inSight(vessel.motion.state().head<2>(), vessel.length_m, vessel.beam_m);
+      // Of a vessel that may be elsewhere one can't say whether it is in sight.
+      const bool placed = vessel.motion.covariance().topLeftCorner<2, 2>().trace() < kPlacedM2;
+      return seen * (placed ? kLidarDetection : kLidarUnplaced);
     };
     look.seen = [&](TrackedVessel& vessel, std::size_t k) {
       vessel.moving_hits += clusters[k].new_points >= kFewestNew ? 1 : 0;
@@ -102,11 +105,12 @@ class Tracker::Impl {
     };
     const std::vector<double> taken = associate(look);
     for (std::size_t k = 0; k < clusters.size(); ++k) {
-      if (taken[k] < 0.3 && clusters[k].new_points >= kFewestNew &&
-          2 * clusters[k].new_points > static_cast<int>(clusters[k].points.size())) {
+      if (taken[k] < 0.3 && !isOnTrack(clusters[k]) && clusters[k].new_points >= kFewestNew &&
+          5 * clusters[k].new_points > static_cast<int>(clusters[k].points.size())) {
         begin(clusters[k], eye, stamp_s);
       }
     }
+    unite();
     judge(stamp_s);
     findOnVessels(clusters);
     return verdict_;
@@ -244,6 +248,17 @@ class Tracker::Impl {
       vessel.followCourse();
       look.seen(vessel, links[best].detection);
     }
+  }
+
+  // Echoes of a vessel that is tracked already: a part of her that looks like a thing of its own.
+  [[nodiscard]] bool isOnTrack(const Cluster& cluster) const {
+    PredictionOptions now;
+    now.horizon_s = 0.0;
+    return std::any_of(vessels_.begin(), vessels_.end(), [&](const TrackedVessel& vessel) {
+      const Outline outline = PredictedWay(vessel.track(), now).at(vessel.motion.stamp());
+      return outline.distanceTo(cluster.points.front()).distance_m < kOutlineMarginM ||
+             outline.distanceTo(cluster.points.back()).distance_m < kOutlineMarginM;
+    });
   }
 
   void begin(const Cluster& cluster, const Eigen::Vector2d& eye, double stamp_s) {

@@ -105,6 +105,9 @@ class OccupancyMap {
 
   [[nodiscard]] const OccupancyGrid& projection() const;
   [[nodiscard]] const OccupancyGrid& chart() const;
+  // Clears what was sensed in the columns of these points: what was met there has moved on. The
+  // changed cells.
+  CellRectangle forget(const std::vector<Eigen::Vector2d>& points);
   // Forgets what was sensed; the changed cells.
   CellRectangle reset();
   // By the path's ending: .bt or .ot (the tree), .yaml (the projection, with a PGM beside it).

@@ -19,6 +19,7 @@
 #include "otter_nav/scenario/report.hpp"
 #include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/tracker/tracker.hpp"
+#include "otter_nav/traffic/tracker.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/scripted_vessel.hpp"
 
@@ -32,6 +33,7 @@ struct LoopOptions {
   planner::Options planner;
   tracker::Options tracker;
   mission::SupervisorOptions supervisor;
+  traffic::Options traffic;
   int planning_iterations = 4000;  // bound of one planning request
   double control_period_s = 0.01;  // of the tracker and the plant
   double record_period_s = 0.05;   // of the track
@@ -71,7 +73,8 @@ class ClosedLoop {
   [[nodiscard]] const mission::Supervisor& supervisor() const { return supervisor_; }
   // The true motion and the reference now.
   [[nodiscard]] scenario::MotionSample motion() const;
-  // Other vessels as they truly are.
+  // Other vessels as they are known, and as they truly are.
+  [[nodiscard]] const std::vector<traffic::Track>& tracks() const;
   [[nodiscard]] const std::vector<plant::OtherVessel>& others() const { return plant_.others(); }
   [[nodiscard]] scenario::Progress progress() const;
   [[nodiscard]] scenario::MissionResult result(const scenario::MissionLabel& label) const;

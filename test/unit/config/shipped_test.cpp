@@ -20,6 +20,7 @@
 #include "otter_nav/planner/options.hpp"
 #include "otter_nav/plant/options.hpp"
 #include "otter_nav/tracker/options.hpp"
+#include "otter_nav/traffic/tracker.hpp"
 
 namespace otter_nav::config {
 namespace {
@@ -64,6 +65,7 @@ std::vector<Shipped> allShipped() {
       shipped<MissionFile>("mission.yaml"),
       shipped<tracker::Options>("tracker.yaml"),
       shipped<plant::Options>("plant.yaml"),
+      shipped<traffic::Options>("traffic.yaml"),
       shipped<identification::Options>("identification.yaml"),
       shipped<nodes::MapNodeOptions>("map_node.yaml"),
       shipped<nodes::TopologyNodeOptions>("topology_node.yaml"),
