@@ -39,7 +39,7 @@ PlanRequest PlanRequests::fromRest(double now_s, const vessel::State& state,
   request.query.start.flat.position = state.head<2>();
   request.query.start.psi_rad = state[vessel::kPsi];
   request.start_time_s = now_s + latency.seconds();
-  return ask(now_s, std::move(request), goal, safety.freeThrustShare(), From::kRest, obstacles);
+  return ask(now_s, std::move(request), goal, safety.nextThrustShare(), From::kRest, obstacles);
 }
 
 std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
@@ -51,7 +51,7 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
   if (!at) {
     return std::nullopt;
   }
-  const trajectory::Sample sample = sailed.trajectory.sample(*at, vessel_);
+  const trajectory::Sample sample = sailed.trajectory.sample(*at, vessel_, safety.weather().mean());
   PlanRequest request;
   request.query.start.flat = sample.flat;
   request.query.start.psi_rad = sample.state[vessel::kPsi];
@@ -86,10 +86,11 @@ PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
                                      const vessel::Pose& goal,
                                      const feasibility::Obstacles& obstacles) {
   constexpr double kStartShare = 0.9;  // of the plan's thrust, at its beginning
-  const double share = safety.movingThrustShare();
+  const double share = safety.nextThrustShare();
   PlanRequest request;
-  request.query.start.flat = vessel::InverseDynamics(vessel_).fromState(
-      state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n);
+  request.query.start.flat =
+      vessel::InverseDynamics(vessel_, safety.weather().mean())
+          .fromState(state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n);
   request.query.start.flat.position += latency.seconds() * request.query.start.flat.velocity;
   // One that has hardly got under way is better launched again than led on from next to nothing.
   constexpr double kHardlyMovingMps = 0.25;
@@ -113,14 +114,12 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
       std::min(field.clearance(request.query.start.flat.position), field.clearance(goal.position));
   request.id = next_id_++;
   request.query.goal.flat.position = goal.position;
-  request.query.goal.psi_rad = goal.psi_rad;
+  request.query.goal.psi_rad = safety.restHeading(goal.psi_rad);
   request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
   request.query.limits = safety.limits(thrust_share, room);
   request.thrust_share = thrust_share;
   request.moving = from != From::kRest;
-  const double conceded =
-      from == From::kVessel ? std::max(0.0, thrust_share - safety.freeThrustShare()) : 0.0;
-  asked_ = Asked{request, from, false, now_s, conceded, {}};
+  asked_ = Asked{request, from, false, now_s, {}};
   return request;
 }
 

@@ -39,7 +39,6 @@ class PlanRequests {
     From from = From::kRest;
     bool improves = false;  // asked for only to be faster
     double since_s = 0.0;
-    double conceded_thrust_share = 0.0;  // more than free, for a vessel too fast for less
     // What the plan continues, from the sailed trajectory on; empty: that itself.
     trajectory::TimedTrajectory lead;
   };

@@ -2,45 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/vessel/rest.hpp"
+#include "text.hpp"
 
 namespace otter_nav::mission {
 namespace {
 
 constexpr double kLeastThrustShare = 0.4;
-constexpr double kReserveInWind = 2.0;  // thrust kept per share that the disturbance takes
-constexpr double kLessThrust = 0.1;     // each time the vessel couldn't follow
+constexpr double kLessThrust = 0.1;    // each time the vessel couldn't follow
+constexpr double kBlindReserve = 2.0;  // of the mean's share, for a plan that knows nothing of it
+constexpr int kRefusedMost = 2;
+constexpr double kMoreThrust = 0.2;  // each time there was no plan at any clearance
 
 }  // namespace
 
-double disturbanceShare(double disturbance_n, const vessel::Thrusters& thrusters) {
-  return disturbance_n / (2.0 * thrusters.ahead_max_n);
-}
-
-double planThrustShare(double share_in_calm, double disturbance_share, int times_left_behind) {
+double planThrustShare(double share_in_calm, double gust_share, int times_left_behind) {
   constexpr double kStep = 0.05;
-  const double share =
-      share_in_calm - kReserveInWind * disturbance_share - times_left_behind * kLessThrust;
+  const double share = std::min(share_in_calm, 1.0 - gust_share) - times_left_behind * kLessThrust;
   return std::max(kLeastThrustShare, kStep * std::floor(share / kStep + 1e-9));
 }
 
-double planClearance(const SupervisorOptions& options, std::size_t level, double disturbance_share,
-                     double thrust_share, const vessel::Hull& hull, double room_m) {
+double planClearance(const SupervisorOptions& options, std::size_t level, double gust_reach_m,
+                     double drift_reach_m, const vessel::Hull& hull, double room_m) {
   const double listed = centreClearance(hull, options.side_clearances_m[level]);
-  const double narrowest = centreClearance(hull, options.side_clearances_m.back());
-  constexpr double kSlowShare = 0.5;  // of the plan's thrust, that moves the vessel in its turns
-  const double crab_rad =
-      std::min(std::asin(std::min(1.0, disturbance_share / (kSlowShare * thrust_share))),
-               std::atan2(hull.length_m, hull.beam_m));  // the corner abeam
-  const double crabwise =
-      0.5 * (hull.length_m * std::sin(crab_rad) + hull.beam_m * (std::cos(crab_rad) - 1.0));
-  const double widened =
-      narrowest + crabwise +
-      (listed - narrowest) * (1.0 + options.widening_in_wind * disturbance_share);
-  return std::min(widened, std::max(listed, room_m));
+  constexpr double kShares[] = {1.0, 1.0, 0.5, 0.25};  // of the reach; the last for all that follow
+  const double reach = kShares[std::min(level, std::size(kShares) - 1)] * gust_reach_m;
+  const double aside = level == 0 ? std::max(reach, drift_reach_m) : reach;
+  return std::min(listed + aside, std::max(listed, room_m));
 }
 
 Safety::Safety(const SupervisorOptions& options, const vessel::Parameters& vessel)
-    : options_(options), vessel_(vessel), levels_(options.side_clearances_m.size()) {}
+    : options_(options),
+      vessel_(vessel),
+      levels_(options.side_clearances_m.size()),
+      weather_(vessel) {}
 
 double Safety::narrowest() const {
   return centreClearance(vessel_.hull, options_.side_clearances_m.back());
@@ -55,22 +53,61 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
          centreClearance(vessel_.hull, options_.side_clearances_m[levels_.level()]) > room_m) {
     levels_.narrower();
   }
-  const double clearance = planClearance(options_, levels_.level(), disturbance_share_,
-                                         thrust_share, vessel_.hull, room_m);
-  return feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
+  const double clearance = planClearance(options_, levels_.level(), weather_.gustReach(),
+                                         weather_.driftReach(), vessel_.hull, room_m);
+  auto limits = feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
+  if (!plansBlind()) {
+    limits.disturbance = weather_.mean();
+  }
+  return limits;
 }
 
 double Safety::freeThrustShare() const {
-  return planThrustShare(options_.thrust_share, disturbance_share_, times_left_behind_);
+  return planThrustShare(options_.thrust_share, weather_.gustShare(), times_left_behind_);
 }
 
-double Safety::movingThrustShare() const {
-  return std::min(options_.thrust_share, freeThrustShare() + times_refused_ * kLessThrust);
+double Safety::nextThrustShare() const {
+  if (plansBlind()) {
+    return planThrustShare(options_.thrust_share,
+                           weather_.gustShare() + kBlindReserve * weather_.meanShare(),
+                           times_left_behind_);
+  }
+  return std::min(options_.thrust_share, freeThrustShare() + times_refused_ * kMoreThrust);
 }
 
-bool Safety::countsOnTooMuch(double planned_share) const {
-  constexpr double kTooMuch = 0.1;  // of the limits
-  return planned_share > freeThrustShare() + kTooMuch + 1e-9;
+bool Safety::plansBlind() const {
+  return times_refused_ >= kRefusedMost;
+}
+
+double Safety::restHeading(double psi_rad) const {
+  const vessel::ManoeuvringModel& model = vessel_.manoeuvring;
+  return vessel::canLie(model, weather_.mean(), psi_rad)
+             ? psi_rad
+             : wrapAngle(vessel::headingIntoLoad(model, weather_.mean(), psi_rad));
+}
+
+// Bow to it, the gusts' force must not exceed the thrust; and on the way from one heading to
+// another the mean wind's moment must leave some to turn with.
+std::string Safety::beyondThrust() const {
+  if (!weather_.isKnown()) {
+    return {};
+  }
+  constexpr double kAtMost = 0.95;  // of the thrust
+  const vessel::ManoeuvringModel& model = vessel_.manoeuvring;
+  const vessel::Thrusters& t = vessel_.thrusters;
+  const vessel::Disturbance gust = weather_.gust();
+  const double push_n = vessel::surgeAtRest(model, gust, vessel::headingIntoLoad(model, gust, 0.0));
+  if (push_n > kAtMost * 2.0 * t.ahead_max_n) {
+    return text("wind and current push with %.0f N in gusts, the thrusters with %.0f N", push_n,
+                2.0 * t.ahead_max_n);
+  }
+  const double moment_nm = t.lever_arm_m * (t.ahead_max_n + t.astern_max_n);
+  const double turning_nm = weather_.greatestMoment();
+  if (turning_nm > kAtMost * moment_nm) {
+    return text("the wind turns the hull with %.0f N m, the thrusters with %.0f N m", turning_nm,
+                moment_nm);
+  }
+  return {};
 }
 
 void Safety::newGoal() {
@@ -78,13 +115,9 @@ void Safety::newGoal() {
   times_refused_ = 0;
 }
 
-void Safety::feel(double disturbance_n) {
-  disturbance_share_ = disturbanceShare(disturbance_n, vessel_.thrusters);
-}
-
-bool Safety::refused(bool from_vessel) {
+bool Safety::refused() {
   const bool more = levels_.narrower();
-  if (from_vessel && !more) {
+  if (!more) {
     ++times_refused_;
   }
   return more;

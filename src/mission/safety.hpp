@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "weather.hpp"
 
 namespace otter_nav::mission {
 
@@ -15,21 +17,18 @@ namespace otter_nav::mission {
   return 0.5 * hull.beam_m + beside_m;
 }
 
-// `disturbance_n` over the thrust of both propellers full ahead.
-[[nodiscard]] double disturbanceShare(double disturbance_n, const vessel::Thrusters& thrusters);
-
-// Of the limits, for a plan; in steps of 0.05. Less by twice the disturbance's share (its moment
-// and its gusts ask for some as well) and by 0.1 each time the vessel couldn't follow, but never
-// less than 0.4.
-[[nodiscard]] double planThrustShare(double share_in_calm, double disturbance_share,
+// Of the limits, for a plan; in steps of 0.05. What gusts take (`gust_share`) is left over, and 0.1
+// more each time the vessel couldn't follow; but never less than 0.4. What wind and current take on
+// the whole is the plan's own to find thrust for.
+[[nodiscard]] double planThrustShare(double share_in_calm, double gust_share,
                                      int times_left_behind);
 
-// The clearance that `level` of the options' list asks for, m. The levels lie further apart in
-// wind: gusts carry the vessel off its path by as much. Against a force from the side the hull goes
-// crabwise and reaches further to both sides: the narrowest grows by that. Not more than start and
-// goal have (`room_m`), unless the list itself asks for it.
+// The clearance that `level` of the options' list asks for, m: so much beside what gusts move the
+// tracked hull by (`gust_reach_m`; half of that on the third level, a quarter from the fourth on);
+// on the widest as much as a lost heading takes (`drift_reach_m`), if that is more. Not more than
+// start and goal have (`room_m`), unless the list itself asks for it.
 [[nodiscard]] double planClearance(const SupervisorOptions& options, std::size_t level,
-                                   double disturbance_share, double thrust_share,
+                                   double gust_reach_m, double drift_reach_m,
                                    const vessel::Hull& hull, double room_m);
 
 // The clearances of the list in turn, from the widest to the narrowest and round again.
@@ -66,16 +65,24 @@ class Safety {
 
   // What wind and current and the vessel's troubles leave for plans.
   [[nodiscard]] double freeThrustShare() const;
-  // For a plan from the vessel as it moves: one too fast for the thrust that plans should keep to
-  // gets a plan with more rather than none.
-  [[nodiscard]] double movingThrustShare() const;
-  [[nodiscard]] bool countsOnTooMuch(double planned_share) const;
+  // For the next plan: where there was none with that, one with more rather than none.
+  [[nodiscard]] double nextThrustShare() const;
+  // Where there is none that knows of wind and current even so, one that leaves thrust for them
+  // instead is better than none.
+  [[nodiscard]] bool plansBlind() const;
 
-  void newGoal();                   // forgets what happened on the way to the one before
-  void feel(double disturbance_n);  // the force of wind and current, as estimated
+  // A goal's heading, or where that can't be held the one into what wind and current push with.
+  [[nodiscard]] double restHeading(double psi_rad) const;
+  // Why no leg can be sailed nor a spot be held in this weather; empty if that's not so.
+  [[nodiscard]] std::string beyondThrust() const;
+
+  void newGoal();  // forgets what happened on the way to the one before
+  // What wind and current are estimated to be.
+  void feel(double now_s, const vessel::Disturbance& estimate) { weather_.feel(now_s, estimate); }
+  [[nodiscard]] const Weather& weather() const { return weather_; }
   void leftBehind() { ++times_left_behind_; }
   // A plan failed: the next is tried narrower; false where all levels were tried.
-  bool refused(bool from_vessel);
+  bool refused();
   void planTaken();
   void tryWidest() { levels_.widest(); }
 
@@ -83,9 +90,9 @@ class Safety {
   SupervisorOptions options_;
   vessel::Parameters vessel_;
   ClearanceLevels levels_;
-  double disturbance_share_ = 0.0;  // of the thrust ahead
-  int times_refused_ = 0;           // at all levels, from where the vessel is, in a row
-  int times_left_behind_ = 0;       // on the way to this goal
+  Weather weather_;
+  int times_refused_ = 0;      // at all levels, from where the vessel is, in a row
+  int times_left_behind_ = 0;  // on the way to this goal
 };
 
 }  // namespace otter_nav::mission

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "goal_check.hpp"
@@ -10,6 +11,8 @@
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
+#include "otter_nav/vessel/rest.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 #include "plan_requests.hpp"
 #include "retry_budget.hpp"
 #include "text.hpp"
@@ -79,7 +82,7 @@ class Supervisor::Impl {
     }
     goal_ = goal;
     safety().newGoal();
-    safety().feel(m.situation.disturbance_n);
+    feel(m);
     plans_.drop();
     plans_.latency.onTime();
     retries_.newGoal(m.now_s);
@@ -112,7 +115,7 @@ class Supervisor::Impl {
   }
 
   Orders update(const Moment& m) {
-    safety().feel(m.situation.disturbance_n);
+    feel(m);
     lookOut(m);
     if (plans_.overdue(m.now_s)) {
       return planFailed(m, "no answer from the planner", plans_.take());
@@ -154,11 +157,10 @@ class Supervisor::Impl {
 
   bool isAtTheEnd(const Moment& m) { return sailed_.left(m.now_s) <= 0.0; }
   bool hasArrived(const Moment& m) {
-    constexpr double kArrivalSpeedMps = 0.25;
     const vessel::State& x = m.situation.state;
     return isAtTheEnd(m) && (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
-           std::abs(wrapAngle(x[vessel::kPsi] - goal_.psi_rad)) <= options_.arrival_heading_rad &&
-           speedOf(x) <= kArrivalSpeedMps;
+           (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields()) &&
+           speedOf(x) <= vessel::kRestMps;
   }
   // A trajectory that ends elsewhere belongs to a goal that was replaced: nothing to wait for.
   bool settlesNoMore(const Moment& m) {
@@ -205,12 +207,31 @@ class Supervisor::Impl {
   bool isFarOff(const Moment& m) {
     return m.situation.tracking_error_m > options_.tracking_error_max_m;
   }
-  // At once the first time, then not for each gust again.
-  bool lacksThrust(const Moment& m) {
-    constexpr double kAgainS = 3.0;
-    return safety().countsOnTooMuch(planned_thrust_share_ - conceded_thrust_share_) &&
-           (replans_ == 0 || m.now_s - plan_time_s_ >= kAgainS);
+  // Broadside to where it should point and carried off.
+  bool hasLostItsHeading(const Moment& m) {
+    constexpr double kLostRad = 0.8;
+    const trajectory::Sample wanted =
+        sailed_.trajectory.sample(sailed_.elapsed(m.now_s), vessel_, planned_disturbance_);
+    return weather().isKnown() && isFarOff(m) &&
+           std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
+               kLostRad;
   }
+  // On the way left the thrusters have not enough against what blows by now, for longer than when
+  // it was planned. Once the weather is known, then not for each change again.
+  bool lacksThrust(const Moment& m) {
+    constexpr double kLongerS = 1.5;
+    return mayReplanForWeather(m) &&
+           overtaxed(m.now_s, weather().mean()) > planned_overtaxed_s_ + kLongerS;
+  }
+  // The plan ends on a heading that can't be held there, or not on the goal's though it can.
+  bool endsOnAWrongHeading(const Moment& m) {
+    constexpr double kWrongRad = 0.7;
+    constexpr double kLeftS = 5.0;
+    return mayReplanForWeather(m) && sailed_.left(m.now_s) > kLeftS &&
+           std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - planned_goal_psi_rad_)) >
+               kWrongRad;
+  }
+  bool isBeyondThrust(const Moment& /*m*/) { return !safety().beyondThrust().empty(); }
   bool mayImprove(const Moment& m) {
     const double period = options_.improve_period_s;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
@@ -268,11 +289,22 @@ class Supervisor::Impl {
     return {std::nullopt, sailed_, false};
   }
   Orders planFromFarOff(const Moment& m) {
-    safety().leftBehind();
+    if (phase_ == Phase::kSailing) {  // not for each attempt again
+      safety().leftBehind();
+    }
     return planFromVessel(m, "far off the trajectory");
   }
-  Orders planWithLessThrust(const Moment& m) {
+  Orders planForWeather(const Moment& m) {
     return planFromVessel(m, "wind and current take thrust that the plan counts on");
+  }
+  Orders planForGoalHeading(const Moment& m) {
+    enter(Phase::kReplanning, "the heading at the goal is another in this wind and current");
+    for_clearance_ = false;
+    Orders orders = planFromSailed(m);
+    if (!orders.plan) {
+      return enter(Phase::kSailing);
+    }
+    return orders;
   }
   Orders planToImprove(const Moment& m) {
     plan_time_s_ = m.now_s;
@@ -284,12 +316,24 @@ class Supervisor::Impl {
   }
   Orders planAnew(const Moment& m) {
     plans_.drop();
-    const std::string why = text("not settled: %.2f m from the goal at the trajectory's end",
-                                 (m.situation.state.head<2>() - goal_.position).norm());
+    const std::string why =
+        text("not settled at the trajectory's end: %.2f m and %.2f rad from the goal, at %.2f m/s",
+             (m.situation.state.head<2>() - goal_.position).norm(), headingOff(m),
+             speedOf(m.situation.state));
     return rest(m, why, why);
   }
 
-  Orders arrive(const Moment& /*m*/) { return enter(Phase::kArrived); }
+  Orders arrive(const Moment& m) {
+    if (headingOff(m) <= options_.arrival_heading_rad) {
+      return enter(Phase::kArrived);
+    }
+    return enter(Phase::kArrived,
+                 text("%.2f m from the goal (%.2f m allowed), but %.2f rad off its heading: wind "
+                      "and current would set the vessel aside by %.2f m/s on it",
+                      (m.situation.state.head<2>() - goal_.position).norm(),
+                      options_.arrival_distance_m, headingOff(m),
+                      vessel::setAside(vessel_.manoeuvring, weather().mean(), goal_.psi_rad)));
+  }
   Orders lookForAnother(const Moment& /*m*/) {
     for_clearance_ = true;
     return enter(Phase::kReplanning, conflictText(conflict_));
@@ -314,6 +358,26 @@ class Supervisor::Impl {
   }
   Orders stopForFault(const Moment& m) { return stopByItself(m, faultOf(m)); }
   Orders stopUnplanned(const Moment& m) { return stopByItself(m, "under way without a plan"); }
+  // The tracker turns the bow into it and keeps the place; a plan from rest comes next.
+  Orders stopHeadingLost(const Moment& m) {
+    return stopByItself(
+        m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
+  }
+  Orders stopBeyondThrust(const Moment& m) {
+    return stopByItself(m, "too much wind and current: " + safety().beyondThrust());
+  }
+  // Bow to it, until it abates or for too long.
+  Orders waitForCalm(const Moment& m) {
+    constexpr double kPatienceS = 60.0;
+    retries_.pause(m.now_s);
+    if (!holds_) {
+      calm_by_s_ = m.now_s + kPatienceS;
+    } else if (m.now_s > calm_by_s_) {
+      return enter(Phase::kFailed, "too much wind and current: " + safety().beyondThrust());
+    }
+    enter(phase_, "waits for less wind and current: " + safety().beyondThrust());
+    return holdHere();
+  }
   Orders stopOverTheEdge(const Moment& m) {
     return stopByItself(m, "over the map's edge and far off the trajectory");
   }
@@ -390,6 +454,7 @@ class Supervisor::Impl {
       {kWaiting, &Impl::mustWait, &Impl::keepOn},
       {kWaiting, &Impl::hasFault, &Impl::loseRound},
       {kWaiting, &Impl::isOverTheEdge, &Impl::turnBack},
+      {kWaiting, &Impl::isBeyondThrust, &Impl::waitForCalm},
       {kWaiting, &Impl::always, &Impl::planFromRest},
 
       {kUnderWay, &Impl::hasFault, &Impl::stopForFault},
@@ -397,13 +462,16 @@ class Supervisor::Impl {
       {kUnderWay, &Impl::settlesNoMore, &Impl::planAnew},
       {kUnderWay, &Impl::isAtTheEnd, &Impl::keepOn},
       {kUnderWay, &Impl::isLostOverTheEdge, &Impl::stopOverTheEdge},
+      {kUnderWay, &Impl::hasLostItsHeading, &Impl::stopHeadingLost},
+      {kUnderWay, &Impl::isBeyondThrust, &Impl::stopBeyondThrust},
       {kSailing, &Impl::isNarrow, &Impl::lookForAnother, kGoesOn},
       {kReplanning, &Impl::mustBrake, &Impl::brake},
       {kReplanning, &Impl::isClearAgain, &Impl::keepThePlan, kGoesOn},
       {kUnderWay, &Impl::mustWait, &Impl::keepOn},
       {kUnderWay, &Impl::shouldMakeWay, &Impl::makeWay},
       {kUnderWay, &Impl::isFarOff, &Impl::planFromFarOff},
-      {kUnderWay, &Impl::lacksThrust, &Impl::planWithLessThrust},
+      {kUnderWay, &Impl::lacksThrust, &Impl::planForWeather},
+      {kUnderWay, &Impl::endsOnAWrongHeading, &Impl::planForGoalHeading},
       {kReplanning, &Impl::always, &Impl::planFromSailed},
       {kSailing, &Impl::mayImprove, &Impl::planToImprove},
 
@@ -432,6 +500,40 @@ class Supervisor::Impl {
   // ---- What the rules are made of
 
   Safety& safety() { return plans_.safety; }
+  const Weather& weather() { return safety().weather(); }
+  void feel(const Moment& m) {
+    if (m.situation.odometry_stamp_s > felt_s_) {  // not twice the same
+      felt_s_ = m.situation.odometry_stamp_s;
+      safety().feel(felt_s_, m.situation.disturbance.mean);
+    }
+  }
+  double headingOff(const Moment& m) {
+    return std::abs(wrapAngle(m.situation.state[vessel::kPsi] - goal_.psi_rad));
+  }
+  bool goalHeadingYields() {
+    return weather().isKnown() &&
+           !vessel::canLie(vessel_.manoeuvring, weather().mean(), goal_.psi_rad);
+  }
+  // At once when the weather is known first, later not before the plan has been sailed a while.
+  bool mayReplanForWeather(const Moment& m) {
+    constexpr double kAgainS = 10.0;
+    return weather().isKnown() && (!planned_in_known_weather_ || m.now_s - plan_time_s_ >= kAgainS);
+  }
+  // For how long, s, the way left asks for more than the thrusters have.
+  double overtaxed(double now_s, const vessel::Disturbance& disturbance) {
+    constexpr double kStepS = 0.25;
+    constexpr double kAheadS = 30.0;
+    const double from = sailed_.elapsed(now_s);
+    const double to = std::min(sailed_.trajectory.duration(), from + kAheadS);
+    double longer = 0.0;
+    for (double t = from; t < to; t += kStepS) {
+      const vessel::Thrusts thrusts = sailed_.trajectory.sample(t, vessel_, disturbance).thrusts;
+      longer += vessel::thrustMargin(thrusts, vessel_.thrusters) < 0.0 ? kStepS : 0.0;
+    }
+    return longer;
+  }
+  // Without a trajectory the tracker does nothing: it shall keep the place, once.
+  Orders holdHere() { return {std::nullopt, std::nullopt, !std::exchange(holds_, true)}; }
 
   bool hasMission() const {
     constexpr unsigned kNone = in(Phase::kIdle) | in(Phase::kArrived) | in(Phase::kFailed);
@@ -493,10 +595,12 @@ class Supervisor::Impl {
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
     planned_limits_ = asked.request.query.limits;
     planned_thrust_share_ = asked.request.thrust_share;
-    if (asked.from != From::kSailed) {
-      conceded_thrust_share_ = asked.conceded_thrust_share;
-    }
+    planned_goal_psi_rad_ = asked.request.query.goal.psi_rad;
+    planned_disturbance_ = weather().mean();
+    planned_in_known_weather_ = weather().isKnown();
+    planned_overtaxed_s_ = overtaxed(m.now_s, planned_disturbance_);
     plan_time_s_ = m.now_s;
+    holds_ = false;
     safety().planTaken();
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
@@ -509,6 +613,7 @@ class Supervisor::Impl {
     enter(phase, std::move(reason));
     if (path.empty()) {
       sailed_ = {};
+      holds_ = true;
       return {std::nullopt, std::nullopt, true};
     }
     sailed_ = {std::move(path), m.now_s};
@@ -576,7 +681,7 @@ class Supervisor::Impl {
     if (asked.improves) {
       return {};
     }
-    const bool more = safety().refused(asked.from == From::kVessel);
+    const bool more = safety().refused();
     if (asked.from != From::kRest || more) {
       return {};  // asked again at the next update, as long as there is room
     }
@@ -588,7 +693,7 @@ class Supervisor::Impl {
       }
     }
     if (retries_.roundLost(m.now_s)) {
-      return {};
+      return sailed_.trajectory.empty() ? holdHere() : Orders{};
     }
     return enter(Phase::kFailed,
                  text("no plan after %d rounds: ", retries_.rounds()) + why +
@@ -605,9 +710,13 @@ class Supervisor::Impl {
   double planned_clearance_m_ = 0.0;   // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;  // and with
   feasibility::SafetyLimits planned_limits_;  // all of it
-  // Of it, what was more than free already when it was asked for, for want of a plan with less: no
-  // ground to replace it.
-  double conceded_thrust_share_ = 0.0;
+  double planned_goal_psi_rad_ = 0.0;
+  vessel::Disturbance planned_disturbance_;
+  bool planned_in_known_weather_ = false;
+  double planned_overtaxed_s_ = 0.0;
+  double felt_s_ = -std::numeric_limits<double>::infinity();
+  bool holds_ = false;              // the tracker was told to keep the place
+  double calm_by_s_ = 0.0;          // or the mission fails
   stopping::Conflict conflict_;     // what the last condition found on the way
   double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for
   double stop_time_s_ = 0.0;        // when the vessel began to come to rest

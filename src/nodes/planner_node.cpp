@@ -239,7 +239,7 @@ void PlannerNode::settle() {
   goals_.feedback({vessel_.state.head<2>(), vessel_.state[vessel::kPsi]},
                   ros_bridge::toRosTime(vessel_.stamp_s));
   if (phase == Phase::kArrived) {
-    goals_.succeed("arrived");
+    goals_.succeed(supervisor_.reason().empty() ? "arrived" : "arrived: " + supervisor_.reason());
   } else if (phase == Phase::kFailed) {
     goals_.abort(supervisor_.reason());
   }

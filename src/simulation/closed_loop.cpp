@@ -117,7 +117,7 @@ void ClosedLoop::judge() {
     finish(scenario::Outcome::kCollided, "the hull touched " + touched() + " while " +
                                              std::string(mission::name(supervisor_.phase())));
   } else if (supervisor_.phase() == mission::Phase::kArrived) {
-    finish(scenario::Outcome::kArrived, {});
+    finish(scenario::Outcome::kArrived, supervisor_.reason());
   } else if (supervisor_.phase() == mission::Phase::kFailed) {
     finish(scenario::Outcome::kStopped, supervisor_.reason());
   } else if (!outcome_ && time() >= options_.timeout_s) {

@@ -49,7 +49,6 @@ enum class Phase {
 struct SupervisorOptions {
   std::vector<double> side_clearances_m = {1.06, 0.66, 0.36, 0.26};
   double critical_side_clearance_m = 0.11;
-  double widening_in_wind = 9.0;
   double thrust_share = 0.95;
   double planning_latency_s = 0.3;
   int rounds_from_rest = 3;
@@ -68,11 +67,8 @@ struct SupervisorOptions {
                 "to the narrowest");
     fields("critical_side_clearance_m", o.critical_side_clearance_m, {0.0, 10.0},
            "likewise, m: the vessel brakes for less than this on the way");
-    fields("widening_in_wind", o.widening_in_wind, {0.0, 100.0},
-           "the clearances lie further apart by this times the share of thrust that wind and "
-           "current take");
     fields("thrust_share", o.thrust_share, {0.4, 1.0},
-           "of the thrusters' limits in plans for calm water; the rest is for wind and current");
+           "of the thrusters' limits in plans; in gusts less by what they take");
     fields("planning_latency_s", o.planning_latency_s, {0.0, 2.0},
            "from a request under way to the start of the new trajectory");
     fields("rounds_from_rest", o.rounds_from_rest, {1, 1000},

@@ -25,6 +25,7 @@ class ScriptedMission {
   [[nodiscard]] Situation situation() const {
     Situation s;
     s.odometry_stamp_s = now_s;
+    s.disturbance.mean = disturbance;
     s.state = rest;
     const trajectory::TimedTrajectory& sailed = supervisor.sailed();
     if (!sailed.trajectory.empty()) {
@@ -78,6 +79,7 @@ class ScriptedMission {
   SupervisorOptions options;
   Supervisor supervisor;
   vessel::State rest = vessel::State::Zero();
+  vessel::Disturbance disturbance;  // as the tracker estimates it
   double now_s = 100.0;
 };
 

@@ -1,28 +1,68 @@
 // What the supervisor makes of wind and current.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <vector>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "scripted_mission.hpp"
 
 namespace otter_nav::mission {
 namespace {
 
+using Eigen::Vector2d;
 using test::ScriptedMission;
 
-TEST(SupervisorInWind, KeepsThrustAndDistanceForTheDisturbance) {
+// Estimates of a force by time, ten a second; the orders that come of them.
+using Force = std::function<Vector2d(double)>;
+struct Blown {
+  std::vector<PlanRequest> plans;
+  bool stop = false;
+};
+Blown blow(ScriptedMission& mission, double duration_s, const Force& force) {
+  Blown blown;
+  for (int k = 0; k < static_cast<int>(std::lround(10.0 * duration_s)); ++k) {
+    mission.now_s += 0.1;
+    mission.disturbance.force_n = force(0.1 * k);
+    Orders orders = mission.supervisor.update(mission.now_s, mission.situation(), mission.field);
+    if (orders.plan) {
+      blown.plans.push_back(*orders.plan);
+    }
+    blown.stop = blown.stop || orders.stop;
+  }
+  return blown;
+}
+Vector2d steady(double /*t*/) {
+  return {0.0, 4.0};
+}
+Vector2d gusty(double t) {
+  return {std::fmod(t, 4.0) < 2.0 ? -5.0 : -35.0, 0.0};
+}
+
+TEST(SupervisorInWind, KeepsThrustAndDistanceForGustsThatItSaw) {
+  ScriptedMission calm;
+  const auto still = calm.goTo({20.0, 0.0});
+  ASSERT_TRUE(still && still->plan);
+  EXPECT_DOUBLE_EQ(still->plan->thrust_share, calm.options.thrust_share);
+
   ScriptedMission mission;
-  const auto calm = mission.goTo({20.0, 0.0});
-  ASSERT_TRUE(calm && calm->plan);
-  EXPECT_DOUBLE_EQ(calm->plan->thrust_share, mission.options.thrust_share);
-  Situation windy = mission.situation();
-  windy.disturbance_n = 22.0;  // of 100 N
-  const auto orders =
-      mission.supervisor.setGoal(mission.now_s, {{20.0, 0.0}, 0.0}, windy, mission.field);
+  blow(mission, 60.0, gusty);
+  const auto orders = mission.goTo({20.0, 0.0});
   ASSERT_TRUE(orders && orders->plan);
-  EXPECT_NEAR(orders->plan->thrust_share, 0.5, 1e-9);
-  EXPECT_GT(orders->plan->query.limits.clearance_m, calm->plan->query.limits.clearance_m + 1.0);
+  EXPECT_LE(orders->plan->thrust_share, calm.options.thrust_share - 0.1);
+  EXPECT_GT(orders->plan->query.limits.clearance_m, still->plan->query.limits.clearance_m + 0.3);
+  // The plan is made with what blows on the whole.
+  EXPECT_NEAR(orders->plan->query.limits.disturbance.force_n.x(), -20.0, 2.0);
+}
+
+TEST(SupervisorInWind, LeavesThrustAndDistanceToASteadyPush) {
+  ScriptedMission mission;
+  blow(mission, 60.0, [](double) { return Vector2d(-20.0, 0.0); });
+  const auto orders = mission.goTo({20.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  EXPECT_NEAR(orders->plan->thrust_share, mission.options.thrust_share, 1e-9);
 }
 
 TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
@@ -37,90 +77,143 @@ TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
   // It begins where the vessel is, with no more force than the plan may use.
   EXPECT_LT((orders.plan->query.start.flat.position - behind.state.head<2>()).norm(), 2.0);
   const vessel::Parameters otter;
-  const Eigen::Vector2d force = otter.paper.m1_kg * orders.plan->query.start.flat.acceleration +
-                                otter.paper.d2_kgps * orders.plan->query.start.flat.velocity;
+  const Vector2d force = otter.paper.m1_kg * orders.plan->query.start.flat.acceleration +
+                         otter.paper.d2_kgps * orders.plan->query.start.flat.velocity;
   EXPECT_LE(force.norm(), 2.0 * otter.thrusters.ahead_max_n * orders.plan->thrust_share);
 }
 
-// A new plan from where the vessel is, with less thrust; not for each gust again.
+// 4 m/s take 80 N of 100 N.
 TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   ScriptedMission mission;
   mission.setOut(6.0);
-  Situation windy = mission.situation();
-  windy.disturbance_n = 4.0;  // of 100 N: the plan left that
-  EXPECT_FALSE(mission.supervisor.update(mission.now_s, windy, mission.field).plan);
-  windy.disturbance_n = 15.0;
-  const Orders orders = mission.supervisor.update(mission.now_s, windy, mission.field);
-  ASSERT_TRUE(orders.plan);
+  EXPECT_TRUE(blow(mission, 2.0, steady).plans.empty());
+  const Blown blown = blow(mission, 6.0, [](double) { return Vector2d(-60.0, 0.0); });
+  ASSERT_FALSE(blown.plans.empty());
   EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
-  EXPECT_TRUE(orders.plan->moving);
-  EXPECT_NEAR(orders.plan->thrust_share, 0.65, 1e-9);
-  ASSERT_TRUE(mission
-                  .answer(*orders.plan, test::eastward(orders.plan->query.start.flat.position, 50.0,
-                                                       orders.plan->query.start.flat.velocity.x()))
-                  .sail);
-  windy = mission.situation();
-  windy.disturbance_n = 30.0;
-  EXPECT_FALSE(mission.supervisor.update(mission.now_s + 1.0, windy, mission.field).plan);
-  windy.odometry_stamp_s = mission.now_s + 4.0;
-  EXPECT_TRUE(mission.supervisor.update(mission.now_s + 4.0, windy, mission.field).plan);
+  EXPECT_TRUE(blown.plans.front().moving);
+  EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.x(), -10.0);
+}
+
+// The estimate begins at nothing and overshoots.
+TEST(SupervisorInWind, DoesNotBelieveTheEstimateInTheFirstSeconds) {
+  ScriptedMission mission;
+  mission.setOut(0.1);
+  const Blown blown = blow(mission, 1.5, [](double) { return Vector2d(-60.0, 0.0); });
+  EXPECT_TRUE(blown.plans.empty());
+  EXPECT_TRUE(blow(mission, 10.0, steady).plans.empty());
+}
+
+TEST(SupervisorInWind, SteadyWeatherIsNoGroundForAnotherPlan) {
+  ScriptedMission mission;
+  blow(mission, 5.0, steady);
+  mission.setOut(1.0);
+  EXPECT_TRUE(blow(mission, 15.0, steady).plans.empty());
 }
 
 TEST(SupervisorInWind, AllowsMoreThrustWhereThereIsNoPlanWithLess) {
   ScriptedMission mission;
+  blow(mission, 60.0, gusty);
   mission.setOut(6.0);
-  Situation windy = mission.situation();
-  windy.disturbance_n = 20.0;
-  std::vector<double> shares;
+  std::vector<PlanRequest> asked;
   for (int k = 0; k < 9; ++k) {
-    const Orders orders = mission.supervisor.update(mission.now_s, windy, mission.field);
+    Situation behind = mission.situation();
+    behind.tracking_error_m = 2.0;
+    const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
     ASSERT_TRUE(orders.plan);
-    shares.push_back(orders.plan->thrust_share);
+    asked.push_back(*orders.plan);
     (void)mission.refuse(*orders.plan, "too fast");
   }
-  for (std::size_t k = 0; k < shares.size(); ++k) {  // once for each clearance
-    EXPECT_NEAR(shares[k], 0.55 + 0.1 * static_cast<double>(k / 4), 1e-9);
+  for (std::size_t k = 0; k < 8; ++k) {  // once for each clearance
+    EXPECT_NEAR(asked[k].thrust_share,
+                std::min(mission.options.thrust_share, asked[0].thrust_share + (k < 4 ? 0.0 : 0.2)),
+                1e-9);
+    EXPECT_LT(asked[k].query.limits.disturbance.force_n.x(), -10.0);
   }
-}
-
-// That plan is not replaced for what was conceded to it, but for more wind.
-TEST(SupervisorInWind, KeepsAPlanThatWasAllowedMoreThrust) {
-  ScriptedMission mission;
-  mission.setOut(6.0);
-  Situation windy = mission.situation();
-  windy.disturbance_n = 20.0;
-  Orders orders;
-  for (int k = 0; k < 9; ++k) {
-    orders = mission.supervisor.update(mission.now_s, windy, mission.field);
-    ASSERT_TRUE(orders.plan);
-    if (k < 8) {
-      (void)mission.refuse(*orders.plan, "too fast");
-    }
-  }
-  ASSERT_NEAR(orders.plan->thrust_share, 0.75, 1e-9);
-  ASSERT_TRUE(mission
-                  .answer(*orders.plan, test::eastward(orders.plan->query.start.flat.position, 50.0,
-                                                       orders.plan->query.start.flat.velocity.x()))
-                  .sail);
-  windy = mission.situation();
-  windy.odometry_stamp_s = mission.now_s + 4.0;
-  windy.disturbance_n = 20.0;
-  EXPECT_FALSE(mission.supervisor.update(mission.now_s + 4.0, windy, mission.field).plan);
-  windy.disturbance_n = 30.0;
-  EXPECT_TRUE(mission.supervisor.update(mission.now_s + 4.0, windy, mission.field).plan);
+  // At last one that knows nothing of the weather and leaves thrust for it.
+  EXPECT_LT(asked[8].thrust_share, asked[0].thrust_share);
+  EXPECT_EQ(asked[8].query.limits.disturbance.force_n.x(), 0.0);
 }
 
 TEST(SupervisorInWind, LaunchesAVesselAgainThatHasHardlyGotUnderWay) {
   for (const double surge : {0.1, 1.5}) {
     ScriptedMission mission;
     mission.setOut(6.0);
-    Situation windy = mission.situation();
-    windy.state[vessel::kSurge] = surge;
-    windy.disturbance_n = 15.0;
-    const Orders orders = mission.supervisor.update(mission.now_s, windy, mission.field);
+    Situation behind = mission.situation();
+    behind.state[vessel::kSurge] = surge;
+    behind.tracking_error_m = 2.0;
+    const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
     ASSERT_TRUE(orders.plan);
     EXPECT_EQ(trajectory::atRest(orders.plan->query.start), surge < 1.0);
   }
+}
+
+// 30 N on the beam set a hull with 20 kg/s of drag aside by 1.5 m/s.
+TEST(SupervisorInWind, ArrivesBowToTheLoadWhereTheGoalsHeadingCannotBeHeld) {
+  ScriptedMission mission;
+  const Force abeam = [](double) { return Vector2d(0.0, 30.0); };
+  blow(mission, 5.0, abeam);
+  const auto orders = mission.goTo({20.0, 0.0}, 0.0);
+  ASSERT_TRUE(orders && orders->plan);
+  EXPECT_NEAR(orders->plan->query.goal.psi_rad, -0.5 * kPi, 1e-3);
+  ASSERT_TRUE(mission.answer(*orders->plan, test::eastward({0.0, 0.0}, 20.0, 2.0)).sail);
+  mission.now_s += 20.0;
+  Situation there = mission.situation();
+  there.state << 20.3, 0.0, -1.5, 0.0, 0.0, 0.0;
+  (void)mission.supervisor.update(mission.now_s, there, mission.field);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kArrived);
+  EXPECT_NE(mission.supervisor.reason().find("0.30 m from the goal (0.90 m allowed), but 1.50 rad"),
+            std::string::npos)
+      << mission.supervisor.reason();
+}
+
+TEST(SupervisorInWind, InCalmWaterTheGoalsHeadingCounts) {
+  ScriptedMission mission;
+  const auto orders = mission.goTo({20.0, 0.0}, 0.0);
+  ASSERT_TRUE(mission.answer(*orders->plan, test::eastward({0.0, 0.0}, 20.0, 2.0)).sail);
+  mission.now_s += 20.0;
+  Situation there = mission.situation();
+  there.state << 20.3, 0.0, -1.5, 0.0, 0.0, 0.0;
+  (void)mission.supervisor.update(mission.now_s, there, mission.field);
+  EXPECT_NE(mission.supervisor.phase(), Phase::kArrived);
+}
+
+// The plan on the way ends on the goal's heading; then it begins to blow.
+TEST(SupervisorInWind, PlansForAnotherHeadingAtTheGoalOnce) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  const Force abeam = [](double) { return Vector2d(0.0, 12.0); };
+  const Blown blown = blow(mission, 8.0, abeam);
+  ASSERT_EQ(blown.plans.size(), 1u);
+  EXPECT_NEAR(blown.plans.front().query.goal.psi_rad, -0.5 * kPi, 0.1);
+  EXPECT_NE(mission.supervisor.reason().find("heading at the goal"), std::string::npos);
+}
+
+TEST(SupervisorInWind, AHeadingLostInAGustEndsBowToTheWind) {
+  for (const double off_rad : {0.2, 1.4}) {
+    ScriptedMission mission;
+    mission.setOut(6.0);
+    Situation lost = mission.situation();
+    lost.state[vessel::kPsi] += off_rad;
+    lost.tracking_error_m = 2.0;
+    const Orders orders = mission.supervisor.update(mission.now_s, lost, mission.field);
+    EXPECT_EQ(orders.stop, off_rad > 1.0);
+    EXPECT_EQ(mission.supervisor.phase(), off_rad > 1.0 ? Phase::kStopping : Phase::kReplanning);
+  }
+}
+
+TEST(SupervisorInWind, HoldsAndRefusesWhereTheThrustDoesNotSuffice) {
+  ScriptedMission mission;
+  const Force gale = [](double) { return Vector2d(0.0, 120.0); };
+  blow(mission, 5.0, gale);
+  const auto orders = mission.goTo({20.0, 0.0}, 0.0);
+  ASSERT_TRUE(orders);
+  const Blown first = blow(mission, 10.0, gale);
+  EXPECT_TRUE(first.stop || orders->stop);  // the tracker keeps the place
+  EXPECT_TRUE(first.plans.empty());
+  EXPECT_NE(mission.supervisor.reason().find("N in gusts"), std::string::npos)
+      << mission.supervisor.reason();
+  blow(mission, 60.0, gale);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kFailed);
 }
 
 }  // namespace

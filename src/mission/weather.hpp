@@ -1,0 +1,58 @@
+// What wind and current do on the way, learned from the tracker's estimate: what blows on the
+// whole, the worst of the gusts, and what that does to a tracked hull.
+#pragma once
+
+#include "otter_nav/vessel/motion_law.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::mission {
+
+class Weather {
+ public:
+  explicit Weather(const vessel::Parameters& vessel) : vessel_(vessel) {}
+
+  // The estimate at `now_s`; times rise.
+  void feel(double now_s, const vessel::Disturbance& estimate);
+  // The estimate begins at nothing and has found what blows by then; until it has, it is no ground
+  // to change a plan.
+  [[nodiscard]] bool isKnown() const;
+
+  // On the whole: means over the last half minute or so.
+  [[nodiscard]] const vessel::Disturbance& mean() const { return mean_; }
+  // The hardest gust to be expected: the mean with the wind (force, moment) of two standard
+  // deviations more, or of the fastest seen lately if that is more. Before much was seen it is
+  // taken to gust by a fifth.
+  [[nodiscard]] vessel::Disturbance gust() const;
+
+  // The mean wind's moment and what else turns the hull, on the worst heading, N m.
+  [[nodiscard]] double greatestMoment() const;
+  // Of all thrust ahead that the mean pushes with, on the worst heading.
+  [[nodiscard]] double meanShare() const;
+  // Of a thruster's limit that the gust takes beside the mean, at the heading where it is most:
+  // what plans leave over. In [0, 1].
+  [[nodiscard]] double gustShare() const;
+  // How far, m, the gust sets a tracked hull aside at most (docs/weather.md).
+  [[nodiscard]] double gustReach() const;
+  // How far, m, a hull that lost its heading drifts to leeward until it lies into the wind.
+  [[nodiscard]] double driftReach() const;
+
+ private:
+  // A quantity's mean and variance with a fading memory, and its largest size lately.
+  struct Spread {
+    double mean = 0.0;
+    double variance = 0.0;
+    double most = 0.0;
+    void add(double value, double share, double fade);
+    // The mean scaled by this is the gust's.
+    [[nodiscard]] double extreme(double prior) const;
+  };
+
+  vessel::Parameters vessel_;
+  vessel::Disturbance mean_;
+  Spread wind_mps_, force_n_, moment_nm_;
+  double felt_s_ = 0.0;
+  double last_s_ = 0.0;
+  bool started_ = false;
+};
+
+}  // namespace otter_nav::mission

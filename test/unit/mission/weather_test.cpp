@@ -1,0 +1,76 @@
+#include "mission/weather.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/random.hpp"
+#include "otter_nav/base/rk4.hpp"
+#include "otter_nav/vessel/model.hpp"
+
+namespace otter_nav::mission {
+namespace {
+
+using Eigen::Vector2d;
+
+vessel::Parameters windy() {
+  vessel::Parameters vessel;
+  vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  vessel.manoeuvring.wind_yaw_kg = -0.66;
+  return vessel;
+}
+
+// `wind` m/s towards east by time.
+template <typename Wind>
+Weather felt(const vessel::Parameters& vessel, double duration_s, Wind wind) {
+  Weather weather(vessel);
+  for (int k = 0; k <= static_cast<int>(10.0 * duration_s); ++k) {
+    vessel::Disturbance estimate;
+    estimate.wind_mps = {wind(0.1 * k), 0.0};
+    weather.feel(0.1 * k, estimate);
+  }
+  return weather;
+}
+
+TEST(Weather, IsUnknownInTheFirstSecondsAndForgetsThem) {
+  const auto wind = [](double t) { return t < 1.5 ? 20.0 * t : 6.0; };
+  EXPECT_FALSE(felt(windy(), 1.0, wind).isKnown());
+  const Weather weather = felt(windy(), 20.0, wind);
+  EXPECT_TRUE(weather.isKnown());
+  EXPECT_NEAR(weather.mean().wind_mps.x(), 6.0, 0.05);
+  EXPECT_LT(weather.gust().wind_mps.x(), 1.21 * 6.0);
+}
+
+TEST(Weather, LearnsMeanAndGustsFromWhatItSaw) {
+  const auto steady = [](double) { return 8.0; };
+  const auto gusty = [](double t) { return 8.0 + 2.0 * std::sin(t); };
+  const auto once = [](double t) { return t > 40.0 && t < 42.0 ? 14.0 : 8.0; };
+  EXPECT_NEAR(felt(windy(), 60.0, steady).gust().wind_mps.x(), 8.0, 1e-6);
+  const Weather learned = felt(windy(), 60.0, gusty);
+  EXPECT_NEAR(learned.mean().wind_mps.x(), 8.0, 0.3);
+  EXPECT_NEAR(learned.gust().wind_mps.x(), 8.0 + 2.0 * std::sqrt(2.0), 0.5);
+  EXPECT_GT(felt(windy(), 60.0, once).gust().wind_mps.x(), 11.5);
+  // While little was seen, a fifth more.
+  EXPECT_NEAR(felt(windy(), 3.0, steady).gust().wind_mps.x(), 9.5, 0.15);
+}
+
+TEST(Weather, CalmAsksForNothing) {
+  const Weather weather = felt(windy(), 60.0, [](double) { return 0.0; });
+  EXPECT_EQ(weather.gustShare(), 0.0);
+  EXPECT_EQ(weather.gustReach(), 0.0);
+  EXPECT_EQ(weather.driftReach(), 0.0);
+}
+
+TEST(Weather, GustsAskForMoreTheFasterTheyAre) {
+  const auto gusts = [](double by) { return [by](double t) { return 6.0 + by * std::sin(t); }; };
+  const Weather light = felt(windy(), 60.0, gusts(0.5));
+  const Weather strong = felt(windy(), 60.0, gusts(2.0));
+  EXPECT_GT(light.gustShare(), 0.0);
+  EXPECT_GT(strong.gustShare(), 2.0 * light.gustShare());
+  EXPECT_GT(strong.gustReach(), 1.5 * light.gustReach());
+}
+
+}  // namespace
+}  // namespace otter_nav::mission
