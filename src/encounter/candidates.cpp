@@ -171,7 +171,7 @@ double Chooser::price(const Course& course, const std::vector<Other>& others,
 }
 
 std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>& others,
-                                    std::size_t count) const {
+                                    std::size_t count, bool may_wait) const {
   constexpr double kTurnsDeg[] = {14.0, 24.0, 36.0, 48.0, 62.0, 80.0, 100.0, 130.0};
   constexpr double kShares[] = {1.0, 0.72, 0.45, 0.2};
   constexpr double kHoldsS[] = {0.5, 3.0, 6.0, 10.0, 15.0, 22.0, 31.0, 43.0, 60.0, 85.0};
@@ -192,6 +192,9 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
     }
   }
   std::sort(waits.begin(), waits.end());
+  if (!may_wait) {
+    waits = {0.0};
+  }
 
   // Of two equal ones that which comes earlier, the more so where we have to give way.
   double waiting = 0.03;

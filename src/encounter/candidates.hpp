@@ -47,9 +47,10 @@ class Chooser {
   Chooser(const Options& options, const vessel::Parameters& vessel)
       : vessel_(vessel), prospect_(options, vessel.hull), options_(options) {}
 
-  // The cheapest, from cheapest on, at most `count` that differ.
+  // The cheapest, from cheapest on, at most `count` that differ; of those that begin at once
+  // unless one `may_wait`.
   [[nodiscard]] std::vector<Choice> choose(const Water& water, const std::vector<Other>& others,
-                                           std::size_t count) const;
+                                           std::size_t count, bool may_wait) const;
   // False where what lies still is in the way.
   [[nodiscard]] bool build(const Water& water, const Handling& handling, const Intent& intent,
                            Course& course, std::size_t& tail) const;

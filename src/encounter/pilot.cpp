@@ -93,6 +93,7 @@ class Pilot::Impl {
     goal_time_s_ = now_s;
     under_way_ = false;
     decided_s_ = -1e9;
+    act_by_s_ = kNever;
   }
 
   void observe(double now_s, const Motion& own, const std::vector<traffic::Track>& tracks,
@@ -130,6 +131,7 @@ class Pilot::Impl {
         water.sailed.legs.front().from_s +
         (outset.goal - water.sailed.legs.front().position).norm() / water.cruise_mps;
     if (keep < straight + kBetterS) {
+      act_by_s_ = kNever;
       return std::nullopt;
     }
     for (const Leg& leg : water.sailed.legs) {
@@ -142,11 +144,18 @@ class Pilot::Impl {
     }
     water.way.push_back(outset.goal);
     constexpr std::size_t kTried = 4;
-    for (const Choice& choice : chooser_.choose(water, others, kTried)) {
-      if (choice.price + kBetterS >= keep || choice.intent.wait_s > kPeriodS) {
-        return std::nullopt;  // the best can wait, or isn't worth it
+    const bool may_wait = outset.now_s < act_by_s_;
+    for (const Choice& choice : chooser_.choose(water, others, kTried, may_wait)) {
+      if (choice.price + kBetterS >= keep) {
+        break;  // not worth it
+      }
+      if (choice.intent.wait_s > kPeriodS) {
+        // Once put off it is not put off again: there would be no end to it.
+        act_by_s_ = std::min(act_by_s_, outset.now_s + choice.intent.wait_s);
+        break;
       }
       if (std::optional<Manoeuvre> manoeuvre = realise(outset, water, choice, others, keep)) {
+        act_by_s_ = kNever;
         return manoeuvre;
       }
     }
@@ -401,7 +410,9 @@ class Pilot::Impl {
   double cruise_mps_ = 0.0;
   double now_s_ = 0.0;
   double goal_time_s_ = 0.0;
+  static constexpr double kNever = 1e18;
   double decided_s_ = -1e9;
+  double act_by_s_ = kNever;  // when a course that was put off begins
   bool under_way_ = false;
 };
 

@@ -76,6 +76,24 @@ class Supervisor::Impl {
         retries_(options.rounds_from_rest, options.stops_max),
         pilot_(options.encounter, vessel) {}
 
+  // With other vessels among the obstacles, until the next call.
+  Moment momentOf(double now_s, const Situation& situation, const Obstacles& obstacles) {
+    if (situation.tracks.empty()) {
+      near_.reset();
+      return {now_s, situation, obstacles};
+    }
+    near_.emplace(now_s, situation.tracks);
+    seen_.emplace(obstacles);
+    seen_->add(*near_);
+    return {now_s, situation, *seen_};
+  }
+  Orders withOthers(Orders orders) const {
+    if (orders.plan && near_) {
+      orders.plan->others = *near_;
+    }
+    return orders;
+  }
+
   Result<Orders> setGoal(const Moment& m, const vessel::Pose& goal) {
     if (const Status status = checkGoal(goal, m.obstacles, safety().narrowest()); !status) {
       return failure(status.error().message);
@@ -727,6 +745,8 @@ class Supervisor::Impl {
   int replans_ = 0;
   PlanRequests plans_;
   RetryBudget retries_;
+  std::optional<encounter::NearFuture> near_;  // other vessels now
+  std::optional<Obstacles> seen_;              // and what lies still
   encounter::Pilot pilot_;
   std::optional<encounter::Manoeuvre> way_made_;  // what the last decision found
 };
@@ -747,29 +767,35 @@ Supervisor& Supervisor::operator=(Supervisor&&) noexcept = default;
 
 Result<Orders> Supervisor::setGoal(double now_s, const vessel::Pose& goal,
                                    const Situation& situation, const Obstacles& obstacles) {
-  return impl_->setGoal({now_s, situation, obstacles}, goal);
+  const auto moment = impl_->momentOf(now_s, situation, obstacles);
+  return impl_->setGoal(moment, goal).map([&](Orders orders) {
+    return impl_->withOthers(std::move(orders));
+  });
 }
 Orders Supervisor::cancel(double now_s, const Situation& situation, const Obstacles& obstacles,
                           std::string why) {
-  return impl_->cancel({now_s, situation, obstacles}, std::move(why));
+  return impl_->cancel(impl_->momentOf(now_s, situation, obstacles), std::move(why));
 }
 Result<Orders> Supervisor::pause(double now_s, const Situation& situation,
                                  const Obstacles& obstacles) {
-  return impl_->pause({now_s, situation, obstacles});
+  return impl_->pause(impl_->momentOf(now_s, situation, obstacles));
 }
 Orders Supervisor::hold(double now_s, const Situation& situation, const Obstacles& obstacles) {
-  return impl_->hold({now_s, situation, obstacles});
+  return impl_->hold(impl_->momentOf(now_s, situation, obstacles));
 }
 Result<Orders> Supervisor::resume(double now_s, const Situation& situation,
                                   const Obstacles& obstacles) {
-  return impl_->resume({now_s, situation, obstacles});
+  return impl_->resume(impl_->momentOf(now_s, situation, obstacles)).map([&](Orders orders) {
+    return impl_->withOthers(std::move(orders));
+  });
 }
 Orders Supervisor::update(double now_s, const Situation& situation, const Obstacles& obstacles) {
-  return impl_->update({now_s, situation, obstacles});
+  return impl_->withOthers(impl_->update(impl_->momentOf(now_s, situation, obstacles)));
 }
 Orders Supervisor::planFinished(double now_s, int id, const planner::Plan& plan,
                                 const Situation& situation, const Obstacles& obstacles) {
-  return impl_->planFinished({now_s, situation, obstacles}, id, plan);
+  return impl_->withOthers(
+      impl_->planFinished(impl_->momentOf(now_s, situation, obstacles), id, plan));
 }
 Phase Supervisor::phase() const {
   return impl_->phase_;

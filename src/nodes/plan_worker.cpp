@@ -82,7 +82,12 @@ void PlanWorker::plan(Task& task) {
     termination.max_iterations = options_.max_iterations;
   }
   task.request.query.guide_path = guidePath(task);
-  planner::Plan plan = planner_.plan(task.field, task.request.query, termination);
+  feasibility::Obstacles obstacles = task.field;
+  if (!task.request.others.empty()) {
+    obstacles.add(task.request.others);
+  }
+  planner::Plan plan = planner_.plan(obstacles.startingAt(task.request.start_time_s),
+                                     task.request.query, termination);
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   ros::getGlobalCallbackQueue()->addCallback(
       boost::make_shared<Delivery>([this, request = std::move(task.request), plan = std::move(plan),

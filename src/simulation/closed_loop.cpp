@@ -156,7 +156,11 @@ void ClosedLoop::carryOut(const mission::Orders& orders) {
     const Stopwatch watch;
     planner::Termination termination;
     termination.max_iterations = options_.planning_iterations;
-    planner::Plan plan = planner_.plan(obstacles().startingAt(orders.plan->start_time_s),
+    feasibility::Obstacles all = obstacles();
+    if (!orders.plan->others.empty()) {
+      all.add(orders.plan->others);
+    }
+    planner::Plan plan = planner_.plan(all.startingAt(orders.plan->start_time_s),
                                        orders.plan->query, termination);
     recorder_.addPlanning(watch.milliseconds());
     reply_ = Reply{orders.plan->id, std::move(plan)};

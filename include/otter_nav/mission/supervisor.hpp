@@ -17,6 +17,7 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
+#include "otter_nav/encounter/near_future.hpp"
 #include "otter_nav/encounter/pilot.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/planner/planner.hpp"
@@ -107,6 +108,8 @@ struct PlanRequest {
   planner::Query query;
   double thrust_share = 1.0;  // the query's limits, of what plans may usually take
   bool moving = false;        // false: from rest, whenever the answer comes
+  // Other vessels, to be added to the planner's obstacles; may be empty.
+  encounter::NearFuture others = {};
   // When the vessel passes the query's start, where the planner's obstacles start too; from rest
   // about then.
   double start_time_s = 0.0;
@@ -118,7 +121,8 @@ struct Orders {
   bool stop = false;  // the tracker shall brake by itself: there is no trajectory to do so on
 };
 
-// Obstacles' times are on the clock of `now_s`.
+// Obstacles' times are on the clock of `now_s`. They are what lies still: the situation's tracks
+// are added here.
 class Supervisor {
  public:
   Supervisor(const SupervisorOptions& options, const vessel::Parameters& vessel,
