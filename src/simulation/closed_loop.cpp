@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "otter_nav/stopping/splice.hpp"
-#include "simulation/lookout.hpp"
 #include "simulation/sensing.hpp"
 
 namespace otter_nav::simulation {
@@ -29,7 +28,6 @@ ClosedLoop::ClosedLoop(const LoopOptions& options, plant::Simulator plant, map::
     : options_(options),
       plant_(std::move(plant)),
       sensing_(std::make_unique<Sensing>(std::move(chart), options)),
-      lookout_(std::make_unique<Lookout>()),
       planner_(options.planner, options.vessel),
       tracker_(options.tracker, options.vessel),
       supervisor_(options.supervisor, options.vessel, seed),
@@ -82,7 +80,6 @@ void ClosedLoop::sense() {
     finish(scenario::Outcome::kError, status.error().message);
     return;
   }
-  lookout_->look(time(), plant_.others());
   if (!started_) {
     start();
     return;
@@ -188,7 +185,7 @@ mission::Situation ClosedLoop::situation() const {
   using tracker::Mode;
   const bool braking = command_.mode == Mode::kStopping || command_.mode == Mode::kStopped;
   situation.tracker_fault = command_.mode == Mode::kFault || (braking && !stop_ordered_);
-  situation.tracks = lookout_->tracks();
+  situation.tracks = sensing_->tracks();
   situation.tracker_reason = std::string(command_.reason);
   return situation;
 }

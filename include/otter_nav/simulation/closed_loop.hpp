@@ -54,7 +54,6 @@ struct Waters {
 [[nodiscard]] Result<Waters> loadWaters(const scenario::Scenario& scenario);
 
 class Sensing;
-class Lookout;
 
 class ClosedLoop {
  public:
@@ -96,7 +95,6 @@ class ClosedLoop {
   LoopOptions options_;
   plant::Simulator plant_;
   std::unique_ptr<Sensing> sensing_;
-  std::unique_ptr<Lookout> lookout_;
   planner::Planner planner_;
   tracker::Tracker tracker_;
   mission::Supervisor supervisor_;
