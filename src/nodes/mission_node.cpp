@@ -13,6 +13,7 @@
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/parameters.hpp"
 #include "otter_nav/ros/trajectories.hpp"
 
 namespace otter_nav::nodes {
@@ -78,6 +79,7 @@ MissionNode::MissionNode(MissionNodeOptions options, const scenario::Scenario& s
       references_(vessel),
       progress_(std::cout, isatty(STDOUT_FILENO) != 0),
       track_(std::move(track)),
+      recorded_(!options_.recorded),
       last_sign_(ros::WallTime::now()),
       acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", 1, true)) {
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
@@ -89,6 +91,8 @@ MissionNode::MissionNode(MissionNodeOptions options, const scenario::Scenario& s
   tracker_subscriber_ = node_.subscribe<TrackerStatus>(
       "tracker_status", kQueue,
       [this](const TrackerStatusConstPtr& message) { tracker_ = *message; });
+  recording_subscriber_ = node_.subscribe<std_msgs::Header>(
+      "recording", 1, [this](const std_msgs::HeaderConstPtr&) { recorded_ = true; });
   timer_ = node_.createWallTimer(ros::WallDuration(kTimerPeriodS),
                                  [this](const ros::WallTimerEvent&) { onTimer(); });
 }
@@ -143,13 +147,14 @@ void MissionNode::goOn() {
 }
 
 void MissionNode::onTimer() {
-  if (!goal_sent_ && action_.isServerConnected() && !states_.empty()) {
+  if (!goal_sent_ && recorded_ && action_.isServerConnected() && !states_.empty()) {
     sendGoal();
   }
   const double silent_s = (ros::WallTime::now() - last_sign_).toSec();
   if (silent_s > options_.silence_s) {
     finish(Outcome::kError, goal_sent_ ? "the plant fell silent while " + planner_.state
-                                       : "the plant or the planner did not come up");
+                           : recorded_ ? "the plant or the planner did not come up"
+                                       : "the recorder did not come up");
   }
 }
 
@@ -186,7 +191,7 @@ void MissionNode::openGate() {
   gate_open_ = true;
   std_msgs::Header acknowledgement;
   acknowledgement.stamp = ros::TIME_MAX;
-  acknowledgement.frame_id = ros::this_node::getName().substr(1);
+  acknowledgement.frame_id = ros_bridge::nodeName();
   acknowledgement_.publish(acknowledgement);
 }
 

@@ -73,6 +73,7 @@ class MissionNode {
   double next_track_s_ = 0.0;
   PlannerStatus planner_;
   TrackerStatus tracker_;
+  bool recorded_ = false;  // or need not be
   bool goal_sent_ = false;
   bool gate_open_ = false;
   bool finished_ = false;
@@ -87,6 +88,7 @@ class MissionNode {
   ros::Subscriber trajectory_subscriber_;
   ros::Subscriber planner_subscriber_;
   ros::Subscriber tracker_subscriber_;
+  ros::Subscriber recording_subscriber_;
   ros::WallTimer timer_;
 };
 

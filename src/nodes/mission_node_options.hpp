@@ -14,6 +14,7 @@ struct MissionNodeOptions {
   std::string result;
   double timeout_s = 900.0;
   double silence_s = 60.0;
+  bool recorded = false;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
@@ -26,6 +27,7 @@ struct MissionNodeOptions {
     fields("timeout_s", o.timeout_s, {1.0, 1e6}, "of simulated time, then the mission is over");
     fields("silence_s", o.silence_s, {1.0, 3600.0},
            "of wall time without news of the plant: an error");
+    fields("recorded", o.recorded, "send the goal when a recorder listens");
   }
 };
 

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/parameters.hpp"
+#include "otter_nav/stopping/splice.hpp"
 
 namespace otter_nav::nodes {
 namespace {
@@ -34,6 +36,16 @@ PlanWorker::Options workerOptions(const PlannerNodeOptions& node, const planner:
   }
   options.use_topology_node = node.use_topology_node;
   return options;
+}
+
+// In lockstep an order counts from its decision's date on, which the tracker has not reached when
+// it comes: begun in the past, it would take over at whichever step is next.
+trajectory::TimedTrajectory beginningAt(double now_s, const trajectory::TimedTrajectory& order) {
+  const double elapsed_s = order.elapsed(now_s);
+  if (elapsed_s <= 0.0 || elapsed_s >= order.trajectory.duration()) {
+    return order;
+  }
+  return {stopping::remainder(order.trajectory, elapsed_s), now_s};
 }
 
 }  // namespace
@@ -218,7 +230,9 @@ void PlannerNode::execute(const mission::Orders& orders) {
     worker_.start(*orders.plan, map_.field(), map_.stamp());
   }
   if (orders.sail) {
-    sent_id_ = publisher_.publish(*orders.sail, supervisor_.goal());
+    sent_id_ = publisher_.publish(
+        setup_.node.lockstep ? beginningAt(now_s_, *orders.sail) : *orders.sail,
+        supervisor_.goal());
     tracker_.expect(sent_id_, false);
   } else if (orders.stop) {
     sent_id_ = publisher_.publishStop(now_s_, supervisor_.goal());
@@ -251,7 +265,7 @@ void PlannerNode::settle() {
     unacknowledged_.reset();
     std_msgs::Header acknowledgement;
     acknowledgement.stamp = acknowledged_;
-    acknowledgement.frame_id = ros::this_node::getName().substr(1);
+    acknowledgement.frame_id = ros_bridge::nodeName();
     acknowledgement_.publish(acknowledgement);
   }
 }

@@ -1,5 +1,7 @@
 #include "tracker_node.hpp"
 
+#include <std_msgs/String.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,8 +65,16 @@ TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tra
       period_s_(tracker.period_s),
       command_publisher_(node_.advertise<ThrusterCommand>("thruster_command", kQueue)),
       status_publisher_(node_.advertise<TrackerStatus>("tracker_status", kQueue)),
+      cycle_publisher_(node_.advertise<TrackerCycle>("tracker_cycle", kQueue, true)),
+      vessel_publisher_(node_.advertise<std_msgs::String>("vessel", 1, true)),
       prediction_publisher_(node_.advertise<nav_msgs::Path>("predicted_path", kQueue)) {
   command_message_.header.frame_id = kBaseFrame;
+  // Latched, and cycle zero: whoever has it misses no cycle.
+  cycle_message_.header.frame_id = kMapFrame;
+  cycle_publisher_.publish(cycle_message_);
+  std_msgs::String file;
+  file.data = vessel::toYaml(vessel);
+  vessel_publisher_.publish(file);
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   trajectory_subscriber_ =
       node_.subscribe("trajectory", kQueue, &TrackerNode::onTrajectory, this, no_delay);
@@ -72,12 +82,22 @@ TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tra
   status_timer_ = node_.createWallTimer(
       ros::WallDuration(1.0 / (options_.status_rate_hz * std::max(1.0, options_.speed))),
       [this](const ros::WallTimerEvent&) { publishStatus(); });
-  if (!options_.lockstep) {
+  if (options_.recorded) {
+    recording_subscriber_ = node_.subscribe<std_msgs::Header>(
+        "recording", 1, [this](const std_msgs::HeaderConstPtr&) { begin(); });
+  } else {
+    begin();
+  }
+}
+
+void TrackerNode::begin() {
+  if (!options_.lockstep && !begun_) {
     loop_ = std::make_unique<ControlLoop>(
         ControlLoop::Options{period_s_, options_.speed, kPredictionInterval}, tracker_, statistics_,
         [] { return ros::Time::now().toSec(); },
         [this](const ControlOutput& output) { publish(output); });
   }
+  begun_ = true;
 }
 
 void TrackerNode::onTrajectory(const Trajectory& message) {
@@ -85,10 +105,12 @@ void TrackerNode::onTrajectory(const Trajectory& message) {
   Status taken = ros_bridge::toTrajectory(message, kMapFrame)
                      .and_then([&](const trajectory::Trajectory& trajectory) -> Status {
                        if (trajectory.empty()) {
-                         tracker_.requestStop("asked to stop");
+                         // In lockstep no step may depend on when the message came.
+                         tracker_.requestStop("asked to stop", options_.lockstep ? start_s : 0.0,
+                                              message.id);
                          return {};
                        }
-                       return tracker_.setTrajectory(trajectory, start_s);
+                       return tracker_.setTrajectory(trajectory, start_s, message.id);
                      });
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -107,6 +129,9 @@ void TrackerNode::onTrajectory(const Trajectory& message) {
 }
 
 void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
+  if (!begun_) {
+    return;
+  }
   const Result<ros_bridge::OdometrySample> sample =
       ros_bridge::odometrySample(message, options_.odometry_frame, kBaseFrame);
   const ros::Time stamp = message.header.stamp;
@@ -116,6 +141,7 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
   }
   if (options_.lockstep && stamp == last_odometry_ && !stamp.isZero()) {
     command_publisher_.publish(command_message_);  // asked again
+    cycle_publisher_.publish(cycle_message_);
     return;
   }
   last_odometry_ = stamp;
@@ -175,9 +201,34 @@ void TrackerNode::publish(const ControlOutput& output) {
   command_message_.left = output.command.thrusts[vessel::kLeft];
   command_message_.right = output.command.thrusts[vessel::kRight];
   command_publisher_.publish(command_message_);
+  publishCycle(output.command);
   if (output.has_prediction) {
     publishPrediction(output.prediction);
   }
+}
+
+void TrackerNode::publishCycle(const tracker::Command& command) {
+  TrackerCycle& message = cycle_message_;
+  message.header.stamp = command_message_.header.stamp;
+  message.time = command.stamp_s;
+  message.cycle = command.cycle;
+  message.odometry_taken = command.odometry_taken;
+  message.odometry_time = command.odometry_stamp_s;
+  message.trajectory_taken = command.order_taken;
+  message.state = tracker::name(command.mode);
+  message.left = command_message_.left;
+  message.right = command_message_.right;
+  std::copy_n(command.reference.data(), vessel::kStateSize, message.reference.begin());
+  std::copy_n(command.estimate.data(), vessel::kStateSize, message.estimate.begin());
+  const vessel::Disturbance& disturbance = command.disturbance;
+  message.disturbance = {command.outside_force_n.x(), command.outside_force_n.y(),
+                         command.outside_moment_nm};
+  message.force = {disturbance.force_n.x(), disturbance.force_n.y(), disturbance.moment_nm};
+  message.wind = {disturbance.wind_mps.x(), disturbance.wind_mps.y()};
+  message.current = {disturbance.current_mps.x(), disturbance.current_mps.y()};
+  message.solver = tracker::name(command.solver);
+  message.solver_iterations = static_cast<std::uint16_t>(command.solver_iterations);
+  cycle_publisher_.publish(message);
 }
 
 void TrackerNode::publishPrediction(const tracker::Prediction& prediction) {

@@ -5,9 +5,11 @@
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <otter_nav/ThrusterCommand.h>
+#include <otter_nav/TrackerCycle.h>
 #include <otter_nav/TrackerStatus.h>
 #include <otter_nav/Trajectory.h>
 #include <ros/node_handle.h>
+#include <std_msgs/Header.h>
 
 #include <memory>
 #include <mutex>
@@ -33,11 +35,13 @@ class TrackerNode {
 
   void onTrajectory(const Trajectory& message);
   void onOdometry(const nav_msgs::Odometry& message);
+  void begin();
   // Lockstep: the command for the odometry's stamp.
   void controlStep(const ros::Time& stamp);
   // How late a step that began `now` is on the beat of simulated time.
   [[nodiscard]] double latenessMs(const ros::WallTime& now);
   void publish(const ControlOutput& output);
+  void publishCycle(const tracker::Command& command);
   void publishPrediction(const tracker::Prediction& prediction);
   void publishStatus();
   [[nodiscard]] TrackerStatus status() const;
@@ -55,21 +59,26 @@ class TrackerNode {
   tracker::Command last_command_;
   double told_s_ = -1.0;  // its time
   ThrusterCommand command_message_;
+  TrackerCycle cycle_message_;
   std::uint32_t in_force_id_ = 0;
   std::uint32_t accepted_id_ = 0;
   double accepted_start_s_ = 0.0;
   std::uint32_t refused_id_ = 0;
   std::string refused_reason_;
 
+  bool begun_ = false;  // not before it is recorded, where it shall be
   ros::Time last_odometry_;
   int lockstep_steps_ = 0;
   ros::WallTime next_turn_;
 
   ros::Publisher command_publisher_;
   ros::Publisher status_publisher_;
+  ros::Publisher cycle_publisher_;
+  ros::Publisher vessel_publisher_;
   ros::Publisher prediction_publisher_;
   ros::Subscriber trajectory_subscriber_;
   ros::Subscriber odometry_subscriber_;
+  ros::Subscriber recording_subscriber_;
   ros::WallTimer status_timer_;
   std::unique_ptr<ControlLoop> loop_;  // absent in lockstep
 };

@@ -1,5 +1,7 @@
 #include "otter_nav/ros/parameters.hpp"
 
+#include <ros/this_node.h>
+
 #include <sstream>
 
 namespace otter_nav::ros_bridge {
@@ -57,7 +59,9 @@ Result<YAML::Node> toYaml(XmlRpc::XmlRpcValue& value) {
   }
 }
 
-Result<config::Section> readSection(const ros::NodeHandle& handle) {
+namespace {
+
+Result<YAML::Node> readAll(const ros::NodeHandle& handle) {
   XmlRpc::XmlRpcValue value;
   if (!handle.getParam(handle.getNamespace(), value) ||
       value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
@@ -68,7 +72,24 @@ Result<config::Section> readSection(const ros::NodeHandle& handle) {
   if (!node) {
     return failure(handle.getNamespace() + ": parameter " + node.error().message);
   }
-  return config::Section(*node, handle.getNamespace());
+  return node;
+}
+
+}  // namespace
+
+Result<config::Section> readSection(const ros::NodeHandle& handle) {
+  return readAll(handle).map(
+      [&](const YAML::Node& node) { return config::Section(node, handle.getNamespace()); });
+}
+
+std::string parametersText(const ros::NodeHandle& handle) {
+  const Result<YAML::Node> node = readAll(handle);
+  return node ? YAML::Dump(*node) + '\n' : std::string();
+}
+
+std::string nodeName() {
+  const std::string& name = ros::this_node::getName();
+  return name.substr(name.rfind('/') + 1);
 }
 
 }  // namespace otter_nav::ros_bridge

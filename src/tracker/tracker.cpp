@@ -63,9 +63,9 @@ class Tracker::Core {
  public:
   Core(const Options& options, const vessel::Parameters& vessel);
 
-  Status setTrajectory(trajectory::Trajectory trajectory, double start_s);
+  Status setTrajectory(trajectory::Trajectory trajectory, double start_s, std::uint32_t order);
   void addOdometry(double stamp_s, const vessel::State& state);
-  void requestStop(std::string_view reason);
+  void requestStop(std::string_view reason, double start_s, std::uint32_t order);
   Command step(double now_s);
   void prepare(double next_s);
 
@@ -77,6 +77,7 @@ class Tracker::Core {
     trajectory::Trajectory trajectory;  // empty: stop
     double start_s = 0.0;
     std::string_view reason;
+    std::uint32_t order = 0;
   };
   struct Measurement {
     double stamp_s = 0.0;
@@ -114,6 +115,11 @@ class Tracker::Core {
   StationKeeper keeper_;
   PredictiveController controller_;
 
+  std::uint64_t cycle_ = 0;
+  std::uint64_t odometry_taken_ = 0;
+  double odometry_stamp_s_ = 0.0;
+  std::uint32_t order_taken_ = 0;
+
   Mode mode_ = Mode::kIdle;
   std::string_view stop_reason_;
   double lost_since_s_ = 0.0;
@@ -129,7 +135,8 @@ Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
       keeper_(vessel),
       controller_(options, vessel) {}
 
-Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double start_s) {
+Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double start_s,
+                                    std::uint32_t order) {
   if (Status status = checkTrajectory(trajectory); !status) {
     return status;
   }
@@ -143,12 +150,15 @@ Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double st
   auto assignment = std::make_unique<Assignment>();
   assignment->trajectory = std::move(trajectory);
   assignment->start_s = start_s;
+  assignment->order = order;
   incoming_.give(std::move(assignment));
   return {};
 }
 
-void Tracker::Core::requestStop(std::string_view reason) {
+void Tracker::Core::requestStop(std::string_view reason, double start_s, std::uint32_t order) {
   auto assignment = std::make_unique<Assignment>();
+  assignment->start_s = start_s;
+  assignment->order = order;
   assignment->reason = reason;
   incoming_.give(std::move(assignment));
 }
@@ -161,12 +171,15 @@ void Tracker::Core::takeOdometry() {
   Measurement m;
   while (odometry_.pop(m)) {
     navigator_.addOdometry(m.stamp_s, m.state);
+    ++odometry_taken_;
+    odometry_stamp_s_ = m.stamp_s;
   }
 }
 
 void Tracker::Core::takeAssignment(double now_s, const vessel::State& state) {
   if (incoming_.take(waiting_)) {
     fresh_ = true;
+    order_taken_ = waiting_->order;
   }
   if (!fresh_ || waiting_->start_s > now_s) {
     return;
@@ -338,6 +351,10 @@ void Tracker::Core::finish(double now_s, const vessel::State& state, Command& co
   }
   last_thrusts_ = command.thrusts;
   navigator_.addCommand(now_s, command.thrusts);
+  command.cycle = ++cycle_;
+  command.odometry_taken = odometry_taken_;
+  command.odometry_stamp_s = odometry_stamp_s_;
+  command.order_taken = order_taken_;
   command.mode = mode_;
   command.estimate = state;
   command.disturbance = navigator_.disturbanceEstimate();
@@ -367,16 +384,17 @@ Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
-Status Tracker::setTrajectory(trajectory::Trajectory trajectory, double start_s) {
-  return core_->setTrajectory(std::move(trajectory), start_s);
+Status Tracker::setTrajectory(trajectory::Trajectory trajectory, double start_s,
+                              std::uint32_t order) {
+  return core_->setTrajectory(std::move(trajectory), start_s, order);
 }
 
 void Tracker::addOdometry(double stamp_s, const vessel::State& state) {
   core_->addOdometry(stamp_s, state);
 }
 
-void Tracker::requestStop(std::string_view reason) {
-  core_->requestStop(reason);
+void Tracker::requestStop(std::string_view reason, double start_s, std::uint32_t order) {
+  core_->requestStop(reason, start_s, order);
 }
 
 Command Tracker::step(double now_s) {

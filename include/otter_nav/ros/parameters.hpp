@@ -5,6 +5,8 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 #include <yaml-cpp/yaml.h>
 
+#include <string>
+
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
 
@@ -15,5 +17,11 @@ namespace otter_nav::ros_bridge {
 
 // All parameters below `handle`'s namespace; an error if there are none.
 [[nodiscard]] Result<config::Section> readSection(const ros::NodeHandle& handle);
+
+// The same as YAML text, for whoever wants to know what a node was told; empty if there are none.
+[[nodiscard]] std::string parametersText(const ros::NodeHandle& handle);
+
+// This node's name without its namespace.
+[[nodiscard]] std::string nodeName();
 
 }  // namespace otter_nav::ros_bridge

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <std_msgs/String.h>
 
 #include <memory>
 
@@ -15,14 +16,19 @@ template <typename NodeClass>
 int runNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
   ros::NodeHandle keep_alive;
-  const auto node = readSection(ros::NodeHandle("~")).and_then([](const config::Section& section) {
-    return NodeClass::create(section);
-  });
+  ros::NodeHandle own("~");
+  const auto node = readSection(own).and_then(
+      [](const config::Section& section) { return NodeClass::create(section); });
   if (!node) {
     ROS_FATAL_STREAM(node.error().message);
     ros::shutdown();
     return 1;
   }
+  // What it was told is part of a recording.
+  const ros::Publisher parameters = own.advertise<std_msgs::String>("parameters", 1, true);
+  std_msgs::String text;
+  text.data = parametersText(own);
+  parameters.publish(text);
   ros::spin();
   return (*node)->exitCode();
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 
@@ -46,6 +47,11 @@ struct Command {
   double outside_moment_nm = 0.0;
   SolverStatus solver = SolverStatus::kSolved;
   int solver_iterations = 0;
+  // What the step was made with, so that it can be made again (docs/replay.md).
+  std::uint64_t cycle = 0;           // steps so far, this one included
+  std::uint64_t odometry_taken = 0;  // states taken over so far
+  double odometry_stamp_s = 0.0;     // of the last of them
+  std::uint32_t order_taken = 0;     // the caller's number of the last order taken over
 };
 
 // The plan behind the last command: states at equal steps from `start_s`.
@@ -65,11 +71,14 @@ class Tracker {
 
   // Any thread, at any time. The trajectory takes over at `start_s`, or at the next step when that
   // has passed. Errors: empty or malformed (piece and fault named), not finite, over already.
-  [[nodiscard]] Status setTrajectory(trajectory::Trajectory trajectory, double start_s);
+  // `order` is the caller's number for it.
+  [[nodiscard]] Status setTrajectory(trajectory::Trajectory trajectory, double start_s,
+                                     std::uint32_t order = 0);
   // Any one thread. Not finite or out of order: dropped, and the next status says so.
   void addOdometry(double stamp_s, const vessel::State& state);
-  // Any thread: brake and hold the spot, until the next trajectory. `reason` is static text.
-  void requestStop(std::string_view reason);
+  // Any thread: brake and hold the spot from `start_s` on, until the next trajectory. `reason` is
+  // static text.
+  void requestStop(std::string_view reason, double start_s = 0.0, std::uint32_t order = 0);
 
   // The control loop's thread, once a period.
   Command step(double now_s);

@@ -1,0 +1,141 @@
+#include "recorder_node.hpp"
+
+#include <ros/callback_queue.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "otter_nav/config/fields.hpp"
+#include "otter_nav/ros/parameters.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+const std::string kScan = "scan";
+const std::string kGaps = "recording_gaps";
+constexpr double kQuietS = 0.3;  // of wall time without a message: nothing more is on its way
+
+}  // namespace
+
+Result<std::unique_ptr<RecorderNode>> RecorderNode::create(config::Section section) {
+  const std::string where = section.where();
+  Result<RecorderNodeOptions> options = config::read<RecorderNodeOptions>(std::move(section));
+  if (!options) {
+    return failure(options.error().message);
+  }
+  for (const std::string& topic : options->paced) {
+    if (std::find(options->topics.begin(), options->topics.end(), topic) ==
+        options->topics.end()) {
+      return failure(where + ": parameter 'paced': '" + topic + "' is none of 'topics'");
+    }
+  }
+  std::unique_ptr<RecorderNode> node(new RecorderNode(*std::move(options)));
+  if (const Status status = node->open(); !status) {
+    node->finished_ = true;
+    return failure(where + ": parameter 'file': " + status.error().message);
+  }
+  node->listen();
+  return node;
+}
+
+RecorderNode::RecorderNode(RecorderNodeOptions options)
+    : options_(std::move(options)),
+      recording_publisher_(node_.advertise<std_msgs::Header>("recording", 1, true)),
+      acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", 100)) {}
+
+RecorderNode::~RecorderNode() {
+  finish();
+}
+
+void RecorderNode::listen() {
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  for (const std::string& topic : options_.topics) {
+    ros::SubscribeOptions options;
+    options.initByFullCallbackType<const Recording::Event&>(
+        topic, 0, [this, topic](const Recording::Event& event) { onMessage(topic, event); });
+    options.transport_hints = no_delay;
+    subscribers_.push_back(node_.subscribe(options));
+  }
+}
+
+void RecorderNode::onMessage(const std::string& topic, const Recording::Event& event) {
+  if (failed_) {
+    return;
+  }
+  std::optional<Recording::Stamp> stamp;
+  try {
+    stamp = recording_.write(node_.resolveName(topic), event, ros::Time::now());
+  } catch (const std::exception& error) {
+    failed_ = true;
+    ROS_FATAL_STREAM("Recording: " << options_.file << ": " << error.what());
+    ros::requestShutdown();
+    return;
+  }
+  if (!stamp) {
+    return;
+  }
+  if (std::find(options_.paced.begin(), options_.paced.end(), topic) != options_.paced.end()) {
+    ros::Time& last = paced_[topic];
+    last = std::max(last, stamp->time);
+    announce();
+    acknowledge();
+  } else if (topic == kScan) {
+    scans_.push_back(stamp->time);
+    acknowledge();
+  }
+}
+
+void RecorderNode::announce() {
+  if (announced_ || paced_.size() < options_.paced.size()) {
+    return;
+  }
+  announced_ = true;
+  std_msgs::Header message;
+  message.frame_id = ros_bridge::nodeName();
+  recording_publisher_.publish(message);
+  ROS_INFO_STREAM("Recording into " << options_.file);
+}
+
+void RecorderNode::acknowledge() {
+  if (scans_.empty() || paced_.size() < options_.paced.size()) {
+    return;
+  }
+  ros::Time until = ros::TIME_MAX;
+  for (const auto& [topic, stamp] : paced_) {
+    until = std::min(until, stamp);
+  }
+  std_msgs::Header message;
+  while (!scans_.empty() && scans_.front() <= until) {
+    message.stamp = std::max(message.stamp, scans_.front());
+    scans_.pop_front();
+  }
+  if (!message.stamp.isZero()) {
+    message.frame_id = ros_bridge::nodeName();
+    acknowledgement_.publish(message);
+  }
+}
+
+void RecorderNode::finish() {
+  if (finished_) {
+    return;
+  }
+  finished_ = true;
+  ros::CallbackQueue& queue = *ros::getGlobalCallbackQueue();
+  std::uint64_t before = 0;
+  do {
+    before = recording_.messages();
+    queue.callAvailable(ros::WallDuration(kQuietS));
+  } while (!failed_ && recording_.messages() != before);
+  const Status closed = recording_.close(node_.resolveName(kGaps));
+  const std::string lost = recording_.lost();
+  failed_ = failed_ || !closed || !lost.empty();
+  if (!closed) {
+    ROS_FATAL_STREAM("Recording: " << closed.error().message);
+  } else if (!lost.empty()) {
+    ROS_ERROR_STREAM("Recording: " << options_.file << " lacks\n" << lost);
+  } else {
+    ROS_INFO_STREAM("Recorded " << recording_.messages() << " messages into " << options_.file);
+  }
+}
+
+}  // namespace otter_nav::nodes
