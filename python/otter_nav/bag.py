@@ -4,18 +4,20 @@ Topics are known by their type and last name, under any namespace. A bag holds s
 its time jumps back. The messages' own definitions in the bag are used, so that old bags stay
 readable and the package need not be sourced.
 """
+import contextlib
 import os
 import shutil
 import tempfile
 
 import numpy
+import yaml
 
 from .chart import Grid
 from .errors import RecordingError
 from .run import CONTACTS, MOTION, Event, Plan, Run
 from .table import Table, table_of
 from .trajectory import Trajectory
-from .vessel import load_vessel
+from .vessel import load_vessel, vessel_of
 
 _JUMP_BACK_S = 1.0
 # type -> {last name: what it is}; "*" takes any name.
@@ -26,28 +28,40 @@ _KINDS = {
     "otter_nav/TrackerStatus": {"*": "tracker"},
     "otter_nav/PlannerStatus": {"*": "planner"},
     "otter_nav/Trajectory": {"*": "trajectory"},
+    "otter_nav/TrackerCycle": {"*": "cycle"},
     "otter_nav/ContactEvent": {"*": "contact"},
     "geometry_msgs/Vector3Stamped": {"wind": "wind", "current": "current"},
     "nav_msgs/OccupancyGrid": {"chart": "chart", "map": "map"},
-    "std_msgs/String": {"parameters": "parameters", "version": "version"},
+    "std_msgs/String": {"parameters": "parameters", "vessel": "vessel"},
 }
+_CYCLE = ("t", "number", "left", "right", "x_ref", "y_ref", "psi_ref", "u_ref", "v_ref", "r_ref", "x",
+          "y", "psi", "u", "v", "r", "force_x", "force_y", "moment", "wind_x", "wind_y", "current_x",
+          "current_y", "iterations")
 _TRUTH = MOTION + ("thrust_left", "thrust_right", "clearance", "in_contact")
 
 
 def read_bag(path, vessel="otter_gazebo", namespace=None, partial=False):
     """The runs in a bag, a list of run.Run in the order of recording.
 
-    vessel      whose model gives the reference's heading and thrusts: a name or a file
+    vessel      whose model gives the reference's heading and thrusts, where the bag does not say: a
+                name or a file
     namespace   which vessel's topics, where the bag holds several ("/a"); "" for none
     partial     read what can be read of a bag that was cut off
     Raises RecordingError with what is missing.
     """
     vessel = load_vessel(vessel) if isinstance(vessel, (str, os.PathLike)) else vessel
+    with open_bag(path, partial) as bag:
+        return _read(bag, str(path), vessel, namespace, partial)
+
+
+@contextlib.contextmanager
+def open_bag(path, partial=False):
+    """The rosbag.Bag of a file, whole or, if asked, what is there of one that was cut off."""
     rosbag = _rosbag()
     with tempfile.TemporaryDirectory() as folder:
         bag = _open(rosbag, str(path), partial, folder)
         try:
-            return _read(bag, str(path), vessel, namespace, partial)
+            yield bag
         finally:
             bag.close()
 
@@ -98,13 +112,14 @@ def _kind(datatype, topic):
     return names.get(last, names.get("*"))
 
 
-def _choose_topics(connections, namespace, path):
-    """{topic: kind} of the one vessel that is wanted."""
+def vessel_topics(connections, namespace, path):
+    """{topic: kind} of the one vessel that is wanted, and its namespace."""
     found = {}
     for connection in connections:
         kind = _kind(connection.datatype, connection.topic)
         if kind is not None:
-            prefix = connection.topic.rsplit("/", 1)[0]
+            # A node's parameters are its own.
+            prefix = connection.topic.rsplit("/", 2 if kind == "parameters" else 1)[0]
             found.setdefault(prefix, {})[connection.topic] = kind
     with_motion = [prefix for prefix, topics in found.items()
                    if {"truth", "odometry", "ground_truth"} & set(topics.values())]
@@ -126,36 +141,46 @@ def _choose_topics(connections, namespace, path):
             topics[topic] = kind
     # One topic a kind: the usual name first.
     usual = {"odometry": "odom", "truth": "plant_state", "command": "thruster_command"}
-    for kind in set(topics.values()):
+    for kind in set(topics.values()) - {"parameters"}:
         same = sorted(topic for topic, k in topics.items() if k == kind)
         if len(same) > 1:
             keep = next((t for t in same if t.rsplit("/", 1)[-1] == usual.get(kind)), same[0])
             for topic in same:
                 if topic != keep:
                     del topics[topic]
-    return topics
+    return topics, with_motion[0]
 
 
-def _messages(bag, topics):
-    """(topic, message, seconds of receipt) in the order of recording, not of stamps: only so does
-    a clock that was set back show."""
+def _records(bag, topics, raw):
+    """(topic, message, time of receipt) in the order of recording, not of stamps: only so does a
+    clock that was set back show."""
     try:
         connections = list(bag._get_connections(list(topics)))
         entries = sorted(bag._get_entries(connections), key=lambda e: (e.chunk_pos, e.offset))
         read = bag._reader.seek_and_read_message_data_record
-        records = (read((entry.chunk_pos, entry.offset), False) for entry in entries)
+        records = (read((entry.chunk_pos, entry.offset), raw) for entry in entries)
     except AttributeError:  # another version of rosbag or of its format
-        records = bag.read_messages(topics=list(topics))
+        records = bag.read_messages(topics=list(topics), raw=raw)
     for record in records:
-        yield record[0], record[1], record[2].to_sec()
+        yield record[0], record[1], record[2]
+
+
+def raw_messages(bag, topics):
+    """As _records(); a message is (type, bytes, md5sum, place, class)."""
+    return _records(bag, topics, True)
+
+
+def _messages(bag, topics):
+    for topic, message, t in _records(bag, topics, False):
+        yield topic, message, t.to_sec()
 
 
 def _read(bag, path, vessel, namespace, partial):
     connections = list(bag._get_connections())
     if bag.get_message_count() == 0:
         raise RecordingError(f"{path}: holds no messages")
-    topics = _choose_topics(connections, namespace, path)
-    readers = [_RunReader()]
+    topics, _ = vessel_topics(connections, namespace, path)
+    readers, texts = [_RunReader()], {}
     received, stamps = -numpy.inf, {}
     try:
         for topic, message, t in _messages(bag, topics):
@@ -164,11 +189,17 @@ def _read(bag, path, vessel, namespace, partial):
             if t < received - _JUMP_BACK_S or (
                     stamp is not None and stamp < stamps.get(topic, -numpy.inf) - _JUMP_BACK_S):
                 readers.append(_RunReader())
+                readers[-1].texts = dict(texts)
                 stamps = {}
             received = t
             if stamp is not None:
                 stamps[topic] = stamp
-            readers[-1].take(kind, message, t)
+            if kind in ("parameters", "vessel"):
+                node = topic.rsplit("/", 2)[-2] if kind == "parameters" else "vessel"
+                texts[node] = message.data
+                readers[-1].texts = dict(texts)
+            else:
+                readers[-1].take(kind, message, t)
     except Exception as error:
         if not partial:
             raise RecordingError(f"{path}: damaged after {received:.3f} s: {error}; --partial reads "
@@ -179,7 +210,7 @@ def _read(bag, path, vessel, namespace, partial):
     grids = [reader.chart for reader in readers if reader.chart is not None]
     runs = []
     for number, reader in enumerate(readers, 1):
-        run = reader.finish(vessel)
+        run = reader.finish(_vessel_in(reader.texts, path) or vessel)
         run.source = path
         run.chart = run.chart or (grids[0] if grids else None)
         run.details.update({"bag": os.path.basename(path), "bag size": f"{bag.size / 1e6:.1f} MB",
@@ -189,6 +220,28 @@ def _read(bag, path, vessel, namespace, partial):
                                                         if topics.get(c.topic) == "trajectory"), "none")})
         runs.append(run)
     return runs
+
+
+def _vessel_in(texts, path):
+    if "vessel" not in texts:
+        return None
+    try:
+        return vessel_of(yaml.safe_load(texts["vessel"]), path)
+    except yaml.YAMLError as error:
+        raise RecordingError(f"{path}: its vessel is no YAML: {error}") from error
+
+
+def _label(texts):
+    """What the plant was told, as missions label their results."""
+    try:
+        told = yaml.safe_load(texts["plant_node"])
+        label = {key: told[key] for key in ("vessel", "disturbance", "seed")}
+        if told["scenario"]:
+            label["scenario"] = os.path.splitext(os.path.basename(told["scenario"]))[0]
+            label["mission"] = told["mission"]
+        return label
+    except (KeyError, TypeError, yaml.YAMLError):
+        return {}
 
 
 class _RunReader:
@@ -201,6 +254,7 @@ class _RunReader:
         self.trajectories = []
         self.chart = None
         self.chart_kind = ""
+        self.cycles = []
         self.texts = {}
 
     def moved(self):
@@ -214,8 +268,10 @@ class _RunReader:
         elif kind in ("chart", "map"):
             if self.chart is None or (kind == "chart" and self.chart_kind == "map"):
                 self.chart, self.chart_kind = Grid.from_message(m), kind
-        elif kind in ("parameters", "version"):
-            self.texts[kind] = m.data
+        elif kind == "cycle":
+            if m.cycle > 0 and (not self.cycles or m.time > self.cycles[-1][0]):
+                self.cycles.append((m.time, m.cycle, m.left, m.right, *m.reference, *m.estimate,
+                                    *m.disturbance, *m.wind, *m.current, m.solver_iterations))
         else:
             t = m.header.stamp.to_sec()
             rows = self.rows[kind]
@@ -255,7 +311,13 @@ class _RunReader:
         run.tracker_states = _changes(self.status["tracker"])
         run.plans = _plans(self.status["planner"])
         run.events = _events(run, self.status["tracker"])
-        run.details.update(self.texts)
+        run.cycles = table_of(_CYCLE, self.cycles)
+        run.label = _label(self.texts)
+        run.vessel_is_recorded = "vessel" in self.texts
+        parameters = [f"{node}:\n" + "".join(f"  {line}\n" for line in text.splitlines())
+                      for node, text in sorted(self.texts.items()) if node != "vessel"]
+        if parameters:
+            run.details["parameters"] = "".join(parameters)
         return run
 
 

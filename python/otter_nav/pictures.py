@@ -288,42 +288,43 @@ def stretches(t, mask):
 
 
 def estimates(run):
-    """Estimated force and moment, with the true wind and current where recorded."""
-    tracker = run.tracker
-    parts = []
-    if len(tracker) and "force_x" in tracker.columns:
-        parts += ["force", "moment"]
-    weather = [(name, label) for name, label in (("wind", "wind"), ("current", "current"))
-               if len(getattr(run, name))]
-    if weather:
-        parts.append("weather")
+    """Estimated force and moment, and wind and current, the true ones beside them."""
+    tracker = run.cycles if len(run.cycles) else run.tracker
+    felt = len(tracker) and "force_x" in tracker.columns
+    streams = [(name, len(getattr(run, name)),
+                len(run.cycles) and numpy.any(run.cycles.at(run.cycles.t, name + "_x") != 0.0))
+               for name in ("wind", "current")]
+    streams = [stream for stream in streams if stream[1] or stream[2]]
+    parts = (["force", "moment"] if felt else []) + streams
     if not parts:
         return None
     with styled():
         figure, axes, start = _time_axes(run, 1.7 * len(parts) + 0.5, len(parts))
+
+        def draw(ax, table, column, label, colour, style):
+            t, value = thin(table.t - start, getattr(table, column))
+            ax.plot(t, value, color=COLOUR[colour], label=label, linestyle=style)
+
         for ax, part in zip(axes, parts):
             if part == "force":
-                for column, label, colour in (("force_x", "to the east", "right"),
-                                              ("force_y", "to the north", "left")):
-                    t, value = thin(tracker.t - start, getattr(tracker, column))
-                    ax.plot(t, value, color=COLOUR[colour], label=label,
-                            linestyle="-" if column == "force_x" else (0, (5, 1.5)))
+                draw(ax, tracker, "force_x", "to the east", "right", "-")
+                draw(ax, tracker, "force_y", "to the north", "left", (0, (5, 1.5)))
                 ax.set_ylabel("estimated\nforce, N")
                 _legend(ax)
             elif part == "moment":
-                t, value = thin(tracker.t - start, tracker.moment)
-                ax.plot(t, value, color=COLOUR["third"])
+                draw(ax, tracker, "moment", "", "third", "-")
                 ax.set_ylabel("estimated\nmoment, N m")
             else:
-                for name, label in weather:
-                    table = getattr(run, name)
-                    for axis, side, colour in (("x", "east", "right"), ("y", "north", "left")):
-                        t, value = thin(table.t - start, getattr(table, axis))
-                        ax.plot(t, value, color=COLOUR[colour], label=f"{label} to the {side}",
-                                linestyle="-" if name == "wind" else ":")
-                ax.set_ylabel("true wind,\ncurrent, m/s")
+                name, known, estimated = part
+                for axis, side, colour in (("x", "east", "right"), ("y", "north", "left")):
+                    if known:
+                        draw(ax, getattr(run, name), axis, f"true, {side}", colour, ":")
+                    if estimated:
+                        draw(ax, run.cycles, f"{name}_{axis}", f"estimated, {side}", colour,
+                             "-" if axis == "x" else (0, (5, 1.5)))
+                ax.set_ylabel(f"{name}, m/s")
                 _legend(ax)
-        return to_svg(figure, "Estimated force and moment; true wind and current")
+        return to_svg(figure, "Estimated force and moment; wind and current, estimated and true")
 
 
 def clearance(run):

@@ -10,7 +10,7 @@ from .bag import read_one
 from .errors import RecordingError
 from .page import Page, escape, number
 from .result import read_result
-from .vessel import least_vessel, share_folder
+from .vessel import least_vessel, load_vessel, share_folder
 
 
 def version():
@@ -182,8 +182,8 @@ def add_source_arguments(parser):
                         "the bag, or the package's scenario of that name)")
     parser.add_argument("--run", type=int, default=1, help="which run of the bag or mission of the "
                         "result, from 1 (default 1)")
-    parser.add_argument("--vessel", help="name in config/vessels or a file (default: the result's; "
-                        "of a bag, the weakest that can give its commands)")
+    parser.add_argument("--vessel", help="name in config/vessels or a file (default: the recorded "
+                        "one; of a bag without, the weakest that can give its commands)")
     parser.add_argument("--namespace", help="of the vessel, where the bag holds several")
     parser.add_argument("--partial", action="store_true", help="read what is there of a bag cut off")
     return source
@@ -206,7 +206,9 @@ def load(options):
         run, count = read_one(options.bag, options.run, options.vessel or "otter_gazebo",
                               options.namespace, options.partial)
         others = count - 1
-        if options.vessel is None:
+        if options.vessel is not None:
+            run.vessel = load_vessel(options.vessel)
+        elif not run.vessel_is_recorded:
             _assume_vessel(run)
         if others:
             print(f"{options.bag} holds {count} runs; this is number {options.run} (--run)",

@@ -42,6 +42,9 @@ class Run:
     commands    thruster_command: t left right, N
     tracker     tracker_status: numbers of the message by their names, and force_x force_y moment
     planner     planner_status: numbers of the message by their names
+    cycles      tracker_cycle: t number left right, the reference (x_ref ... r_ref), the estimate (x y
+                psi u v r), what it estimates pushes (force_x force_y moment, wind's included), wind_x
+                wind_y current_x current_y, iterations
     contacts    t in_contact x y speed
     wind, current   t x y, m/s towards
     """
@@ -52,6 +55,7 @@ class Run:
     commands: Table = field(default_factory=lambda: table_of(COMMANDS, []))
     tracker: Table = field(default_factory=lambda: table_of(("t",), []))
     planner: Table = field(default_factory=lambda: table_of(("t",), []))
+    cycles: Table = field(default_factory=lambda: table_of(("t",), []))
     contacts: Table = field(default_factory=lambda: table_of(CONTACTS, []))
     wind: Table = field(default_factory=lambda: table_of(("t", "x", "y"), []))
     current: Table = field(default_factory=lambda: table_of(("t", "x", "y"), []))
@@ -65,6 +69,7 @@ class Run:
     label: dict = field(default_factory=dict)   # scenario, mission, vessel, ... where known
     stated: dict = field(default_factory=dict)  # figures of the mission's own result, where known
     details: dict = field(default_factory=dict)  # versions, sizes, parameters
+    vessel_is_recorded: bool = False
     recorded_reference: Table = None  # of a track file, instead of trajectories
 
     def __post_init__(self):

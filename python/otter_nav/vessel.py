@@ -48,17 +48,24 @@ def load_vessel(name_or_path):
         raise RecordingError(f"no vessel '{name_or_path}': neither a file nor one of config/vessels")
     try:
         with open(path) as file:
-            data = yaml.safe_load(file)
+            return vessel_of(yaml.safe_load(file), path)
+    except yaml.YAMLError as error:
+        raise RecordingError(f"vessel file {path}: {error}") from error
+
+
+def vessel_of(data, path):
+    """A vessel from its file's content."""
+    try:
         model, thrusters = data["paper_model"], data["thrusters"]
         hull = data.get("hull", {})
-        return Vessel(name=str(data.get("name", path.stem)),
+        return Vessel(name=str(data.get("name", pathlib.Path(path).stem)),
                       **{key: float(model[key])
                          for key in ("m1_kg", "m2_kgm2", "d1_kgps", "d2_kgps", "d3_kgm2ps")},
                       **{key: float(thrusters[key])
                          for key in ("lever_arm_m", "ahead_max_n", "astern_max_n")},
                       top_speed_mps=float(data["top_speed_mps"]),
                       length_m=float(hull["length_m"]), beam_m=float(hull["beam_m"]))
-    except (KeyError, TypeError, ValueError, yaml.YAMLError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise RecordingError(f"vessel file {path}: {error!r} is missing or no number") from error
 
 

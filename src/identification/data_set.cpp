@@ -72,8 +72,9 @@ Status check(const Recording& recording) {
       kThrustNames.data(), true);
 }
 
-// Of how many records one is kept, so that they stand about `interval_s` apart.
-std::size_t strideOf(const std::vector<OdometryRecord>& records, double interval_s) {
+// The median; 0 without two stamps that differ.
+template <typename Record>
+double usualInterval(const std::vector<Record>& records) {
   std::vector<double> spacings;
   for (std::size_t i = 1; i < records.size(); ++i) {
     if (records[i].stamp_s > records[i - 1].stamp_s) {
@@ -81,11 +82,43 @@ std::size_t strideOf(const std::vector<OdometryRecord>& records, double interval
     }
   }
   if (spacings.empty()) {
-    return 1;
+    return 0.0;
   }
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
   std::nth_element(spacings.begin(), middle, spacings.end());
-  return static_cast<std::size_t>(std::max(1.0, std::round(interval_s / *middle)));
+  return *middle;
+}
+
+// Of how many records one is kept, so that they stand about `interval_s` apart.
+std::size_t strideOf(const std::vector<OdometryRecord>& records, double interval_s) {
+  const double usual_s = usualInterval(records);
+  return usual_s > 0.0
+             ? static_cast<std::size_t>(std::max(1.0, std::round(interval_s / usual_s)))
+             : 1;
+}
+
+template <typename Record>
+void addHoles(const std::vector<Record>& records, const std::string& stream,
+              std::vector<Holes>& all) {
+  constexpr double kUsualIntervals = 3.0;
+  const double usual_s = usualInterval(records);
+  Holes holes;
+  holes.stream = stream;
+  for (std::size_t i = 1; i < records.size(); ++i) {
+    const double pause_s = records[i].stamp_s - records[i - 1].stamp_s;
+    if (pause_s <= kUsualIntervals * usual_s) {
+      continue;
+    }
+    ++holes.count;
+    holes.missing_s += pause_s - usual_s;
+    if (pause_s > holes.longest_to_s - holes.longest_from_s) {
+      holes.longest_from_s = records[i - 1].stamp_s;
+      holes.longest_to_s = records[i].stamp_s;
+    }
+  }
+  if (holes.count > 0) {
+    all.push_back(std::move(holes));
+  }
 }
 
 Sample sampleOf(const OdometryRecord& record, const std::vector<Sample>& before) {
@@ -151,6 +184,8 @@ Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
   const double from_s = recording.commands.front().stamp_s;
   const double to_s = recording.commands.back().stamp_s + options.command_timeout_s;
   DataSet data = samplesOf(recording.odometry, from_s, to_s, options);
+  addHoles(recording.odometry, recording.odometry_name, data.holes);
+  addHoles(recording.commands, recording.command_name, data.holes);
   ThrustHistory history(recording.commands, thrust_lag_s, options.command_timeout_s);
   for (std::size_t i = 0; i + 1 < data.samples.size(); ++i) {
     data.samples[i].thrusts = history.mean(data.samples[i].time_s, data.samples[i + 1].time_s);

@@ -23,6 +23,9 @@ Result<std::unique_ptr<RecorderNode>> RecorderNode::create(config::Section secti
   if (!options) {
     return failure(options.error().message);
   }
+  if (options->file.empty()) {
+    return failure(where + ": parameter 'file' is empty: there is no bag to write");
+  }
   for (const std::string& topic : options->paced) {
     if (std::find(options->topics.begin(), options->topics.end(), topic) ==
         options->topics.end()) {

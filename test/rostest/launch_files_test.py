@@ -14,14 +14,15 @@ import rostest
 PACKAGE = rospkg.RosPack().get_path("otter_nav")
 LAUNCH_FILES = sorted(glob.glob(os.path.join(PACKAGE, "launch", "*.launch")))
 # Arguments without a default need a value to be loaded with.
-ARGUMENTS = {"collect.launch": ["bag:=/tmp/none.bag"], "record.launch": ["file:=/tmp/none.bag"]}
+ARGUMENTS = {"collect.launch": ["bag:=/tmp/none.bag"], "record.launch": ["file:=/tmp/none.bag"],
+             "replay.launch": ["bag:=/tmp/none.bag"]}
 
 
 class LaunchFiles(unittest.TestCase):
     def test_there_are_some(self):
         names = {os.path.basename(path) for path in LAUNCH_FILES}
         self.assertLessEqual({"mission.launch", "sail.launch", "map.launch", "planning.launch", "tracking.launch",
-                              "plant.launch", "rviz.launch", "record.launch"}, names)
+                              "plant.launch", "rviz.launch", "record.launch", "replay.launch"}, names)
 
     def test_roslaunch_check(self):
         for path in LAUNCH_FILES:

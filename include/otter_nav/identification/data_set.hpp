@@ -44,9 +44,19 @@ struct Stretch {
   std::size_t end = 0;
 };
 
+// Where a stream has holes: stamps more than three usual intervals apart.
+struct Holes {
+  std::string stream;
+  int count = 0;
+  double missing_s = 0.0;  // all together, beside a usual interval each
+  double longest_from_s = 0.0;
+  double longest_to_s = 0.0;
+};
+
 struct DataSet {
   std::vector<Sample> samples;
   std::vector<Stretch> stretches;
+  std::vector<Holes> holes;  // of the streams that have any
 };
 
 struct DataOptions {

@@ -114,6 +114,21 @@ TEST(Assemble, SplitsAtGapsAndUnwrapsTheHeading) {
   EXPECT_NEAR(data->samples[399].state[vessel::kPsi], 0.05 * 399, 1e-9);
 }
 
+TEST(Assemble, NamesHoles) {
+  Recording recording = steady(80.0, 0.1);
+  EXPECT_TRUE(assemble(recording, DataOptions(), 0.0)->holes.empty());
+  recording.odometry.erase(recording.odometry.begin() + 400, recording.odometry.begin() + 420);
+  recording.odometry.erase(recording.odometry.begin() + 100, recording.odometry.begin() + 103);
+  const Result<DataSet> data = assemble(recording, DataOptions(), 0.0);
+  ASSERT_EQ(data->holes.size(), 1U);
+  const Holes& holes = data->holes[0];
+  EXPECT_EQ(holes.stream, "/odom");
+  EXPECT_EQ(holes.count, 2);
+  EXPECT_NEAR(holes.missing_s, 2.3, 1e-9);
+  EXPECT_NEAR(holes.longest_from_s, 39.9, 1e-9);
+  EXPECT_NEAR(holes.longest_to_s, 42.0, 1e-9);
+}
+
 TEST(ThrustHistory, AveragesCommandsWithinAnInterval) {
   ThrustHistory history({{0.0, {10.0, 0.0}}, {0.03, {20.0, 0.0}}}, 0.0, 1.0);
   EXPECT_NEAR(history.mean(0.0, 0.04)[vessel::kLeft], 12.5, 1e-12);

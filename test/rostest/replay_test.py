@@ -1,0 +1,195 @@
+#!/usr/bin/python3
+"""Missions are recorded whole, and the tracker makes the same commands of what was recorded."""
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import rosbag
+import rospkg
+import rostest
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from mission_test import POND, Mission, processes_of, wait_until  # noqa: E402
+
+PACKAGE = rospkg.RosPack().get_path("otter_nav")
+SAME_N = 1e-9
+COLUMNS = ["t", "left_recorded_n", "right_recorded_n", "left_recomputed_n", "right_recomputed_n"]
+
+
+class Replay(unittest.TestCase):
+    start = Mission.start
+    kill = staticmethod(Mission.kill)
+
+    def setUp(self):
+        Mission.setUp(self)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def record(self, name, **arguments):
+        bag = self.path(name)
+        launch, port = self.start(scenario=POND, record=bag, result=bag + ".json", **arguments)
+        output, _ = launch.communicate(timeout=300)
+        self.assertTrue(os.path.exists(bag), output)
+        self.assertTrue(wait_until(lambda: not processes_of(port), 20), processes_of(port))
+        with open(bag + ".json") as file:
+            self.assertEqual(json.load(file)["missions"][0]["outcome"], "arrived", output)
+        return bag
+
+    def replay(self, bag, *options):
+        out = self.path("out")
+        done = subprocess.run(["rosrun", "otter_nav", "replay_tracker", "--bag", bag, "--out", out,
+                               *options], capture_output=True, text=True, timeout=120)
+        if done.returncode != 0:
+            return done, None, None
+        with open(os.path.join(out, "replay.json")) as file:
+            figures = json.load(file)
+        with open(os.path.join(out, "replay.csv")) as file:
+            rows = list(csv.DictReader(file))
+        return done, figures, rows
+
+    def assert_whole(self, bag, period_s):
+        """Every stamp of the odometry is there, and what a replay needs beside it."""
+        with rosbag.Bag(bag) as recorded:
+            stamps = {}
+            for topic in ("/odom", "/tracker_cycle", "/thruster_command"):
+                seen = {m.header.stamp.to_sec() for _, m, _ in recorded.read_messages(topics=[topic])}
+                stamps[topic] = sorted(seen - {0.0})
+                gaps = [b - a for a, b in zip(stamps[topic], stamps[topic][1:])
+                        if b - a > 1.5 * period_s]
+                self.assertEqual(gaps, [], topic)
+            topics = set(recorded.get_type_and_topic_info().topics)
+        self.assertGreater(len(stamps["/odom"]), 1000)
+        for topic in ("/chart", "/map", "/map_updates", "/tf", "/tf_static", "/trail", "/trajectory",
+                      "/trajectory_markers", "/tree_markers", "/guide_path_markers", "/vessel",
+                      "/tracker_node/parameters", "/planner_status", "/plant_state", "/scan"):
+            self.assertIn(topic, topics)
+        self.assertNotIn("/recording_gaps", topics)
+
+    def assert_same(self, bag):
+        done, figures, rows = self.replay(bag)
+        self.assertIsNotNone(figures, done.stderr)
+        self.assertLess(figures["difference_max_n"], SAME_N, done.stdout)
+        self.assertEqual(list(rows[0])[:5], COLUMNS)
+        self.assertGreater(max(abs(float(row["left_recorded_n"])) for row in rows), 10.0)
+        worst = max(abs(float(row[f"{side}_recorded_n"]) - float(row[f"{side}_recomputed_n"]))
+                    for row in rows for side in ("left", "right"))
+        self.assertLess(worst, SAME_N)
+        with rosbag.Bag(bag) as recorded:
+            commands = {m.header.stamp.to_nsec(): (m.left, m.right) for _, m, _ in
+                        recorded.read_messages(topics=["/thruster_command"])}
+        matched = 0
+        for row in rows:
+            told = commands.get(round(float(row["t"]) * 1e9))
+            if told is not None:
+                matched += 1
+                self.assertLess(abs(told[0] - float(row["left_recomputed_n"])), SAME_N)
+                self.assertLess(abs(told[1] - float(row["right_recomputed_n"])), SAME_N)
+        self.assertGreater(matched, 0.9 * len(rows))
+        return rows
+
+    def test_lockstep(self):
+        bag = self.record("lockstep.bag", speed=0)
+        self.assert_whole(bag, 0.01)
+        rows = self.assert_same(bag)
+
+        done, figures, part = self.replay(bag, "--from", rows[500]["t"], "--to", rows[600]["t"])
+        self.assertEqual(len(part), 101, done.stderr)
+        self.assertEqual(part[0], rows[500])
+
+        done, figures, _ = self.replay(bag, "--set", "tracker.horizon_s=3")
+        self.assertGreater(figures["difference_max_n"], 0.01, done.stdout)
+        self.assertIn("options changed", done.stdout)
+
+        for wrong in ("tracker.horizn_s=3", "tracker.horizon_s=300", "horizon_s=3"):
+            done, _, _ = self.replay(bag, "--set", wrong)
+            self.assertNotEqual(done.returncode, 0, wrong)
+            self.assertIn("horiz", done.stderr)
+
+        done, figures, _ = self.replay(bag, "--closed-loop", "--try", "tracker.flatness.position=1")
+        self.assertIsNotNone(figures, done.stderr)
+        self.assertIn("Simulated, not what the vessel did", done.stdout)
+        first, other = figures["settings"]
+        self.assertLess(first["tracking_error_mean_m"], 0.3, done.stdout)
+        self.assertGreater(other["tracking_error_mean_m"], first["tracking_error_mean_m"])
+
+        self.damaged(bag)
+
+    def damaged(self, bag):
+        with open(bag, "rb") as file:
+            whole = file.read()
+        cut = self.path("cut.bag")
+        with open(cut, "wb") as file:
+            file.write(whole[:len(whole) * 2 // 3])
+        done, _, _ = self.replay(cut)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("cut off", done.stderr)
+        done, figures, rows = self.replay(cut, "--partial")
+        self.assertIsNotNone(figures, done.stderr)
+        self.assertGreater(len(rows), 500)
+        self.assertLess(figures["difference_max_n"], SAME_N)
+        self.assertIn("cut off", done.stdout)
+
+        hole = self.path("hole.bag")
+        with rosbag.Bag(bag) as source, rosbag.Bag(hole, "w") as target:
+            for topic, message, t, header in source.read_messages(return_connection_header=True):
+                if topic == "/odom" and abs(message.header.stamp.to_sec() - 5.0) < 0.004:
+                    continue
+                target.write(topic, message, t, connection_header=header)
+        done, _, _ = self.replay(hole)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("at 5.000 s", done.stderr)
+        done, figures, _ = self.replay(hole, "--partial")
+        self.assertIn("1 holes", done.stdout)
+
+    def test_real_time(self):
+        bag = self.record("free.bag", speed=1, lockstep="false")
+        self.assert_whole_in_real_time(bag)
+        self.assert_same(bag)
+
+    def assert_whole_in_real_time(self, bag):
+        with rosbag.Bag(bag) as recorded:
+            cycles = [m.cycle for _, m, _ in recorded.read_messages(topics=["/tracker_cycle"])]
+        self.assertEqual(sorted(set(cycles)), list(range(max(cycles) + 1)))
+
+    def test_interrupted_launch_leaves_a_whole_bag(self):
+        bag = self.path("interrupted.bag")
+        launch, _ = self.start(scenario=POND, record=bag, speed=1)
+        self.assertTrue(wait_until(lambda: self.size(bag) > 400000, 60), self.size(bag))
+        launch.send_signal(signal.SIGINT)
+        output, _ = launch.communicate(timeout=60)
+        self.assertTrue(os.path.exists(bag), output)
+        self.assertFalse(os.path.exists(bag + ".active"))
+        self.assert_same(bag)
+
+    @staticmethod
+    def size(bag):
+        return os.path.getsize(bag + ".active") if os.path.exists(bag + ".active") else 0
+
+    def test_says_what_is_no_recording(self):
+        empty = self.path("empty.bag")
+        open(empty, "w").close()
+        text = self.path("text.bag")
+        with open(text, "w") as file:
+            file.write("not a bag\n")
+        foreign = self.path("foreign.bag")
+        from std_msgs.msg import String
+        with rosbag.Bag(foreign, "w") as bag:
+            bag.write("/chatter", String(data="hello"))
+        nothing = self.path("nothing.bag")
+        rosbag.Bag(nothing, "w").close()
+        for bag, why in ((empty, "is empty"), (text, "is not a ROS bag"), (foreign, "/chatter"),
+                         (nothing, "no messages"), (self.path("none.bag"), "no such file")):
+            done, _, _ = self.replay(bag)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(why, done.stderr)
+            self.assertIn(bag, done.stderr)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("otter_nav", "replay_test", Replay, sys.argv)
