@@ -16,7 +16,7 @@ Exits with 0 only if the vessel arrived without touching anything.
   --seed N                 seed of sea, sensors and planner (default 1)
   --rviz / --no-rviz       show it in rviz (default: if there is a display)
   --result FILE.json       write the result here (default: results/mission.json)
-  --record FILE.bag        record odometry, commands, scans and plans
+  --record FILE.bag        record the run, for replay and reports
   --no-build               use what was built last
 TEXT
 }

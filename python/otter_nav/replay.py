@@ -61,7 +61,7 @@ class Recorded:
             if topic in motion:
                 stamp = _stamp(data)
                 if stamp < last.get(topic, stamp) - _JUMP_BACK_S:
-                    self.runs.append(_latched_tail(self.runs[-1], self.topics))
+                    self.runs.append(_take_latched_tail(self.runs[-1], self.topics))
                     last = {}
                 last[topic] = stamp
             self.runs[-1].append((t.to_sec(), topic, data))
@@ -73,15 +73,14 @@ class Recorded:
                 topic.count("/") == 1)
 
 
-def _latched_tail(run, topics):
-    """A new run's latched messages may come shortly before its time begins: they are at the end."""
-    tail = []
-    for message in reversed(run):
-        topic = topics.get(message[1])
-        if topic is None or not topic.latched:
-            break
-        tail.append(message)
-    return list(reversed(tail))
+def _take_latched_tail(run, topics):
+    """A new run's latched messages may come shortly before its motion: they are at the end."""
+    begin = len(run)
+    while begin > 0 and run[begin - 1][1] in topics and topics[run[begin - 1][1]].latched:
+        begin -= 1
+    tail = run[begin:]
+    del run[begin:]
+    return tail
 
 
 def _stamp(data):
@@ -209,10 +208,11 @@ class Made:
             "chart": self.chart is not None and "/chart" not in names,
             "path": self.trajectory is not None and "/path" not in names,
         }
-        self.out = {
-            "tf": rospy.Publisher("/tf", TFMessage, queue_size=100),
-            "tf_static": rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True),
-        }
+        self.out = {}
+        if self.needs["tf"]:
+            self.out = {"tf": rospy.Publisher("/tf", TFMessage, queue_size=100),
+                        "tf_static": rospy.Publisher("/tf_static", TFMessage, queue_size=1,
+                                                     latch=True)}
         for name, kind in (("trail", Path), ("map", OccupancyGrid), ("chart", OccupancyGrid),
                            ("path", Path)):
             if self.needs[name]:

@@ -14,11 +14,26 @@ import rospkg
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from mission_test import POND, Mission, processes_of, wait_until  # noqa: E402
+from mission_test import POND, Mission, free_port, processes_of, wait_until  # noqa: E402
 
 PACKAGE = rospkg.RosPack().get_path("otter_nav")
 SAME_N = 1e-9
 COLUMNS = ["t", "left_recorded_n", "right_recorded_n", "left_recomputed_n", "right_recomputed_n"]
+
+
+# Prints how many messages came on each topic, and the topics that are published.
+WATCH = """
+import json, rosgraph, rospy, sys, time
+rospy.init_node("watch", disable_signals=True)
+seen, end = {}, time.time() + 90.0
+def took(topic):
+    return lambda message: seen.__setitem__(topic, seen.get(topic, 0) + 1)
+for topic in sys.argv[1:]:
+    rospy.Subscriber(topic, rospy.AnyMsg, took(topic))
+while time.time() < end and any(topic not in seen for topic in sys.argv[1:]):
+    time.sleep(0.1)
+print(json.dumps([seen, [topic for topic, _ in rosgraph.Master("/watch").getSystemState()[0]]]))
+"""
 
 
 class Replay(unittest.TestCase):
@@ -119,6 +134,28 @@ class Replay(unittest.TestCase):
         self.assertGreater(other["tracking_error_mean_m"], first["tracking_error_mean_m"])
 
         self.damaged(bag)
+        self.plays(bag)
+
+    def plays(self, bag):
+        """Everything rviz shows is there, also from the middle; nothing is commanded."""
+        port = free_port()
+        environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}"}
+        launch = subprocess.Popen(
+            ["roslaunch", "-p", str(port), os.path.join(PACKAGE, "launch", "replay.launch"),
+             f"bag:={bag}", "rviz:=false", "rate:=0.5", "start:=8"], env=environment,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+        self.addCleanup(self.kill, launch, port)
+        shown = ["/clock", "/tf", "/tf_static", "/chart", "/map", "/map_updates", "/scan", "/trail",
+                 "/guide_path_markers", "/tree_markers", "/trajectory_markers", "/predicted_path"]
+        watch = subprocess.run([sys.executable, "-c", WATCH, *shown], env=environment, timeout=120,
+                               capture_output=True, text=True)
+        launch.send_signal(signal.SIGINT)
+        output, _ = launch.communicate(timeout=60)
+        self.assertEqual(watch.returncode, 0, watch.stderr)
+        seen, published = json.loads(watch.stdout.splitlines()[-1])
+        self.assertEqual(sorted(seen), sorted(shown), output)
+        for order in ("/thruster_command", "/trajectory"):
+            self.assertNotIn(order, published)
 
     def damaged(self, bag):
         with open(bag, "rb") as file:
