@@ -122,9 +122,9 @@ Status writeCsv(const std::string& path, const std::vector<Step>& steps) {
     }
     out << ',' << s.truth[0] << ',' << s.truth[1] << ',' << s.truth[2] << ',' << c.tracking_error_m
         << ',' << c.outside_force_n.x() << ',' << c.outside_force_n.y() << ','
-        << c.outside_moment_nm << ',' << c.disturbance.wind_mps.x() << ','
-        << c.disturbance.wind_mps.y() << ',' << c.disturbance.current_mps.x() << ','
-        << c.disturbance.current_mps.y() << ',' << tracker::name(c.mode) << ','
+        << c.outside_moment_nm << ',' << c.disturbance.mean.wind_mps.x() << ','
+        << c.disturbance.mean.wind_mps.y() << ',' << c.disturbance.mean.current_mps.x() << ','
+        << c.disturbance.mean.current_mps.y() << ',' << tracker::name(c.mode) << ','
         << tracker::name(c.solver) << '\n';
   }
   out.close();
@@ -157,16 +157,16 @@ void printEstimate(const std::vector<Step>& steps) {
   std::printf("Estimate at the end: force %.2f %.2f N (wind's included), moment %.2f N m, "
               "wind %.2f %.2f m/s, current %.3f %.3f m/s\n",
               c.outside_force_n.x(), c.outside_force_n.y(), c.outside_moment_nm,
-              c.disturbance.wind_mps.x(), c.disturbance.wind_mps.y(),
-              c.disturbance.current_mps.x(), c.disturbance.current_mps.y());
+              c.disturbance.mean.wind_mps.x(), c.disturbance.mean.wind_mps.y(),
+              c.disturbance.mean.current_mps.x(), c.disturbance.mean.current_mps.y());
   Eigen::Vector3d worst = Eigen::Vector3d::Zero();
   double off_m = 0.0;
   for (const Step& s : steps) {
     off_m = std::max(off_m, (s.command.estimate - s.recorded.estimate).head<2>().norm());
     const Eigen::Vector3d d(
-        (s.command.disturbance.force_n - s.recorded.disturbance.force_n).norm(),
-        std::abs(s.command.disturbance.moment_nm - s.recorded.disturbance.moment_nm),
-        (s.command.disturbance.wind_mps - s.recorded.disturbance.wind_mps).norm());
+        (s.command.disturbance.mean.force_n - s.recorded.disturbance.force_n).norm(),
+        std::abs(s.command.disturbance.mean.moment_nm - s.recorded.disturbance.moment_nm),
+        (s.command.disturbance.mean.wind_mps - s.recorded.disturbance.wind_mps).norm());
     worst = worst.cwiseMax(d);
   }
   std::printf("Estimates differ from the recorded by at most %.3g m, %.3g N, %.3g N m, %.3g m/s\n",

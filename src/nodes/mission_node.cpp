@@ -91,14 +91,17 @@ MissionNode::MissionNode(MissionNodeOptions options, const scenario::Scenario& s
   tracker_subscriber_ = node_.subscribe<TrackerStatus>(
       "tracker_status", kQueue,
       [this](const TrackerStatusConstPtr& message) { tracker_ = *message; });
-  recording_subscriber_ = node_.subscribe<std_msgs::Header>(
-      "recording", 1, [this](const std_msgs::HeaderConstPtr&) { recorded_ = true; });
+  recording_subscriber_ = node_.subscribe("recording", 1, &MissionNode::onRecording, this);
   timer_ = node_.createWallTimer(ros::WallDuration(kTimerPeriodS),
                                  [this](const ros::WallTimerEvent&) { onTimer(); });
 }
 
 MissionNode::~MissionNode() {
   finish(Outcome::kError, "interrupted before the end");
+}
+
+void MissionNode::onRecording(const std_msgs::Header& /*message*/) {
+  recorded_ = true;
 }
 
 void MissionNode::onState(const PlantState& message) {

@@ -10,6 +10,7 @@
 #include <otter_nav/TrackerStatus.h>
 #include <otter_nav/Trajectory.h>
 #include <ros/node_handle.h>
+#include <std_msgs/Header.h>
 
 #include <deque>
 #include <memory>
@@ -40,6 +41,7 @@ class MissionNode {
               const scenario::Mission& mission, const vessel::Parameters& vessel,
               std::optional<scenario::TrackWriter> track);
 
+  void onRecording(const std_msgs::Header& message);
   void onState(const PlantState& message);
   void onTrajectory(const Trajectory& message);
   void onPlannerStatus(const PlannerStatus& message);

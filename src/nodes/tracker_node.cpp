@@ -220,7 +220,7 @@ void TrackerNode::publishCycle(const tracker::Command& command) {
   message.right = command_message_.right;
   std::copy_n(command.reference.data(), vessel::kStateSize, message.reference.begin());
   std::copy_n(command.estimate.data(), vessel::kStateSize, message.estimate.begin());
-  const vessel::Disturbance& disturbance = command.disturbance;
+  const vessel::Disturbance& disturbance = command.disturbance.mean;
   message.disturbance = {command.outside_force_n.x(), command.outside_force_n.y(),
                          command.outside_moment_nm};
   message.force = {disturbance.force_n.x(), disturbance.force_n.y(), disturbance.moment_nm};

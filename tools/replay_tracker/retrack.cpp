@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <sstream>
 
@@ -177,7 +178,7 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const tracker::Options
     last = cycle.number;
     const Status fed = odometry.give(cycle, tracker);
     const Status ordered = orders.give(cycle, run.lockstep, tracker);
-    for (const Status* each : {&status, &fed, &ordered}) {
+    for (const Status* each : std::initializer_list<const Status*>{&status, &fed, &ordered}) {
       if (!*each) {
         if (!partial) {
           return failure(each->error().message + "; --partial goes on without");
