@@ -71,6 +71,10 @@ void PlannerPublisher::publishStatus(const mission::Supervisor& supervisor, doub
   status_.state = mission::name(supervisor.phase());
   status_.reason = supervisor.reason();
   status_.clearance = supervisor.plannedClearance();
+  status_.encounters.clear();
+  for (const encounter::Encounter& encounter : supervisor.encounters()) {
+    status_.encounters.push_back(encounter::describe(encounter));
+  }
   status_.replans = static_cast<std::uint32_t>(supervisor.replans());
   status_.trajectory_id = trajectory_id;
   status_publisher_.publish(status_);
