@@ -71,8 +71,7 @@ std::optional<double> PlanRequests::joint(double now_s,
 PlanRequest PlanRequests::onward(double now_s, trajectory::TimedTrajectory lead,
                                  double thrust_share, const vessel::Pose& goal,
                                  const feasibility::Obstacles& obstacles) {
-  const trajectory::Sample sample =
-      lead.trajectory.sample(lead.trajectory.duration(), vessel_);
+  const trajectory::Sample sample = lead.trajectory.sample(lead.trajectory.duration(), vessel_);
   PlanRequest request;
   request.query.start.flat = sample.flat;
   request.query.start.psi_rad = sample.state[vessel::kPsi];
@@ -117,6 +116,13 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   request.query.goal.psi_rad = safety.restHeading(goal.psi_rad);
   request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
   request.query.limits = safety.limits(thrust_share, room);
+  // Thrust beyond what gusts leave is for holding headings, not for going faster; but the start is
+  // as fast as it is.
+  constexpr double kSlowsDown = 1.05;
+  const double speed = request.query.start.flat.velocity.norm();
+  request.query.limits.speed_max_mps = std::min(
+      request.query.limits.speed_max_mps,
+      std::max(safety.limits(safety.freeThrustShare(), room).speed_max_mps, kSlowsDown * speed));
   request.thrust_share = thrust_share;
   request.moving = from != From::kRest;
   asked_ = Asked{request, from, false, now_s, {}};

@@ -167,6 +167,8 @@ class Supervisor::Impl {
   bool isSuspended(const Moment& /*m*/) { return suspended_.has_value(); }
   bool hasNoMission(const Moment& /*m*/) { return !hasMission(); }
   bool mustWait(const Moment& m) { return plans_.waits() || retries_.pauses(m.now_s); }
+  // The tracker has just begun to estimate it.
+  bool doesNotKnowTheWeather(const Moment& /*m*/) { return !weather().isKnown(); }
 
   // Or so near the edge that no plan starts there: it counts as occupied.
   bool isOverTheEdge(const Moment& m) { return knowsPlace(m) && inside(m) < safety().narrowest(); }
@@ -218,8 +220,8 @@ class Supervisor::Impl {
     if (!joint) {
       return false;
     }
-    way_made_ = pilot_.decide(
-        {m.now_s, sailed_, goal_.position, *joint, planned_limits_, m.obstacles});
+    way_made_ =
+        pilot_.decide({m.now_s, sailed_, goal_.position, *joint, planned_limits_, m.obstacles});
     return way_made_.has_value();
   }
   bool isFarOff(const Moment& m) {
@@ -277,6 +279,9 @@ class Supervisor::Impl {
 
   Orders planFirst(const Moment& m) {
     enter(Phase::kPlanning);
+    if (doesNotKnowTheWeather(m)) {
+      return {};
+    }
     return isOverTheEdge(m) ? turnBack(m) : planFromRest(m);
   }
   Orders planForNewGoal(const Moment& m) {
@@ -471,6 +476,7 @@ class Supervisor::Impl {
   static constexpr Rule kRules[] = {
       {kWaiting, &Impl::mustWait, &Impl::keepOn},
       {kWaiting, &Impl::hasFault, &Impl::loseRound},
+      {kWaiting, &Impl::doesNotKnowTheWeather, &Impl::keepOn},
       {kWaiting, &Impl::isOverTheEdge, &Impl::turnBack},
       {kWaiting, &Impl::isBeyondThrust, &Impl::waitForCalm},
       {kWaiting, &Impl::always, &Impl::planFromRest},
@@ -725,8 +731,8 @@ class Supervisor::Impl {
   std::string reason_;
   vessel::Pose goal_;
   TimedTrajectory sailed_;
-  double planned_clearance_m_ = 0.0;   // what the sailed trajectory was planned for
-  double planned_thrust_share_ = 1.0;  // and with
+  double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
+  double planned_thrust_share_ = 1.0;         // and with
   feasibility::SafetyLimits planned_limits_;  // all of it
   double planned_goal_psi_rad_ = 0.0;
   vessel::Disturbance planned_disturbance_;

@@ -12,7 +12,7 @@ namespace {
 
 using vessel::Disturbance;
 
-constexpr double kKnownS = 2.0;     // the estimator's first transient has died down
+constexpr double kKnownS = 1.0;     // the estimator's first transient has died down
 constexpr double kMemoryS = 30.0;   // of the means
 constexpr double kFastestS = 60.0;  // the fastest gust fades out of memory
 constexpr double kDeviations = 2.0;

@@ -15,7 +15,9 @@ class ScriptedMission {
       : grid(std::move(water)),
         field(fieldOf(grid)),
         options(std::move(o)),
-        supervisor(options, vessel::Parameters{}, 1) {}
+        supervisor(options, vessel::Parameters{}, 1) {
+    knowWeather();
+  }
 
   // The clearance of the hull's centre at a level of the options' list.
   [[nodiscard]] double clearance(std::size_t level) const {
@@ -67,6 +69,12 @@ class ScriptedMission {
     const auto orders = goTo({40.0, 0.0});
     (void)answer(*orders->plan, eastward({-40.0, 0.0}, 80.0, 4.0));
     (void)update(after_s);
+  }
+  // The tracker has been running for a while.
+  void knowWeather() {
+    for (int k = 0; k < 15; ++k) {
+      (void)update(0.1);
+    }
   }
   void put(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
     block(grid, low, high);

@@ -94,13 +94,19 @@ TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.x(), -10.0);
 }
 
-// The estimate begins at nothing and overshoots.
-TEST(SupervisorInWind, DoesNotBelieveTheEstimateInTheFirstSeconds) {
+// The estimate begins at nothing and overshoots: the first plan waits for what it comes to.
+TEST(SupervisorInWind, PlansOnceTheWeatherIsKnown) {
   ScriptedMission mission;
-  mission.setOut(0.1);
-  const Blown blown = blow(mission, 1.5, [](double) { return Vector2d(-60.0, 0.0); });
-  EXPECT_TRUE(blown.plans.empty());
-  EXPECT_TRUE(blow(mission, 10.0, steady).plans.empty());
+  mission.supervisor = Supervisor(mission.options, vessel::Parameters{}, 1);
+  const auto orders = mission.goTo({20.0, 0.0});
+  ASSERT_TRUE(orders);
+  EXPECT_FALSE(orders->plan);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
+  const Force transient = [](double t) { return Vector2d(t < 0.5 ? -60.0 : -4.0, 0.0); };
+  EXPECT_TRUE(blow(mission, 0.8, transient).plans.empty());
+  const Blown blown = blow(mission, 0.6, steady);
+  ASSERT_FALSE(blown.plans.empty());
+  EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.norm(), 5.0);
 }
 
 TEST(SupervisorInWind, SteadyWeatherIsNoGroundForAnotherPlan) {

@@ -35,8 +35,8 @@ Weather felt(const vessel::Parameters& vessel, double duration_s, Wind wind) {
 }
 
 TEST(Weather, IsUnknownInTheFirstSecondsAndForgetsThem) {
-  const auto wind = [](double t) { return t < 1.5 ? 20.0 * t : 6.0; };
-  EXPECT_FALSE(felt(windy(), 1.0, wind).isKnown());
+  const auto wind = [](double t) { return t < 0.8 ? 20.0 * t : 6.0; };
+  EXPECT_FALSE(felt(windy(), 0.8, wind).isKnown());
   const Weather weather = felt(windy(), 20.0, wind);
   EXPECT_TRUE(weather.isKnown());
   EXPECT_NEAR(weather.mean().wind_mps.x(), 6.0, 0.05);
