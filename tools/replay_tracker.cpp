@@ -175,7 +175,9 @@ void printEstimate(const std::vector<Step>& steps) {
 
 Status compare(const Arguments& a, const RecordedRun& run, const vessel::Parameters& vessel,
                const tracker::Options& options, std::vector<std::string>& notes) {
-  const auto steps = retrack(run, options, vessel, a.window, a.read.partial, notes);
+  const bool as_it_was = a.set.empty() && a.vessel.empty() && !a.read.partial;
+  const auto steps = retrack(run, options, vessel, a.window, as_it_was ? Sent::kOwn : Sent::kRecorded,
+                             a.read.partial, notes);
   if (!steps) {
     return failure(a.bag + ": " + steps.error().message);
   }
@@ -183,7 +185,8 @@ Status compare(const Arguments& a, const RecordedRun& run, const vessel::Paramet
   std::printf("%zu steps, %.3f s to %.3f s, %s, %s%s\n", f.steps, steps->front().recorded.time_s,
               steps->back().recorded.time_s, vessel.name.c_str(),
               run.lockstep ? "lockstep" : "real time",
-              a.set.empty() ? "" : ", options changed: recorded motion, so not what they would do");
+              a.set.empty() ? "" : ", options changed: what they ask for where the vessel was, not where it "
+                              "would have gone");
   std::printf("Commands differ from the recorded by at most %.3g N (at %.3f s), rms %.3g N\n",
               f.difference_max_n, f.difference_max_time_s, f.difference_rms_n);
   if (!run.from_commands) {

@@ -26,6 +26,12 @@ void Navigator::addCommand(double stamp_s, const vessel::Thrusts& thrusts) {
   ++sent_count_;
 }
 
+void Navigator::replaceCommand(const vessel::Thrusts& thrusts) {
+  if (sent_count_ > 0) {
+    sent_[static_cast<std::size_t>((sent_count_ - 1) % kHistory)].thrusts = thrusts;
+  }
+}
+
 // The command in force just after `time_s`; null when none was sent by then.
 const Navigator::Sent* Navigator::sentAt(double time_s) const {
   const long oldest = std::max(0L, sent_count_ - kHistory);

@@ -25,6 +25,8 @@ class Navigator {
   void addOdometry(double stamp_s, const vessel::State& state);
   // What was sent to the thrusters at `stamp_s`.
   void addCommand(double stamp_s, const vessel::Thrusts& thrusts);
+  // Of the last one.
+  void replaceCommand(const vessel::Thrusts& thrusts);
 
   [[nodiscard]] Fix fix(double now_s) const;
   // The state at `time_s`, psi continuous, thrusts following the last command.

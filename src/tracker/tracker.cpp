@@ -67,6 +67,7 @@ class Tracker::Core {
   void addOdometry(double stamp_s, const vessel::State& state);
   void requestStop(std::string_view reason, double start_s, std::uint32_t order);
   Command step(double now_s);
+  void replaceCommand(const vessel::Thrusts& sent);
   void prepare(double next_s);
 
   [[nodiscard]] const Prediction& prediction() const { return controller_.prediction(); }
@@ -298,6 +299,11 @@ vessel::Thrusts Tracker::Core::slew(const vessel::Thrusts& wanted) const {
   return vessel::clampThrusts(last_thrusts_ + change, vessel_.thrusters);
 }
 
+void Tracker::Core::replaceCommand(const vessel::Thrusts& sent) {
+  last_thrusts_ = sent;
+  navigator_.replaceCommand(sent);
+}
+
 void Tracker::Core::prepare(double next_s) {
   if (mode_ != Mode::kIdle && mode_ != Mode::kFault) {
     controller_.prepare(next_s, last_thrusts_, navigator_, reference_source_);
@@ -399,6 +405,10 @@ void Tracker::requestStop(std::string_view reason, double start_s, std::uint32_t
 
 Command Tracker::step(double now_s) {
   return core_->step(now_s);
+}
+
+void Tracker::replaceCommand(const vessel::Thrusts& sent) {
+  core_->replaceCommand(sent);
 }
 
 void Tracker::prepare(double next_s) {

@@ -29,6 +29,9 @@ class OdometryFeed {
 
   // What `cycle` took; an error where the recording has more or less.
   Status give(const RecordedCycle& cycle, Tracker& tracker) {
+    if (first_ && cycle.number > 1) {
+      taken_ = cycle.odometry_taken - 1;  // begun cold: the rest is not to be had
+    }
     const std::uint64_t wanted = cycle.odometry_taken - taken_;
     taken_ = cycle.odometry_taken;
     if (wanted == 0) {
@@ -157,7 +160,7 @@ Figures figures(const std::vector<Step>& steps, const vessel::Thrusters& limits)
 
 Result<std::vector<Step>> retrack(const RecordedRun& run, const tracker::Options& options,
                                   const vessel::Parameters& vessel, const Window& window,
-                                  bool partial, std::vector<std::string>& notes) {
+                                  Sent sent, bool partial, std::vector<std::string>& notes) {
   Tracker tracker(options, vessel);
   OdometryFeed odometry(run.odometry);
   OrderFeed orders(run.orders);
@@ -189,6 +192,9 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const tracker::Options
     Step step;
     step.recorded = cycle;
     step.command = tracker.step(cycle.time_s);
+    if (sent == Sent::kRecorded) {
+      tracker.replaceCommand(cycle.thrusts_n);
+    }
     tracker.prepare(step.command.stamp_s + options.period_s);
     if (window.has(cycle.time_s)) {
       steps.push_back(std::move(step));

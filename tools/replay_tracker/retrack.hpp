@@ -43,13 +43,18 @@ struct Window {
 };
 [[nodiscard]] Figures figures(const std::vector<Step>& steps, const vessel::Thrusters& limits);
 
+// Whose commands the tracker takes for those that moved the vessel.
+enum class Sent {
+  kOwn,       // its own: as it was, as long as they are the recorded ones
+  kRecorded,  // those recorded: other options, or a start in the middle, don't mislead its estimate
+};
 // Every step of the run up to the window's end is made again, since each rests on those before; the
 // result has those in the window. An error names the first hole in the recording; with `partial` it
 // is a note, and the steps after it go by what is there.
 [[nodiscard]] Result<std::vector<Step>> retrack(const RecordedRun& run,
                                                 const tracker::Options& options,
                                                 const vessel::Parameters& vessel,
-                                                const Window& window, bool partial,
+                                                const Window& window, Sent sent, bool partial,
                                                 std::vector<std::string>& notes);
 
 // What sails in closed loop.

@@ -82,6 +82,9 @@ class Tracker {
 
   // The control loop's thread, once a period.
   Command step(double now_s);
+  // The last step's command was not sent, this was (a replay of other commands): what moves the
+  // vessel is what the estimate has to know. Before prepare().
+  void replaceCommand(const vessel::Thrusts& sent);
   // After the command is out: linearises and factors for the step at `next_s`, so that it only has
   // to feed back the state. Optional.
   void prepare(double next_s);

@@ -131,6 +131,47 @@ TEST_F(TrackerTest, RefusesTrajectoriesThatCannotBeSailed) {
   refused(trajectory::Trajectory({piece}), now_s_, "duration");
 }
 
+// Where others steer, the estimate does not take their doing for the sea's.
+TEST_F(TrackerTest, KnowsWhatWasSentInsteadOfItsCommand) {
+  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
+  Tracker misled(load(), vessel_);
+  ASSERT_TRUE(misled.setTrajectory(line(60.0, 30.0), now_s_));
+  const vessel::Thrusts sent(12.0, 12.0);
+  Command told;
+  Command untold;
+  for (int i = 0; i < 500; ++i) {
+    for (Tracker* each : {&tracker_, &misled}) {
+      each->addOdometry(now_s_, state_);
+    }
+    told = tracker_.step(now_s_);
+    tracker_.replaceCommand(sent);
+    untold = misled.step(now_s_);
+    state_ = rk4Step(
+        [&](double, const vessel::State& x) {
+          return vessel::stateDerivative(x, sent, vessel_.manoeuvring, vessel_.thrusters, {});
+        },
+        0.0, state_, 0.01);
+    now_s_ += 0.01;
+  }
+  EXPECT_LT(told.outside_force_n.norm(), 0.5);
+  EXPECT_GT(untold.outside_force_n.norm(), 5.0);
+}
+
+TEST_F(TrackerTest, NumbersItsStepsAndWhatTheyWereMadeWith) {
+  sail(0.1);
+  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_, 7));
+  const Command command = sail(0.2);
+  EXPECT_EQ(command.cycle, 30U);
+  EXPECT_EQ(command.odometry_taken, 30U);
+  EXPECT_NEAR(command.odometry_stamp_s, command.stamp_s, 1e-12);
+  EXPECT_EQ(command.order_taken, 7U);
+  tracker_.requestStop("asked", now_s_ + 0.1, 8);
+  const Command before = sail(0.1);
+  EXPECT_EQ(before.order_taken, 8U);
+  EXPECT_EQ(before.mode, Mode::kTracking);
+  EXPECT_EQ(sail(0.05).reason, "asked");
+}
+
 TEST_F(TrackerTest, StopsOnRequestAndSailsOnWithTheNextTrajectory) {
   ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
   sail(10.0);
