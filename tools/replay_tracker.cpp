@@ -77,15 +77,59 @@ Status assign(YAML::Node options, const std::string& text) {
   return {};
 }
 
-// The recorded options with `changes` in them; the shipped ones where none are recorded.
-Result<tracker::Options> optionsWith(const RecordedRun& run,
-                                     const std::vector<std::string>& changes) {
-  YAML::Node node;
-  if (run.parameters.empty()) {
-    node = YAML::Load(config::toYaml(tracker::Options{}));
-  } else {
-    node = YAML::Clone(YAML::Load(run.parameters)["tracker"]);
+// Of `from`, what is in `to` as well; what is in one of them alone is named in `differ`.
+void overlay(const YAML::Node& from, YAML::Node to, const std::string& where,
+             std::vector<std::string>& differ) {
+  for (const auto& entry : from) {
+    const auto key = entry.first.as<std::string>();
+    if (!to[key]) {
+      differ.push_back(where + key);
+    } else if (entry.second.IsMap()) {
+      overlay(entry.second, to[key], where + key + ".", differ);
+    } else {
+      to[key] = entry.second;
+    }
   }
+  for (const auto& entry : to) {
+    const auto key = entry.first.as<std::string>();
+    if (!from[key]) {
+      differ.push_back(where + key);
+    }
+  }
+}
+
+// The recorded options; the shipped ones where none are recorded. Those of another version are an
+// error, or with `partial` the shipped ones stand where the two differ.
+Result<YAML::Node> optionsOf(const RecordedRun& run, bool partial,
+                             std::vector<std::string>& notes) {
+  const YAML::Node shipped = YAML::Load(config::toYaml(tracker::Options{}));
+  if (run.parameters.empty()) {
+    return shipped;
+  }
+  const YAML::Node recorded = YAML::Load(run.parameters)["tracker"];
+  if (!recorded || !recorded.IsMap()) {
+    return failure("tracker_node/parameters has no options of the tracker");
+  }
+  YAML::Node both = YAML::Clone(shipped);
+  std::vector<std::string> differ;
+  overlay(recorded, both, "tracker.", differ);
+  std::string names;
+  for (const std::string& name : differ) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (!differ.empty()) {
+    const std::string what = "recorded by another version, whose tracker has other options: " + names;
+    if (!partial) {
+      return failure(what + "; --partial takes the shipped ones for these");
+    }
+    notes.push_back(what);
+  }
+  return both;
+}
+
+Result<tracker::Options> optionsWith(const YAML::Node& recorded,
+                                     const std::vector<std::string>& changes) {
+  YAML::Node node = YAML::Clone(recorded);
   for (const std::string& change : changes) {
     if (const Status status = assign(node, change); !status) {
       return failure(status.error().message);
@@ -209,7 +253,7 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 Status sail(const Arguments& a, const RecordedRun& run, const vessel::Parameters& vessel,
-            const std::vector<std::string>& notes) {
+            const YAML::Node& recorded, const std::vector<std::string>& notes) {
   if (run.from_commands) {
     return failure(a.bag + ": closed loop needs otter_nav/TrackerCycle: without it no disturbance "
                            "was estimated");
@@ -236,7 +280,7 @@ Status sail(const Arguments& a, const RecordedRun& run, const vessel::Parameters
               "thrust N/s", "saturated", "yaw rad/s", "setting");
   nlohmann::json json = {{"simulated", true}, {"hull", a.hull}, {"notes", notes}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto options = optionsWith(run, rows[i].changes);
+    const auto options = optionsWith(recorded, rows[i].changes);
     if (!options) {
       return failure(options.error().message);
     }
@@ -272,16 +316,20 @@ Status run(const Arguments& a) {
     notes.push_back(what);
   }
   const Result<vessel::Parameters> vessel = vesselOf(*recorded, a.vessel);
-  const Result<tracker::Options> options = optionsWith(*recorded, a.set);
-  if (!vessel || !options) {
-    return failure(a.bag + ": " + (vessel ? options.error() : vessel.error()).message);
+  const Result<YAML::Node> told = optionsOf(*recorded, a.read.partial, notes);
+  if (!vessel || !told) {
+    return failure(a.bag + ": " + (vessel ? told.error() : vessel.error()).message);
+  }
+  const Result<tracker::Options> options = optionsWith(*told, a.set);
+  if (!options) {
+    return failure(options.error().message);
   }
   std::error_code error;
   std::filesystem::create_directories(a.out, error);
   if (error) {
     return failure(a.out + ": " + error.message());
   }
-  const Status status = a.closed_loop ? sail(a, *recorded, *vessel, notes)
+  const Status status = a.closed_loop ? sail(a, *recorded, *vessel, *told, notes)
                                       : compare(a, *recorded, *vessel, *options, notes);
   for (const std::string& note : notes) {
     std::printf("Note: %s\n", note.c_str());
