@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "otter_nav/trajectory/motion_along.hpp"
+
 namespace otter_nav::benchmark {
 
 Status dumpTrajectory(const trajectory::Trajectory& trajectory, const vessel::Parameters& vessel,
@@ -20,8 +22,9 @@ Status dumpTrajectory(const trajectory::Trajectory& trajectory, const vessel::Pa
   }
   std::fputs("t,x,y,psi,u,v,r,tau_u,tau_r\n", file.get());
   const double duration = trajectory.duration();
+  const trajectory::MotionAlong motion(trajectory, vessel, {});
   const auto row = [&](double t) {
-    const trajectory::Sample s = trajectory.sample(t, vessel);
+    const trajectory::Sample s = motion.sample(t);
     std::fprintf(file.get(), "%.9f,%.9f,%.9f,%.9f,%.9f,%.9f,%.9f,%.9f,%.9f\n", t, s.state[0],
                  s.state[1], s.state[2], s.state[3], s.state[4], s.state[5], s.tau.surge_n,
                  s.tau.yaw_nm);

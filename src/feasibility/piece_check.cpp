@@ -9,6 +9,7 @@
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::feasibility {
@@ -17,8 +18,12 @@ namespace {
 using trajectory::evaluate;
 using trajectory::speedBound;
 
-constexpr double kSlowMps = 1e-3;             // below it a course says nothing of the heading
-constexpr double kSwayN = 0.1;                // what pieces of degree 7 leave, next to the model
+constexpr double kSlowMps = 1e-3;  // below it a course says nothing of the heading
+constexpr double kSwayN = 0.1;     // what pieces of degree 7 leave, next to the model
+// By the manoeuvring model, whose heading is followed in steps: a centimetre aside in a second.
+constexpr double kSwayMps2 = 0.02;
+constexpr double kThrustSlack = 1.01;  // yaw accelerations are differences of the heading's steps
+constexpr double kWalkingMps = 0.3;    // slower, any side of the hull may come first
 constexpr double kLeastHeadingForceN = 1e-6;  // above rounding
 constexpr double kAcrossCosine = 0.02;        // heading and course nearer to a right angle: a jump
 
@@ -141,6 +146,60 @@ PieceCheck::Point PieceCheck::inSpin(double t_s) const {
   return p;
 }
 
+// A spin in place is set aside by what pushes abeam, and by its own turning: that is no fault, but
+// asks for room.
+void PieceCheck::checkSway(double sway_n, double allowed_n, PieceReport& report) const {
+  const double size = std::abs(sway_n);
+  if (size <= allowed_n) {
+    return;
+  }
+  const bool in_place = piece_.kind == trajectory::PieceKind::kSpin &&
+                        piece_.position.rightCols<trajectory::kCoefficients - 1>().isZero(0.0);
+  const double turning =
+      vessel::paperHolds(vessel_)
+          ? 0.0
+          : std::abs(vessel_.manoeuvring.sway_from_yaw_kgmps) * limits_.yaw_rate_max_radps;
+  report.sway_n = std::max(report.sway_n, size);
+  if (!in_place || size > allowed_n + turning + inverse_.greatestLoadAbeam()) {
+    report.fault = Fault::kSway;
+  }
+}
+
+void PieceCheck::checkDynamics(const trajectory::MotionAlong& motion, std::size_t index,
+                               PieceReport& report) const {
+  const double allowed_n = kSwayMps2 * vessel_.manoeuvring.sway_inertia_kg;
+  report.heading_force_n = std::numeric_limits<double>::infinity();
+  const double start = motion.points()[motion.firstOf(index)].t_s;
+  Sampled left;
+  Sampled right;
+  for (std::size_t k = motion.firstOf(index); k < motion.firstOf(index + 1); ++k) {
+    const trajectory::MotionAlong::Point& p = motion.points()[k];
+    report.thrust_share =
+        std::max({report.thrust_share,
+                  left.bound(vessel::shareOfLimit(p.thrusts[vessel::kLeft], vessel_.thrusters)),
+                  right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
+    report.speed_mps = std::max(report.speed_mps, p.speed_mps);
+    report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
+    const Fault before = report.fault;
+    if (before == Fault::kNone) {
+      checkSway(p.sway_n, allowed_n, report);
+      const Eigen::Vector2d through = inverse_.throughWater(evaluate<7>(velocity_, p.t_s - start));
+      const Eigen::Vector2d bow(std::cos(p.psi_rad), std::sin(p.psi_rad));
+      if (piece_.kind == trajectory::PieceKind::kSail && through.norm() > kWalkingMps &&
+          bow.dot(through) < kAcrossCosine * through.norm()) {
+        report.fault = Fault::kHeadingJump;
+      } else if (report.thrust_share > kThrustSlack * limits_.thrust_share) {
+        report.fault = Fault::kThrust;
+      } else if (report.speed_mps > limits_.speed_max_mps) {
+        report.fault = Fault::kSpeed;
+      } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
+        report.fault = Fault::kYawRate;
+      }
+      report.time_s = p.t_s - start;
+    }
+  }
+}
+
 void PieceCheck::checkSpin(PieceReport& report) const {
   const int steps =
       std::max(2, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
@@ -155,9 +214,11 @@ void PieceCheck::checkSpin(PieceReport& report) const {
                   right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
     report.speed_mps = std::max(report.speed_mps, p.velocity.norm());
     report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
-    if (std::abs(p.sway_n) > kSwayN) {
-      report.fault = Fault::kSway;
-    } else if (report.thrust_share > limits_.thrust_share) {
+    checkSway(p.sway_n, kSwayN, report);
+    if (report.fault != Fault::kNone) {
+      continue;
+    }
+    if (report.thrust_share > limits_.thrust_share) {
       report.fault = Fault::kThrust;
     } else if (report.speed_mps > limits_.speed_max_mps) {
       report.fault = Fault::kSpeed;
@@ -220,9 +281,17 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
 }
 
 // Turning moves the ends besides; 1.1 and 0.01 for what the yaw rate's samples may have missed.
-void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s,
-                                PieceReport& report) const {
+void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s, PieceReport& report,
+                                const trajectory::MotionAlong* motion) const {
   const HullCover hull(limits_.hull);
+  const double wanted = limits_.clearance_m + report.slide_m;
+  const auto bow = [&](double t) -> Eigen::Vector2d {
+    if (motion == nullptr) {
+      return bowAt(t);
+    }
+    const double psi = motion->psi(start_s + t);
+    return {std::cos(psi), std::sin(psi)};
+  };
   const bool whole = tolerances_.keep_hull_clear;
   const double turning = hull.offset_m * (1.1 * report.yaw_rate_radps + 0.01);
   const double approach =
@@ -232,16 +301,15 @@ void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s,
   const auto slack = [&](double t) {
     const Eigen::Vector2d p = evaluate<8>(piece_.position, t);
     const double now = start_s + t;
-    const double left =
-        whole ? hull.slack(
-                    obstacles, p, now, limits_.clearance_m, [&] { return bowAt(t); }, centre)
-              : (centre = obstacles.clearance(p, now)) - limits_.clearance_m;
+    const double left = whole ? hull.slack(
+                                    obstacles, p, now, wanted, [&] { return bow(t); }, centre)
+                              : (centre = obstacles.clearance(p, now)) - wanted;
     report.clearance_m = std::min(report.clearance_m, centre);
     return left;
   };
   if (const auto conflict = firstConflict(0.0, piece_.duration_s, approach, slack)) {
     report.time_s = *conflict;
-    report.fault = centre - limits_.clearance_m < kLeastSlackM ? Fault::kClearance : Fault::kHull;
+    report.fault = centre - wanted < kLeastSlackM ? Fault::kClearance : Fault::kHull;
   }
 }
 

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "otter_nav/stopping/splice.hpp"
-#include "otter_nav/vessel/inverse_dynamics.hpp"
+#include "otter_nav/trajectory/motion_along.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -51,7 +52,8 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
   if (!at) {
     return std::nullopt;
   }
-  const trajectory::Sample sample = sailed.trajectory.sample(*at, vessel_, safety.weather().mean());
+  const trajectory::Sample sample =
+      trajectory::MotionAlong(sailed.trajectory, vessel_, safety.weather().mean()).sample(*at);
   PlanRequest request;
   request.query.start.flat = sample.flat;
   request.query.start.psi_rad = sample.state[vessel::kPsi];
@@ -71,7 +73,8 @@ std::optional<double> PlanRequests::joint(double now_s,
 PlanRequest PlanRequests::onward(double now_s, trajectory::TimedTrajectory lead,
                                  double thrust_share, const vessel::Pose& goal,
                                  const feasibility::Obstacles& obstacles) {
-  const trajectory::Sample sample = lead.trajectory.sample(lead.trajectory.duration(), vessel_);
+  const trajectory::Sample sample =
+      trajectory::MotionAlong(lead.trajectory, vessel_, {}).sample(lead.trajectory.duration());
   PlanRequest request;
   request.query.start.flat = sample.flat;
   request.query.start.psi_rad = sample.state[vessel::kPsi];
@@ -88,8 +91,8 @@ PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
   const double share = safety.nextThrustShare();
   PlanRequest request;
   request.query.start.flat =
-      vessel::InverseDynamics(vessel_, safety.weather().mean())
-          .fromState(state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n);
+      vessel::pathFromState(state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n,
+                            vessel_, safety.weather().mean());
   request.query.start.flat.position += latency.seconds() * request.query.start.flat.velocity;
   // One that has hardly got under way is better launched again than led on from next to nothing.
   constexpr double kHardlyMovingMps = 0.25;

@@ -13,6 +13,7 @@
 #include "optimizer/solve/initial_spline.hpp"
 #include "optimizer/solve/spline_solver.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -25,6 +26,7 @@ constexpr double kSpinShare = 0.97;
 constexpr double kTurnShare = 0.905;
 
 constexpr int kRounds = 5;
+constexpr double kMostKeptShare = 0.5;  // of a thruster's force, for what the objective leaves out
 constexpr int kIterationsPerRound = 12;
 constexpr double kWeightGrowth = 1.5;  // of the weights of what fails, from round to round
 // A trajectory that asks for this share too much of a thruster is slowed down to suit.
@@ -110,6 +112,7 @@ class GlobalOptimizer::Solver {
     problem_.targets.limits = attempt.limits;
     problem_.targets.weights = attempt.weights;
     problem_.targets.obstacles = obstacles_;
+    problem_.targets.kept_n.clear();
     problem_.setDisturbance(limits_.disturbance);
     initial_.options = attempt.initial;
     end_options_ = attempt.ends;
@@ -131,12 +134,13 @@ class GlobalOptimizer::Solver {
       followEnds();
       const bool last = round + 1 == kRounds;
       verifyDilated(last ? 2.0 * kDilationMax : kDilationMax);
+        fprintf(stderr, "TMP attempt %d round %d: %s dur %.2f\n", number, round,
+                result_.verification.reason.c_str(), result_.trajectory.duration());
       if (result_.verification.ok) {
         quicken(stop);
         return true;
       }
-      const bool hopeless =
-          round >= kPatience && worstExcess(result_.trajectory, vessel_, limits_) > kHopeless;
+      const bool hopeless = round >= kPatience && excess() > kHopeless;
       if (hopeless || outOfTime()) {
         return false;
       }
@@ -207,6 +211,10 @@ class GlobalOptimizer::Solver {
     }
   }
 
+  [[nodiscard]] double excess() const {
+    return worstExcess(result_.trajectory, vessel_, limits_, start_->psi_rad);
+  }
+
   // Verifies; what asks for a little too much thrust is slowed down: between the manoeuvres time
   // runs slower by a factor, which leaves the shape as it is but for the pieces next to them.
   void verifyDilated(double dilation_max) {
@@ -214,7 +222,7 @@ class GlobalOptimizer::Solver {
     const Spline shape = spline_;
     result_.trajectory = assemble(chosen_, spline_);
     for (int i = 0; i < kTries; ++i) {
-      const double excess = worstExcess(result_.trajectory, vessel_, limits_);
+      const double excess = this->excess();
       if (excess <= 0.0 || excess > dilation_max) {
         break;
       }
@@ -229,7 +237,9 @@ class GlobalOptimizer::Solver {
   // What failed is wanted more strictly, and its weight raised.
   void tighten() {
     const feasibility::Verification& v = result_.verification;
-    if (v.thrust_share > limits_.thrust_share) {
+    if (v.thrust_share > limits_.thrust_share && !vessel::paperHolds(vessel_)) {
+      keepThrustWhereItLacks();
+    } else if (v.thrust_share > limits_.thrust_share) {
       const double excess = std::min(v.thrust_share - limits_.thrust_share, 0.04);
       problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
       problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
@@ -241,6 +251,27 @@ class GlobalOptimizer::Solver {
       problem_.targets.weights.clearance *= kWeightGrowth;
       problem_.targets.weights.dynamics *= kWeightGrowth;
     }
+  }
+
+  // The objective's thrusts are the paper's model's. Where the manoeuvring model asks for more, as
+  // much is kept back.
+  void keepThrustWhereItLacks() {
+    constexpr double kMoreN = 0.01;  // of a thruster's force
+    const double most_n = vessel_.thrusters.ahead_max_n;
+    const AtPoints excess_n =
+        excessAlong(assemble(chosen_, spline_), chosen_.start.manoeuvre.pieces.size(),
+                    spline_.spans.size(), vessel_, limits_, start_->psi_rad);
+    AtPoints& kept_n = problem_.targets.kept_n;
+    kept_n.resize(excess_n.size());
+    for (std::size_t i = 0; i < excess_n.size(); ++i) {
+      for (std::size_t k = 0; k < excess_n[i].size(); ++k) {
+        if (excess_n[i][k] > 0.0) {
+          kept_n[i][k] =
+              std::min(kept_n[i][k] + excess_n[i][k] + kMoreN * most_n, kMostKeptShare * most_n);
+        }
+      }
+    }
+    problem_.targets.weights.dynamics *= kWeightGrowth;
   }
 
   Result<Optimized> lastResort(const std::vector<Eigen::Vector2d>& path) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/trajectory/motion_along.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/parameters.hpp"
@@ -32,6 +33,8 @@ struct PieceReport {
   double yaw_rate_radps = 0.0;
   double heading_force_n = 0.0;  // least; infinite on straight pieces
   double clearance_m = 0.0;
+  double sway_n = 0.0;   // most, of a spin in place that is more than the model's own error
+  double slide_m = 0.0;  // how far the hull may be aside of the piece: more room is asked for
 };
 
 class PieceCheck {
@@ -46,14 +49,22 @@ class PieceCheck {
 
   // Fills all of the report but the clearance.
   void checkDynamics(PieceReport& report) const;
+  // The same by the manoeuvring model: the piece is number `index` of the trajectory `motion` is
+  // of.
+  void checkDynamics(const trajectory::MotionAlong& motion, std::size_t index,
+                     PieceReport& report) const;
   // `start_s`: when the piece begins, from the trajectory's start. Needs the report's yaw rate.
-  void checkClearance(const Obstacles& obstacles, double start_s, PieceReport& report) const;
+  // With `motion` the heading is that motion's.
+  void checkClearance(const Obstacles& obstacles, double start_s, PieceReport& report,
+                      const trajectory::MotionAlong* motion = nullptr) const;
 
  private:
   struct Point;
   [[nodiscard]] Point at(double t_s) const;
   [[nodiscard]] Point inSpin(double t_s) const;
   void checkSpin(PieceReport& report) const;
+  // Of a piece of the kind this one is; sets the fault and, in a spin, what sets it aside.
+  void checkSway(double sway_n, double allowed_n, PieceReport& report) const;
   [[nodiscard]] Eigen::Vector2d bowAt(double t_s) const;
 
   const trajectory::Piece& piece_;

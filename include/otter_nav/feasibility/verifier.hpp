@@ -49,7 +49,8 @@ struct Verification {
                                   const trajectory::Boundary& start,
                                   const trajectory::Boundary& goal, const SafetyLimits& limits,
                                   const Tolerances& tolerances = {});
-// Without ends to meet: a part of a trajectory, or one sailed already.
+// Without ends to meet: a part of a trajectory, or one sailed already. By the paper's model for all
+// vessels, as the heading at its start is not known.
 [[nodiscard]] Verification verify(const trajectory::Trajectory& trajectory,
                                   const Obstacles& obstacles, const vessel::Parameters& vessel,
                                   const SafetyLimits& limits, const Tolerances& tolerances = {});

@@ -148,9 +148,17 @@ class InverseDynamics {
     const Eigen::Vector2d e = ahead / std::max(ahead.norm(), 1e-9);
     return force - wind(e).x * e;
   }
+  // What pushes a hull at rest along `ahead`, N; zero in calm water.
+  [[nodiscard]] double loadAhead(const Eigen::Vector2d& ahead) const {
+    return ahead.dot(surge_offset_n_) + air(ahead).x;
+  }
   // What pushes a hull at rest to port of `ahead`, N; zero in calm water.
   [[nodiscard]] double loadAbeam(const Eigen::Vector2d& ahead) const {
     return cross(ahead, sway_offset_n_) + air(ahead).y;
+  }
+  [[nodiscard]] double greatestLoadAbeam() const {
+    return sway_offset_n_.norm() +
+           (windy_ ? wind_.wind_sway_kgpm * disturbance_.wind_mps.squaredNorm() : 0.0);
   }
   // The most that wind, current and force push a hull at rest with along its length, N.
   [[nodiscard]] double greatestLoad() const {

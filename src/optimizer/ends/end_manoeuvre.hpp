@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "otter_nav/trajectory/piece.hpp"
+#include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::optimizer {
@@ -26,6 +27,7 @@ struct ManoeuvreLimits {
   double brake_ramp_s = 0.4;  // from ahead to full astern
   double astern_share = 0.9;  // of the force, while braking
   bool settle = false;        // the launch ends its turn before it goes ahead
+  vessel::Disturbance disturbance;  // under which the hull drifts while it turns and brakes
 };
 
 struct Manoeuvre {

@@ -39,7 +39,12 @@ vessel::FlatPoint ForcedMotion::pushed(const Motion& motion, double t_s, double 
   vessel::FlatPoint z;
   z.position = motion.position;
   z.velocity = motion.velocity;
-  inverse_.push(turned[0], turned[1], force.force_n, force.slope_nps, z);
+  if (paper_holds_) {
+    inverse_.push(turned[0], turned[1], force.force_n, force.slope_nps, z);
+  } else {
+    vessel::push(manoeuvring_, disturbance_, {turned[0], turned[1], turned[2]}, force.force_n,
+                 force.slope_nps, z);
+  }
   return z;
 }
 
@@ -48,8 +53,12 @@ ForcedMotion::Motion ForcedMotion::integrate(const Motion& motion, double from_s
   const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to_s - from_s) / kStepS)));
   const double h = (to_s - from_s) / steps;
   const double within = 0.5 * (from_s + to_s);
-  const auto acceleration = [&](const Eigen::Vector2d& velocity, double t) {
-    return inverse_.pushed(heading(t, within)[0], surge(t).force_n, velocity);
+  using Eigen::Vector2d;
+  const auto acceleration = [&](const Vector2d& velocity, double t) -> Vector2d {
+    if (paper_holds_) {
+      return inverse_.pushed(heading(t, within)[0], surge(t).force_n, velocity);
+    }
+    return pushed({Vector2d::Zero(), velocity}, t, within).acceleration;
   };
   Motion now = motion;
   for (int i = 0; i < steps; ++i) {

@@ -1,5 +1,5 @@
-// The paper's model under a given turn and a given surge force, in the frame of the turn's first
-// heading, turning left; and the trajectory's pieces that follow it.
+// The vessel under a given turn and a given surge force, by the model its plans are made with, in
+// the frame of the turn's first heading, turning left; and the trajectory's pieces that follow it.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +8,7 @@
 #include "optimizer/ends/turn_profile.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::optimizer {
@@ -28,9 +29,15 @@ class ForcedMotion {
   };
 
   // `turn` may be null: no turn. Ramps in order of time; before and between them the force is held.
-  ForcedMotion(const vessel::Parameters& vessel, const TurnProfile* turn,
-               std::vector<SurgeRamp> ramps)
-      : inverse_(vessel), turn_(turn), ramps_(std::move(ramps)) {}
+  // `disturbance` as seen from that frame.
+  ForcedMotion(const vessel::Parameters& vessel, const vessel::Disturbance& disturbance,
+               const TurnProfile* turn, std::vector<SurgeRamp> ramps)
+      : inverse_(vessel, disturbance),
+        manoeuvring_(vessel.manoeuvring),
+        disturbance_(disturbance),
+        paper_holds_(vessel::paperHolds(vessel)),
+        turn_(turn),
+        ramps_(std::move(ramps)) {}
 
   void clearRamps() { ramps_.clear(); }
   void addFirst(const SurgeRamp& ramp) { ramps_.insert(ramps_.begin(), ramp); }
@@ -55,6 +62,9 @@ class ForcedMotion {
   [[nodiscard]] vessel::FlatPoint pushed(const Motion& motion, double t_s, double within_s) const;
 
   vessel::InverseDynamics inverse_;
+  vessel::ManoeuvringModel manoeuvring_;
+  vessel::Disturbance disturbance_;
+  bool paper_holds_;
   const TurnProfile* turn_;
   std::vector<SurgeRamp> ramps_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "optimizer/ends/turn_profile.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -14,8 +15,9 @@ TurnProfile profileOf(double turn_rad, const vessel::Parameters& vessel, const S
   const vessel::Thrusters& t = vessel.thrusters;
   const double moment =
       2.0 * t.lever_arm_m * limits.thrust_share * std::min(t.ahead_max_n, t.astern_max_n);
-  return turnToRest(std::abs(turn_rad), moment / vessel.paper.d3_kgm2ps, limits.yaw_rate_max_radps,
-                    vessel.paper.m2_kgm2 / vessel.paper.d3_kgm2ps, limits.ramp_s);
+  const vessel::TurnLaw law = vessel::turnLaw(vessel, moment);
+  return turnToRest(std::abs(turn_rad), law.r_full, limits.yaw_rate_max_radps, law.lag_s,
+                    limits.ramp_s);
 }
 
 vessel::FlatPoint headingPoint(const Eigen::Vector4d& turned, double psi_start_rad, double sign) {

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "optimizer/objective/spline.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
@@ -43,6 +45,13 @@ struct Targets {
   // Not owned; null: no such term.
   const feasibility::Obstacles* obstacles = nullptr;
   const Originals* originals = nullptr;
+  // Of each thruster's limits, kept back for what the objective's model leaves out; one a
+  // quadrature point of each piece, or empty.
+  std::vector<std::array<double, trajectory::kLobattoPoints>> kept_n;
+
+  [[nodiscard]] double keptAt(std::size_t piece, std::size_t point) const {
+    return kept_n.empty() ? 0.0 : kept_n[piece][point];
+  }
 };
 
 // Derivatives of a scalar by position, velocity, acceleration, jerk and snap (columns).

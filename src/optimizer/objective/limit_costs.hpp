@@ -31,11 +31,12 @@ class ThrustLimit final : public Cost {
   void add(const Targets& targets, Point& point) const override {
     const vessel::FlatGradient& g = point.demand();
     const double weight = targets.weights.dynamics;
+    const double kept = targets.keptAt(point.piece.index, point.number);
     for (const double side : {-1.0, 1.0}) {
       const double thrust = 0.5 * (g.surge_n + side * g.difference_n);
       for (const double sign : {1.0, -1.0}) {
         const double most =
-            sign > 0.0 ? targets.limits.thrust_ahead_n : targets.limits.thrust_astern_n;
+            (sign > 0.0 ? targets.limits.thrust_ahead_n : targets.limits.thrust_astern_n) - kept;
         const double inverse = sign > 0.0 ? inverse_ahead_ : inverse_astern_;
         point.addHinge(weight, (sign * thrust - most) * inverse, kForceKnee, [&] {
           return byDerivatives(0.5 * (g.surge + side * g.difference), sign * inverse);

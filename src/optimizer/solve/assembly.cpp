@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "otter_nav/feasibility/piece_check.hpp"
+#include "otter_nav/trajectory/motion_along.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -35,7 +38,7 @@ trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline) {
 }
 
 double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Parameters& vessel,
-                   const feasibility::SafetyLimits& safety) {
+                   const feasibility::SafetyLimits& safety, double psi_start_rad) {
   feasibility::SafetyLimits open = safety;
   open.thrust_share = 1e3;
   open.speed_max_mps = 1e3;
@@ -43,6 +46,18 @@ double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Param
   feasibility::Tolerances tolerances;
   tolerances.heading_force_share = 0.0;
   feasibility::PieceReport worst;
+  if (!vessel::paperHolds(vessel)) {
+    const trajectory::MotionAlong motion(trajectory, vessel, safety.disturbance, psi_start_rad);
+    for (const trajectory::MotionAlong::Point& p : motion.points()) {
+      worst.thrust_share =
+          std::max({worst.thrust_share, vessel::shareOfLimit(p.thrusts[0], vessel.thrusters),
+                    vessel::shareOfLimit(p.thrusts[1], vessel.thrusters)});
+      worst.speed_mps = std::max(worst.speed_mps, p.speed_mps);
+    }
+    return std::max(worst.thrust_share / safety.thrust_share,
+                    worst.speed_mps / safety.speed_max_mps) -
+           1.0;
+  }
   for (const trajectory::Piece& piece : trajectory.pieces()) {
     feasibility::PieceReport report;
     feasibility::PieceCheck(piece, vessel, open, tolerances).checkDynamics(report);
@@ -52,6 +67,35 @@ double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Param
   return std::max(worst.thrust_share / safety.thrust_share,
                   worst.speed_mps / safety.speed_max_mps) -
          1.0;
+}
+
+AtPoints excessAlong(const trajectory::Trajectory& trajectory, std::size_t first_span,
+                     std::size_t spans, const vessel::Parameters& vessel,
+                     const feasibility::SafetyLimits& safety, double psi_start_rad) {
+  const trajectory::MotionAlong motion(trajectory, vessel, safety.disturbance, psi_start_rad);
+  const auto& at = trajectory::kLobatto.at;
+  AtPoints excess_n(spans);
+  for (std::size_t i = 0; i < spans; ++i) {
+    excess_n[i].fill(0.0);
+    const std::size_t from = motion.firstOf(first_span + i);
+    const std::size_t to = motion.firstOf(first_span + i + 1);
+    std::size_t after = 1;
+    for (std::size_t k = from; k < to; ++k) {
+      const double where = static_cast<double>(k - from) / static_cast<double>(to - from - 1);
+      while (after + 1 < at.size() && at[after] < where) {
+        ++after;
+      }
+      for (const double thrust_n : motion.points()[k].thrusts) {
+        const double share = vessel::shareOfLimit(thrust_n, vessel.thrusters);
+        if (share > safety.thrust_share) {
+          const double more_n = std::abs(thrust_n) * (1.0 - safety.thrust_share / share);
+          excess_n[i][after - 1] = std::max(excess_n[i][after - 1], more_n);
+          excess_n[i][after] = std::max(excess_n[i][after], more_n);
+        }
+      }
+    }
+  }
+  return excess_n;
 }
 
 void dilate(double factor, Spline& spline) {

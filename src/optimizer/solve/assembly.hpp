@@ -1,9 +1,13 @@
 // A spline and the manoeuvres at its ends as one trajectory, and how much it asks for.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "optimizer/ends/path_ends.hpp"
 #include "optimizer/objective/spline_problem.hpp"
 #include "otter_nav/feasibility/safety_limits.hpp"
+#include "otter_nav/trajectory/polynomial/quadrature.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 
 namespace otter_nav::optimizer {
@@ -11,9 +15,17 @@ namespace otter_nav::optimizer {
 [[nodiscard]] trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline);
 
 // The largest share by which a limit of thrust or speed is exceeded anywhere; negative: none is.
+// `psi_start_rad`: the heading at its start.
 [[nodiscard]] double worstExcess(const trajectory::Trajectory& trajectory,
                                  const vessel::Parameters& vessel,
-                                 const feasibility::SafetyLimits& safety);
+                                 const feasibility::SafetyLimits& safety, double psi_start_rad);
+
+// At each quadrature point of each span, N: how much more than its share a thruster is asked for up
+// to the next points, by the manoeuvring model.
+using AtPoints = std::vector<std::array<double, trajectory::kLobattoPoints>>;
+[[nodiscard]] AtPoints excessAlong(const trajectory::Trajectory& trajectory, std::size_t first_span,
+                                   std::size_t spans, const vessel::Parameters& vessel,
+                                   const feasibility::SafetyLimits& safety, double psi_start_rad);
 
 // Lets time run slower by a factor, which leaves the shape as it is but for the second and last but
 // one pieces: the outermost stay, as their ends are the manoeuvres'.

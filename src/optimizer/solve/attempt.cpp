@@ -5,6 +5,7 @@
 
 #include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -61,6 +62,10 @@ EndOptions endsOf(const Care& care, const vessel::Parameters& vessel,
   ends.limits.thrust_share = thrust_share;
   ends.limits.yaw_rate_max_radps = kYawRateShare * safety.yaw_rate_max_radps;
   ends.careful = care.careful;
+  ends.limits.disturbance = safety.disturbance;
+  if (!vessel::paperHolds(vessel)) {
+    ends.limits.drift_mps = 0.0;
+  }
   const double top =
       std::min(2.0 * thrust_share * vessel.thrusters.ahead_max_n / vessel.paper.d1_kgps,
                kSpeedShare * safety.speed_max_mps);

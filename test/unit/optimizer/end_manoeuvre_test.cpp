@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/trajectory/motion_along.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
@@ -20,6 +22,7 @@ constexpr double kPsi = 0.7;
 vessel::Parameters otterLike() {
   vessel::Parameters vessel;
   vessel.paper = {83.5, 50.0, 78.9, 120.0, 84.8};
+  vessel.manoeuvring = vessel::ManoeuvringModel::fromPaper(vessel.paper);
   vessel.thrusters = {0.395, 119.7, 66.7, 0.1};
   return vessel;
 }
@@ -138,6 +141,78 @@ TEST_P(EndManoeuvreTest, TurningUnderWayIsQuickerThanTurningAtRest) {
   const Manoeuvre loose = launch(kPlace, kPsi, GetParam(), vessel, limits);
   limits.settle = true;
   EXPECT_LT(loose.duration_s, launch(kPlace, kPsi, GetParam(), vessel, limits).duration_s - 0.3);
+}
+
+// What the paper's five numbers do not hold: quadratic drag, Munk's moment, sway and yaw coupled.
+vessel::Parameters realHull() {
+  vessel::Parameters vessel = otterLike();
+  vessel::ManoeuvringModel& m = vessel.manoeuvring;
+  m.sway_inertia_kg = 65.0;
+  m.yaw_inertia_kgm2 = 40.0;
+  m.surge_centripetal_kg = 146.0;
+  m.sway_centripetal_kg = 39.0;
+  m.munk_kg = 68.0;
+  m.sway_drag_kgps = 56.0;
+  m.yaw_drag_kgm2ps = 31.0;
+  m.sway_drag_quadratic_kgpm = 184.0;
+  m.yaw_drag_quadratic_kgm2 = 527.0;
+  m.sway_from_yaw_kgmps = -9.7;
+  m.yaw_from_sway_kgmps = -20.0;
+  return vessel;
+}
+
+// Integrated from the first state under the thrusts of MotionAlong, with what pushes besides.
+void expectSailsUnder(const vessel::Disturbance& disturbance, const Manoeuvre& manoeuvre,
+                      const vessel::Parameters& vessel, double psi_rad, double thrust_share) {
+  const Trajectory trajectory(manoeuvre.pieces);
+  const trajectory::MotionAlong motion(trajectory, vessel, disturbance, psi_rad);
+  const vessel::ManoeuvringModel& model = vessel.manoeuvring;
+  constexpr double kStep = 2e-3;
+  vessel::State x = motion.sample(0.0).state;
+  vessel::Thrusts most = vessel::Thrusts::Zero();
+  vessel::Thrusts least = vessel::Thrusts::Zero();
+  for (double t = 0.0; t < trajectory.duration(); t += kStep) {
+    const vessel::Thrusts thrusts = motion.sample(t + 0.5 * kStep).thrusts;
+    most = most.cwiseMax(thrusts);
+    least = least.cwiseMin(thrusts);
+    const double h = std::min(kStep, trajectory.duration() - t);
+    const auto slope = [&](const vessel::State& state) {
+      return vessel::stateDerivative(state, thrusts, model, vessel.thrusters, disturbance);
+    };
+    x += h * slope(x + 0.5 * h * slope(x));
+  }
+  const vessel::State planned = motion.sample(trajectory.duration()).state;
+  EXPECT_LT((x.head<2>() - planned.head<2>()).norm(), 0.02);
+  EXPECT_LT(std::abs(wrapAngle(x[vessel::kPsi] - planned[vessel::kPsi])), 0.01);
+  EXPECT_LT(most.maxCoeff(), 1.03 * thrust_share * vessel.thrusters.ahead_max_n);
+  EXPECT_GT(least.minCoeff(), -1.03 * thrust_share * vessel.thrusters.astern_max_n);
+}
+
+TEST_P(EndManoeuvreTest, HoldsForARealHullAndUnderLoad) {
+  vessel::Disturbance load;
+  load.force_n = {5.0, -3.0};
+  load.current_mps = {0.05, 0.1};
+  load.moment_nm = 2.0;
+  vessel::Parameters paper = otterLike();
+  for (const vessel::Parameters& vessel : {realHull(), paper}) {
+    for (const vessel::Disturbance& disturbance : {vessel::Disturbance(), load}) {
+      ManoeuvreLimits limits;
+      limits.drift_mps = 0.0;
+      limits.disturbance = disturbance;
+      const Manoeuvre out = launch(kPlace, kPsi, GetParam(), vessel, limits);
+      if (!vessel::paperHolds(vessel)) {
+        expectSailsUnder(disturbance, out, vessel, kPsi, limits.thrust_share);
+      }
+      const Manoeuvre in = arrival(kPlace, kPsi, GetParam(), 1.2, vessel, limits);
+      if (!vessel::paperHolds(vessel)) {
+        expectSailsUnder(disturbance, in, vessel, kPsi - GetParam(), limits.thrust_share);
+      }
+      const Trajectory trajectory(in.pieces);
+      const vessel::FlatPoint end = trajectory.flat(trajectory.duration());
+      EXPECT_LT((end.position - kPlace).norm(), 1e-9);
+      EXPECT_LT(end.velocity.norm(), vessel::paperHolds(vessel) ? 1e-6 : 0.2);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, EndManoeuvreTest,

@@ -1,0 +1,117 @@
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/base/planar.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
+
+namespace otter_nav::vessel {
+namespace {
+
+using Eigen::Vector2d;
+
+// Of a turn: the rate it reaches, of the one that all the moment holds, and where it is led to, of
+// that.
+constexpr double kReachedShare = 0.97;
+constexpr double kFullShare = 1.02;
+constexpr int kHalvings = 40;
+// Of the thrust ahead, at least, with which a path leads on: a hull that is hardly pushed has a
+// heading that its path does not decide.
+constexpr double kOnwardShare = 0.35;
+
+// `value` that changes with time by `rate`.
+auto changing(double value, double rate) {
+  return dual::chain(value, rate, variable<0>(0.0));
+}
+
+}  // namespace
+
+bool paperHolds(const Parameters& vessel) {
+  const PaperModel& p = vessel.paper;
+  const ManoeuvringModel& m = vessel.manoeuvring;
+  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); };
+  const bool couples = m.munk_kg != 0.0 || m.sway_from_yaw_kgmps != 0.0 ||
+                       m.yaw_from_sway_kgmps != 0.0 || m.surge_drag_quadratic_kgpm != 0.0 ||
+                       m.sway_drag_quadratic_kgpm != 0.0 || m.yaw_drag_quadratic_kgm2 != 0.0;
+  return !couples && same(m.surge_inertia_kg, p.m1_kg) && same(m.sway_inertia_kg, p.m1_kg) &&
+         same(m.yaw_inertia_kgm2, p.m2_kgm2) && same(m.surge_drag_kgps, p.d1_kgps) &&
+         same(m.sway_drag_kgps, p.d2_kgps) && same(m.yaw_drag_kgm2ps, p.d3_kgm2ps);
+}
+
+void push(const ManoeuvringModel& model, const Disturbance& disturbance, const Swing& swing,
+          double surge_n, double surge_rate_nps, FlatPoint& motion) {
+  const Mobility mobility(model);
+  const Vector2d e(std::cos(swing.psi_rad), std::sin(swing.psi_rad));
+  const Vector2d n = across(e);
+  const double r = swing.yaw_rate_radps;
+  const double r1 = swing.yaw_acceleration;
+  const Vector2d& current = disturbance.current_mps;
+  const double u = e.dot(motion.velocity);
+  const double v = n.dot(motion.velocity);
+  const auto now = bodyAcceleration(model, mobility, outsideForce(e.x(), e.y(), model, disturbance),
+                                    e.dot(current), n.dot(current), u, v, r, surge_n, 0.0);
+  // Earth-fixed acceleration seen from the hull, and its rate.
+  const double ahead = now.surge - r * v;
+  const double port = now.sway + r * u;
+  motion.acceleration = ahead * e + port * n;
+  const auto cosine = changing(e.x(), -r * e.y());
+  const auto sine = changing(e.y(), r * e.x());
+  const auto later =
+      bodyAcceleration(model, mobility, outsideForce(cosine, sine, model, disturbance),
+                       aheadPart(cosine, sine, current.x(), current.y()),
+                       portPart(cosine, sine, current.x(), current.y()), changing(u, now.surge),
+                       changing(v, now.sway), changing(r, r1), changing(surge_n, surge_rate_nps),
+                       changing(0.0, 0.0));
+  const double ahead_rate = slope<0>(later.surge) - r1 * v - r * now.sway;
+  const double port_rate = slope<0>(later.sway) + r1 * u + r * now.surge;
+  motion.jerk = (ahead_rate - r * port) * e + (port_rate + r * ahead) * n;
+}
+
+FlatPoint pathFromState(const State& state, double force_max_n, const Parameters& vessel,
+                        const Disturbance& disturbance) {
+  if (paperHolds(vessel)) {
+    return InverseDynamics(vessel, disturbance).fromState(state, force_max_n);
+  }
+  const double psi = state[kPsi];
+  const Vector2d e(std::cos(psi), std::sin(psi));
+  FlatPoint z;
+  z.position = state.head<2>();
+  z.velocity = state[kSurge] * e + state[kSway] * across(e);
+  const Demand steady =
+      demandOf(vessel.manoeuvring, disturbance, psi, 0.0, 0.0, z.velocity, Vector2d::Zero());
+  push(vessel.manoeuvring, disturbance, {psi, state[kYawRate], 0.0},
+       std::min(std::max(steady.tau.surge_n, 2.0 * kOnwardShare * vessel.thrusters.ahead_max_n),
+                force_max_n),
+       0.0, z);
+  return z;
+}
+
+TurnLaw turnLaw(const Parameters& vessel, double moment_nm) {
+  if (paperHolds(vessel)) {
+    const double drag = vessel.paper.d3_kgm2ps;
+    return {vessel.paper.m2_kgm2 / drag, moment_nm / drag};
+  }
+  // At the top rate Nrr r^2 + Nr r = M. Below it, with k = I / lag and r_full a little over the
+  // rate c that is reached, the way up asks for no more than M if k c does not; the way back for
+  //   k r_full + max over r <= c of (k - Nr) r - Nrr r^2,
+  // which k makes just M.
+  const double nr = vessel.manoeuvring.yaw_drag_kgm2ps;
+  const double nrr = vessel.manoeuvring.yaw_drag_quadratic_kgm2;
+  const double top = 2.0 * moment_nm / (nr + std::sqrt(nr * nr + 4.0 * nrr * moment_nm));
+  const double reached = kReachedShare * top;
+  const double r_full = kFullShare * reached;
+  const auto back = [&](double k) {
+    const double hardest = std::min(std::max(k - nr, 0.0) / (2.0 * nrr + 1e-12), reached);
+    return k * r_full + (k - nr) * hardest - nrr * hardest * hardest;
+  };
+  double low = 0.0;
+  double high = moment_nm / r_full;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double k = 0.5 * (low + high);
+    (back(k) < moment_nm ? low : high) = k;
+  }
+  return {vessel.manoeuvring.yaw_inertia_kgm2 / low, r_full};
+}
+
+}  // namespace otter_nav::vessel
