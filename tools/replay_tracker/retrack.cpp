@@ -29,9 +29,10 @@ class OdometryFeed {
 
   // What `cycle` took; an error where the recording has more or less.
   Status give(const RecordedCycle& cycle, Tracker& tracker) {
-    if (first_ && cycle.number > 1) {
+    if (!begun_ && cycle.number > 1 && cycle.odometry_taken > 0) {
       taken_ = cycle.odometry_taken - 1;  // begun cold: the rest is not to be had
     }
+    begun_ = true;
     const std::uint64_t wanted = cycle.odometry_taken - taken_;
     taken_ = cycle.odometry_taken;
     if (wanted == 0) {
@@ -66,7 +67,8 @@ class OdometryFeed {
   const std::vector<RecordedOdometry>& all_;
   std::size_t next_ = 0;
   std::uint64_t taken_ = 0;
-  bool first_ = true;
+  bool begun_ = false;  // with the run's first step
+  bool first_ = true;   // no odometry yet
 };
 
 // Hands the trajectories over before the steps that took them.
