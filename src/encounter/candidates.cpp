@@ -187,8 +187,8 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
                                            water.sailed.legs.front().velocity},
                                           other.motion)
                               .time_s;
-      waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 0.5));
-      waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 4.5));
+      waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 3.0));
+      waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 7.0));
     }
   }
   std::sort(waits.begin(), waits.end());

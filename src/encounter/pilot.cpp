@@ -24,6 +24,53 @@ constexpr double kBetterS = 6.0;
 constexpr double kPeriodS = 1.0;
 constexpr double kUnderWayS = 15.0;  // at most, until the cruising speed is reached
 
+// A straight line through the positions of the last while: a track's own velocity follows each
+// scan and wanders more than a course kept does.
+class SteadyLine {
+ public:
+  void restart(double now_s) {
+    *this = SteadyLine();
+    since_s_ = now_s;
+  }
+  void add(double now_s, const Eigen::Vector2d& position) {
+    constexpr double kMemoryS = 20.0;
+    const double step = weight_ > 0.0 ? now_s - last_s_ : 0.0;
+    if (weight_ > 0.0 && step <= 0.0) {
+      return;
+    }
+    last_s_ = now_s;
+    // Moments about now, older ones counting less.
+    time2_ += step * (step * weight_ - 2.0 * time_);
+    cross_ -= step * sum_;
+    time_ -= step * weight_;
+    const double keep = std::exp(-step / kMemoryS);
+    weight_ = keep * weight_ + 1.0;
+    time_ *= keep;
+    time2_ *= keep;
+    sum_ = keep * sum_ + position;
+    cross_ *= keep;
+  }
+  [[nodiscard]] double span() const { return last_s_ - since_s_; }
+  // Once there is enough of it.
+  [[nodiscard]] std::optional<Eigen::Vector2d> velocity() const {
+    constexpr double kEnoughS = 5.0;
+    const double spread = weight_ * time2_ - time_ * time_;
+    if (span() < kEnoughS || spread < 1e-6) {
+      return std::nullopt;
+    }
+    return Eigen::Vector2d((weight_ * cross_ - time_ * sum_) / spread);
+  }
+
+ private:
+  double since_s_ = 0.0;
+  double last_s_ = 0.0;
+  double weight_ = 0.0;
+  double time_ = 0.0;
+  double time2_ = 0.0;
+  Eigen::Vector2d sum_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d cross_ = Eigen::Vector2d::Zero();
+};
+
 // What is remembered of a track.
 struct Memory {
   traffic::Track track;
@@ -32,9 +79,9 @@ struct Memory {
   double began_s = 0.0;
   double aspect_rad = 0.0;
   double seen_s = 0.0;
-  // Its steady velocity, and when it last changed; negative: never since it was first seen.
-  Eigen::Vector2d steady = Eigen::Vector2d::Zero();
-  double changed_s = -1.0;
+  SteadyLine line;
+  double off_since_s = -1.0;  // since when its velocity isn't the line's; negative: it is
+  double changed_s = -1.0;    // when it last left a line; negative: never since it was first seen
 };
 
 // A course of straight legs along a trajectory, from `from_s` on, times from `zero_s`.
@@ -120,7 +167,7 @@ class Pilot::Impl {
     const double zero = outset.now_s;
     Water water{outset.obstacles.field(), outset.limits.clearance_m, {}, {}, 0.0};
     water.sailed = along(outset.sailed, outset.joint_s, zero);
-    water.cruise_mps = cruise_mps_;
+    water.cruise_mps = cruiseOf(water.sailed);
     if (water.sailed.legs.empty() || water.sailed.legs.front().velocity.norm() < 0.3) {
       return std::nullopt;
     }
@@ -204,25 +251,34 @@ class Pilot::Impl {
   }
 
   void see(double now_s, const traffic::Track& track) {
-    const bool first = memories_.find(track.id) == memories_.end();
-    Memory& memory = memories_[track.id];
-    memory.track = track;
-    memory.motion = Motion{track.position, track.velocity}.after(now_s - track.stamp_s);
-    memory.seen_s = now_s;
+    const auto [place, first] = memories_.try_emplace(track.id);
+    Memory& memory = place->second;
     if (first) {
-      memory.steady = track.velocity;
+      memory.line.restart(now_s);
     }
-    constexpr double kChangeMps = 0.2;
-    constexpr double kSigmas = 3.0;
-    constexpr double kFollow = 0.02;
+    memory.track = track;
+    memory.seen_s = now_s;
+    memory.motion = Motion{track.position, track.velocity}.after(now_s - track.stamp_s);
+    memory.line.add(now_s, memory.motion.position);
+    const std::optional<Eigen::Vector2d> steady = memory.line.velocity();
+    if (!steady) {
+      return;
+    }
+    constexpr double kOffMps = 0.2;
+    constexpr double kSigmas = 1.5;
+    constexpr double kOffS = 1.5;
     const double deviation = std::sqrt(std::max(track.covariance(2, 2), track.covariance(3, 3)));
-    if ((track.velocity - memory.steady).norm() >
-        kChangeMps + 0.1 * track.velocity.norm() + kSigmas * deviation) {
+    const bool off = (track.velocity - *steady).norm() >
+                     kOffMps + 0.1 * steady->norm() + kSigmas * deviation;
+    memory.off_since_s = !off ? -1.0 : memory.off_since_s < 0.0 ? now_s : memory.off_since_s;
+    if (off && now_s - memory.off_since_s >= kOffS) {
       memory.changed_s = now_s;
-      memory.steady = track.velocity;
-    } else {
-      memory.steady += kFollow * (track.velocity - memory.steady);
+      memory.off_since_s = -1.0;
+      memory.line.restart(now_s);
+      memory.line.add(now_s, memory.motion.position);
+      return;
     }
+    memory.motion.velocity = *steady;
   }
 
   void follow(double now_s, Memory& memory) const {
@@ -241,7 +297,10 @@ class Pilot::Impl {
       return;
     }
     constexpr double kClearM = 40.0;
-    if (approach.time_s < 0.0 && range > kClearM) {
+    // Slowing down behind her is not past and clear: would our course and speed of then be?
+    const bool then_clear =
+        nearestApproach({own_.position, record.kept_velocity}, memory.motion).time_s < 0.0;
+    if (approach.time_s < 0.0 && then_clear && range > kClearM) {
       record = Record();
       return;
     }
@@ -293,6 +352,16 @@ class Pilot::Impl {
     return known;
   }
 
+  // What plans can keep to in this weather, at most what they may.
+  double cruiseOf(const Course& sailed) const {
+    constexpr double kLeastMps = 0.5;
+    double fastest = kLeastMps;
+    for (const Leg& leg : sailed.legs) {
+      fastest = std::max(fastest, leg.velocity.norm());
+    }
+    return std::min(cruise_mps_, fastest);
+  }
+
   std::vector<Other> othersNow(const map::DistanceField& field) const {
     std::vector<Other> others;
     for (const auto& [id, memory] : memories_) {
@@ -305,8 +374,11 @@ class Pilot::Impl {
       other.heading_rad = track.heading_rad;
       other.position_deviation_m =
           std::sqrt(0.5 * (track.covariance(0, 0) + track.covariance(1, 1)));
+      // The line's falls with the time it has been kept.
+      constexpr double kLineS = 4.0;
       other.velocity_deviation_mps =
-          std::sqrt(0.5 * (track.covariance(2, 2) + track.covariance(3, 3)));
+          std::sqrt(0.5 * (track.covariance(2, 2) + track.covariance(3, 3))) * kLineS /
+          std::max(kLineS, std::min(20.0, memory.line.span()));
       other.known_s = knownFor(memory, field);
       other.record = memory.record;
       other.record.since_s = memory.began_s - now_s_;

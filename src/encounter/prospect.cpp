@@ -17,6 +17,7 @@ constexpr double kTurnLeadS = 4.0;
 constexpr double kEarlyMoreM = 3.0;
 constexpr double kEarlyMoreS = 4.0;
 constexpr double kTurnMoreRad = 0.05;
+constexpr double kLaterS = 2.5;
 constexpr double kSlowShare = 0.48;
 constexpr double kAtOnceS = 5.0;  // if the risk arises late, the action follows within this
 constexpr double kBroadRad = 70.0 * kPi / 180.0;
@@ -189,7 +190,7 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
                              leg.from_s - record.since_s <= kAtOnceS;
           out.broken |= early ? 0U : kLate;
         } else {
-          const bool early = left.time_s + kTurnLeadS > options_.stand_on_until_s &&
+          const bool early = left.time_s + kTurnLeadS > options_.stand_on_until_s - kLaterS &&
                              from.norm() > options_.stand_on_until_m;
           out.broken |= early ? kActedEarly : 0U;
         }
