@@ -134,8 +134,6 @@ class GlobalOptimizer::Solver {
       followEnds();
       const bool last = round + 1 == kRounds;
       verifyDilated(last ? 2.0 * kDilationMax : kDilationMax);
-        fprintf(stderr, "TMP attempt %d round %d: %s dur %.2f\n", number, round,
-                result_.verification.reason.c_str(), result_.trajectory.duration());
       if (result_.verification.ok) {
         quicken(stop);
         return true;
