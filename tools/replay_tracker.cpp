@@ -1,5 +1,5 @@
-// Feeds a recorded run to today's tracker and compares its commands with those recorded, or sails it
-// again in closed loop with other options (docs/replay.md).
+// Feeds a recorded run to today's tracker and compares its commands with those recorded, or sails
+// it again in closed loop with other options (docs/replay.md).
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
@@ -41,9 +41,10 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--vessel", a.vessel,
                  "a name of config/vessels, or a file, instead of the recorded one");
   app.add_flag("--partial", a.read.partial, "use what can be read of a bag that lacks something");
-  auto* closed = app.add_flag("--closed-loop", a.closed_loop,
-                              "sail the recorded trajectories again on a simulated vessel, under the "
-                              "disturbance estimated in the recording");
+  auto* closed =
+      app.add_flag("--closed-loop", a.closed_loop,
+                   "sail the recorded trajectories again on a simulated vessel, under the "
+                   "disturbance estimated in the recording");
   app.add_option("--on", a.hull, "what sails in closed loop: the vessel's model, or its plant")
       ->check(CLI::IsMember({"model", "plant"}))
       ->needs(closed)
@@ -118,7 +119,8 @@ Result<YAML::Node> optionsOf(const RecordedRun& run, bool partial,
     names += (names.empty() ? "" : ", ") + name;
   }
   if (!differ.empty()) {
-    const std::string what = "recorded by another version, whose tracker has other options: " + names;
+    const std::string what =
+        "recorded by another version, whose tracker has other options: " + names;
     if (!partial) {
       return failure(what + "; --partial takes the shipped ones for these");
     }
@@ -198,11 +200,12 @@ Status writeJson(const std::string& path, const nlohmann::json& json) {
 
 void printEstimate(const std::vector<Step>& steps) {
   const tracker::Command& c = steps.back().command;
-  std::printf("Estimate at the end: force %.2f %.2f N (wind's included), moment %.2f N m, "
-              "wind %.2f %.2f m/s, current %.3f %.3f m/s\n",
-              c.outside_force_n.x(), c.outside_force_n.y(), c.outside_moment_nm,
-              c.disturbance.mean.wind_mps.x(), c.disturbance.mean.wind_mps.y(),
-              c.disturbance.mean.current_mps.x(), c.disturbance.mean.current_mps.y());
+  std::printf(
+      "Estimate at the end: force %.2f %.2f N (wind's included), moment %.2f N m, "
+      "wind %.2f %.2f m/s, current %.3f %.3f m/s\n",
+      c.outside_force_n.x(), c.outside_force_n.y(), c.outside_moment_nm,
+      c.disturbance.mean.wind_mps.x(), c.disturbance.mean.wind_mps.y(),
+      c.disturbance.mean.current_mps.x(), c.disturbance.mean.current_mps.y());
   Eigen::Vector3d worst = Eigen::Vector3d::Zero();
   double off_m = 0.0;
   for (const Step& s : steps) {
@@ -220,17 +223,18 @@ void printEstimate(const std::vector<Step>& steps) {
 Status compare(const Arguments& a, const RecordedRun& run, const vessel::Parameters& vessel,
                const tracker::Options& options, std::vector<std::string>& notes) {
   const bool as_it_was = a.set.empty() && a.vessel.empty() && !a.read.partial;
-  const auto steps = retrack(run, options, vessel, a.window, as_it_was ? Sent::kOwn : Sent::kRecorded,
-                             a.read.partial, notes);
+  const auto steps = retrack(run, options, vessel, a.window,
+                             as_it_was ? Sent::kOwn : Sent::kRecorded, a.read.partial, notes);
   if (!steps) {
     return failure(a.bag + ": " + steps.error().message);
   }
   const Figures f = figures(*steps, vessel.thrusters);
-  std::printf("%zu steps, %.3f s to %.3f s, %s, %s%s\n", f.steps, steps->front().recorded.time_s,
-              steps->back().recorded.time_s, vessel.name.c_str(),
-              run.lockstep ? "lockstep" : "real time",
-              a.set.empty() ? "" : ", options changed: what they ask for where the vessel was, not where it "
-                              "would have gone");
+  std::printf(
+      "%zu steps, %.3f s to %.3f s, %s, %s%s\n", f.steps, steps->front().recorded.time_s,
+      steps->back().recorded.time_s, vessel.name.c_str(), run.lockstep ? "lockstep" : "real time",
+      a.set.empty() ? ""
+                    : ", options changed: what they ask for where the vessel was, not where it "
+                      "would have gone");
   std::printf("Commands differ from the recorded by at most %.3g N (at %.3f s), rms %.3g N\n",
               f.difference_max_n, f.difference_max_time_s, f.difference_rms_n);
   if (!run.from_commands) {
@@ -255,8 +259,9 @@ std::vector<std::string> split(const std::string& text) {
 Status sail(const Arguments& a, const RecordedRun& run, const vessel::Parameters& vessel,
             const YAML::Node& recorded, const std::vector<std::string>& notes) {
   if (run.from_commands) {
-    return failure(a.bag + ": closed loop needs otter_nav/TrackerCycle: without it no disturbance "
-                           "was estimated");
+    return failure(a.bag +
+                   ": closed loop needs otter_nav/TrackerCycle: without it no disturbance "
+                   "was estimated");
   }
   struct Row {
     std::string setting;
@@ -273,9 +278,10 @@ Status sail(const Arguments& a, const RecordedRun& run, const vessel::Parameters
     }
   }
   const Hull hull = a.hull == "plant" ? Hull::kPlant : Hull::kModel;
-  std::printf("Simulated, not what the vessel did: the recorded trajectories on %s of %s, under the "
-              "disturbance estimated in the recording\n",
-              a.hull == "plant" ? "the plant" : "the model", vessel.name.c_str());
+  std::printf(
+      "Simulated, not what the vessel did: the recorded trajectories on %s of %s, under the "
+      "disturbance estimated in the recording\n",
+      a.hull == "plant" ? "the plant" : "the model", vessel.name.c_str());
   std::printf("%11s %10s %10s %14s %10s %12s  %s\n", "mean err m", "max err m", "thrust N",
               "thrust N/s", "saturated", "yaw rad/s", "setting");
   nlohmann::json json = {{"simulated", true}, {"hull", a.hull}, {"notes", notes}};
@@ -293,8 +299,7 @@ Status sail(const Arguments& a, const RecordedRun& run, const vessel::Parameters
                 f.thrust_rms_n, f.thrust_rate_rms_nps, 100.0 * f.saturated_share,
                 f.yaw_rate_rms_radps, rows[i].setting.c_str());
     json["settings"].push_back(toJson(f, rows[i].setting));
-    const std::string name =
-        i == 0 ? "/replay.csv" : "/replay_" + std::to_string(i + 1) + ".csv";
+    const std::string name = i == 0 ? "/replay.csv" : "/replay_" + std::to_string(i + 1) + ".csv";
     if (const Status status = writeCsv(a.out + name, *steps); !status) {
       return status;
     }

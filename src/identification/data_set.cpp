@@ -92,9 +92,8 @@ double usualInterval(const std::vector<Record>& records) {
 // Of how many records one is kept, so that they stand about `interval_s` apart.
 std::size_t strideOf(const std::vector<OdometryRecord>& records, double interval_s) {
   const double usual_s = usualInterval(records);
-  return usual_s > 0.0
-             ? static_cast<std::size_t>(std::max(1.0, std::round(interval_s / usual_s)))
-             : 1;
+  return usual_s > 0.0 ? static_cast<std::size_t>(std::max(1.0, std::round(interval_s / usual_s)))
+                       : 1;
 }
 
 template <typename Record>

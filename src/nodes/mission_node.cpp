@@ -155,9 +155,9 @@ void MissionNode::onTimer() {
   }
   const double silent_s = (ros::WallTime::now() - last_sign_).toSec();
   if (silent_s > options_.silence_s) {
-    finish(Outcome::kError, goal_sent_ ? "the plant fell silent while " + planner_.state
-                           : recorded_ ? "the plant or the planner did not come up"
-                                       : "the recorder did not come up");
+    finish(Outcome::kError, goal_sent_  ? "the plant fell silent while " + planner_.state
+                            : recorded_ ? "the plant or the planner did not come up"
+                                        : "the recorder did not come up");
   }
 }
 

@@ -230,9 +230,9 @@ void PlannerNode::execute(const mission::Orders& orders) {
     worker_.start(*orders.plan, map_.field(), map_.stamp());
   }
   if (orders.sail) {
-    sent_id_ = publisher_.publish(
-        setup_.node.lockstep ? beginningAt(now_s_, *orders.sail) : *orders.sail,
-        supervisor_.goal());
+    sent_id_ =
+        publisher_.publish(setup_.node.lockstep ? beginningAt(now_s_, *orders.sail) : *orders.sail,
+                           supervisor_.goal());
     tracker_.expect(sent_id_, false);
   } else if (orders.stop) {
     sent_id_ = publisher_.publishStop(now_s_, supervisor_.goal());

@@ -27,8 +27,7 @@ Result<std::unique_ptr<RecorderNode>> RecorderNode::create(config::Section secti
     return failure(where + ": parameter 'file' is empty: there is no bag to write");
   }
   for (const std::string& topic : options->paced) {
-    if (std::find(options->topics.begin(), options->topics.end(), topic) ==
-        options->topics.end()) {
+    if (std::find(options->topics.begin(), options->topics.end(), topic) == options->topics.end()) {
       return failure(where + ": parameter 'paced': '" + topic + "' is none of 'topics'");
     }
   }

@@ -45,10 +45,9 @@ Status Recording::open(const std::string& file) {
 std::optional<Recording::Stamp> Recording::stampOf(const topic_tools::ShapeShifter& message) {
   const std::string& type = message.getDataType();
   const auto known = has_header_.find(type);
-  const bool has =
-      known != has_header_.end()
-          ? known->second
-          : (has_header_[type] = beginsWithHeader(message.getMessageDefinition()));
+  const bool has = known != has_header_.end()
+                       ? known->second
+                       : (has_header_[type] = beginsWithHeader(message.getMessageDefinition()));
   if (!has || message.size() < kStampBytes) {
     return std::nullopt;
   }

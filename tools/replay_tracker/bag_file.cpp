@@ -203,8 +203,8 @@ class Reader {
         return {};
       }
       const auto time = numberIn<std::uint64_t>(record.header, rosbag::TIME_FIELD_NAME);
-      const double received_s = static_cast<double>(time & 0xffffffffU) +
-                                1e-9 * static_cast<double>(time >> 32U);
+      const double received_s =
+          static_cast<double>(time & 0xffffffffU) + 1e-9 * static_cast<double>(time >> 32U);
       ++messages_;
       const Connection& from = connection->second;
       return take_({from.topic, from.type, from.md5, received_s, record.data, record.size});

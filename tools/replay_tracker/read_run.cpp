@@ -112,13 +112,12 @@ class Vessel {
   }
 
   void takeOdometry(const nav_msgs::Odometry& message) {
-    const auto sample = ros_bridge::odometrySample(message, message.header.frame_id,
-                                                   message.child_frame_id);
+    const auto sample =
+        ros_bridge::odometrySample(message, message.header.frame_id, message.child_frame_id);
     if (!sample) {
       return;  // the node refuses it as well
     }
-    if (!run().odometry.empty() &&
-        sample->stamp_s < run().odometry.back().stamp_s - kJumpBackS) {
+    if (!run().odometry.empty() && sample->stamp_s < run().odometry.back().stamp_s - kJumpBackS) {
       begin();
     }
     if (run().odometry.empty() || sample->stamp_s >= run().odometry.back().stamp_s) {
@@ -188,8 +187,7 @@ class Vessel {
       if (cycle.time_s >= commands_.back().back().time_s - kJumpBackS) {
         return;
       }
-      if (!run().odometry.empty() &&
-          run().odometry.back().stamp_s > cycle.time_s + kJumpBackS) {
+      if (!run().odometry.empty() && run().odometry.back().stamp_s > cycle.time_s + kJumpBackS) {
         begin();
       }
     }
@@ -289,9 +287,9 @@ Result<RecordedRun> readRun(const std::string& path, const ReadOptions& options)
   if (all.empty()) {
     return failure(path + ": holds no messages");
   }
-  const std::string wanted =
-      options.name_space.empty() || options.name_space.front() == '/' ? options.name_space
-                                                                      : "/" + options.name_space;
+  const std::string wanted = options.name_space.empty() || options.name_space.front() == '/'
+                                 ? options.name_space
+                                 : "/" + options.name_space;
   std::map<std::string, std::vector<RecordedRun>> found;
   std::set<std::string> names;
   for (auto& [prefix, vessel] : vessels) {

@@ -52,13 +52,13 @@ struct RecordedRun {
 };
 
 struct ReadOptions {
-  int run = 1;                     // of several, from 1
-  std::string name_space;          // of the vessel; empty: the only one there is
-  std::string odometry = "odom";   // its topic
-  bool partial = false;            // use what is there
+  int run = 1;                    // of several, from 1
+  std::string name_space;         // of the vessel; empty: the only one there is
+  std::string odometry = "odom";  // its topic
+  bool partial = false;           // use what is there
 };
-// Errors name the file and what is missing; with `partial` that becomes a note where anything can be
-// done without.
+// Errors name the file and what is missing; with `partial` that becomes a note where anything can
+// be done without.
 [[nodiscard]] Result<RecordedRun> readRun(const std::string& path, const ReadOptions& options);
 
 }  // namespace otter_nav::replay

@@ -136,9 +136,9 @@ Figures figures(const std::vector<Step>& steps, const vessel::Thrusters& limits)
     }
     squared_n += difference.squaredNorm();
     thrust_n += thrusts.squaredNorm();
-    saturated += static_cast<double>(
-        (thrusts.array() >= (1.0 - kNear) * limits.ahead_max_n).count() +
-        (thrusts.array() <= -(1.0 - kNear) * limits.astern_max_n).count());
+    saturated +=
+        static_cast<double>((thrusts.array() >= (1.0 - kNear) * limits.ahead_max_n).count() +
+                            (thrusts.array() <= -(1.0 - kNear) * limits.astern_max_n).count());
     f.yaw_rate_rms_radps += std::pow(s.command.estimate[vessel::kYawRate], 2);
     if (i > 0) {
       const double dt = s.recorded.time_s - steps[i - 1].recorded.time_s;
@@ -161,8 +161,8 @@ Figures figures(const std::vector<Step>& steps, const vessel::Thrusters& limits)
 }
 
 Result<std::vector<Step>> retrack(const RecordedRun& run, const tracker::Options& options,
-                                  const vessel::Parameters& vessel, const Window& window,
-                                  Sent sent, bool partial, std::vector<std::string>& notes) {
+                                  const vessel::Parameters& vessel, const Window& window, Sent sent,
+                                  bool partial, std::vector<std::string>& notes) {
   Tracker tracker(options, vessel);
   OdometryFeed odometry(run.odometry);
   OrderFeed orders(run.orders);
@@ -215,14 +215,14 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const tracker::Options
 Result<std::vector<Step>> sailAgain(const RecordedRun& run, const tracker::Options& options,
                                     const vessel::Parameters& vessel, Hull hull,
                                     const Window& window) {
-  const auto first =
-      std::find_if(run.cycles.begin(), run.cycles.end(), [&](const RecordedCycle& cycle) {
-        return cycle.tracking && window.has(cycle.time_s);
-      });
+  const auto first = std::find_if(
+      run.cycles.begin(), run.cycles.end(),
+      [&](const RecordedCycle& cycle) { return cycle.tracking && window.has(cycle.time_s); });
   if (first == run.cycles.end()) {
     return failure("the tracker follows no trajectory between --from and --to");
   }
-  auto vessel_model = hull == Hull::kPlant ? SimulatedHull::plant(vessel) : SimulatedHull::model(vessel);
+  auto vessel_model =
+      hull == Hull::kPlant ? SimulatedHull::plant(vessel) : SimulatedHull::model(vessel);
   if (!vessel_model) {
     return failure(vessel_model.error().message);
   }

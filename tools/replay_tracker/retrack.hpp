@@ -14,8 +14,8 @@
 
 namespace otter_nav::replay {
 
-// One step. In closed loop `command.estimate` is the simulated vessel's and `recorded` what the real
-// one did.
+// One step. In closed loop `command.estimate` is the simulated vessel's and `recorded` what the
+// real one did.
 struct Step {
   RecordedCycle recorded;
   tracker::Command command;
