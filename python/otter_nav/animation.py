@@ -10,9 +10,14 @@ import numpy
 from .errors import RecordingError
 from .report import add_source_arguments, load
 
-_WATER = (234, 242, 247)
-_LAND = (179, 168, 141)
-_UNCHARTED = (213, 94, 0)
+# As the nautical chart in rviz (src/rviz/nautical_palette.hpp).
+_WATER = (230, 243, 248)     # seen free, or all of it where no scans were recorded
+_UNSEEN = (169, 203, 224)
+_LAND = (216, 196, 138)
+_COAST = (125, 106, 60)
+_UNCHARTED = (208, 52, 44)   # where scans show what was sensed, what was not is pale
+_HIDDEN = (214, 178, 184)
+_COAST_M = 0.6               # charts and echoes agree to about that
 _GRID = (214, 225, 233)
 _INK = (28, 33, 38)
 _MUTED = (91, 100, 110)
@@ -21,9 +26,8 @@ _STARBOARD = (0, 114, 178)
 _HULL = (255, 255, 255)
 _PANEL = 64          # pixels below the chart
 _FRAMES_MAX = 3000
-# Viridis at nine places from slow to fast.
-_SCALE = numpy.array([(68, 1, 84), (71, 44, 122), (59, 81, 139), (44, 113, 142), (33, 144, 141),
-                      (39, 173, 129), (92, 200, 99), (170, 220, 50), (253, 231, 37)], dtype=float)
+# From slow to fast, as include/otter_nav/ros/speed_colour.hpp.
+_SCALE = numpy.array([(13, 8, 135), (128, 3, 168), (204, 71, 120), (250, 153, 56)], dtype=float)
 
 
 class View:
@@ -70,12 +74,16 @@ def _paint_grid(image, view, grid, colour):
 def _background(run, scenario, view):
     from PIL import Image, ImageDraw
     pixels = numpy.empty((view.height, view.width, 3), dtype=numpy.uint8)
-    pixels[:] = _WATER
+    pixels[:] = _UNSEEN if run.scans else _WATER
     chart = scenario.chart if scenario is not None else run.chart
     if scenario is not None and scenario.world is not None:
-        _paint_grid(pixels, view, scenario.world, _UNCHARTED)
+        _paint_grid(pixels, view, scenario.world, _HIDDEN if run.scans else _UNCHARTED)
     if chart is not None:
         _paint_grid(pixels, view, chart, _LAND)
+        land = numpy.all(pixels == _LAND, axis=2)
+        inland = numpy.zeros_like(land)
+        inland[1:-1, 1:-1] = (land[:-2, 1:-1] & land[2:, 1:-1] & land[1:-1, :-2] & land[1:-1, 2:])
+        pixels[land & ~inland] = _COAST
     image = Image.new("RGB", (view.width, view.height + _PANEL), _HULL)
     image.paste(Image.fromarray(pixels), (0, 0))
     draw = ImageDraw.Draw(image)
@@ -129,11 +137,14 @@ class Film:
         self.font, self.small = _font(15), _font(12)
         self.error = run.error
         self.drawn = 0  # rows of the motion already in the background's trail
+        self.looked = 0  # scans already in the background
+        self.ashore = self._near_land()
 
     def frame(self, t):
         """The picture at time t; times must not fall."""
         row = int(numpy.searchsorted(self.run.motion.t, t + 1e-9)) - 1
         row = max(row, 0)
+        self._look(t)
         self._extend_trail(row)
         image = self.background.copy()
         draw = self._draw_on(image)
@@ -141,6 +152,50 @@ class Film:
         self._hull(draw, row)
         self._panel(draw, t, row)
         return image
+
+    def _near_land(self):
+        """Pixels so near to charted land that an echo there is the coast's."""
+        from PIL import Image, ImageFilter
+        pixels = numpy.array(self.background)[:self.view.height]
+        land = numpy.all(pixels == _LAND, axis=2) | numpy.all(pixels == _COAST, axis=2)
+        size = 2 * int(_COAST_M * self.view.scale) + 1
+        return numpy.asarray(Image.fromarray(land).convert("L").filter(ImageFilter.MaxFilter(size))) > 0
+
+    def _look(self, t):
+        """Paints what the scans up to then have seen, under the trail."""
+        from PIL import Image
+        motion, scans = self.run.motion, self.run.scans
+        if self.looked == len(scans) or scans[self.looked].t > t + 1e-9:
+            return
+        size = self.view.width, self.view.height
+        seen, echoes = Image.new("1", size), Image.new("1", size)
+        fan, dots = self._draw_on(seen), self._draw_on(echoes)
+        psi_rad = numpy.unwrap(motion.psi)
+        while self.looked < len(scans) and scans[self.looked].t <= t + 1e-9:
+            scan = scans[self.looked]
+            self.looked += 1
+            psi = float(numpy.interp(scan.t, motion.t, psi_rad))
+            ahead, port = scan.mount
+            place = (float(numpy.interp(scan.t, motion.t, motion.x)) +
+                     ahead * numpy.cos(psi) - port * numpy.sin(psi),
+                     float(numpy.interp(scan.t, motion.t, motion.y)) +
+                     ahead * numpy.sin(psi) + port * numpy.cos(psi))
+            ranges = numpy.where(numpy.isfinite(scan.ranges), scan.ranges,
+                                 numpy.where(numpy.isposinf(scan.ranges), scan.range_max, 0.0))
+            angles = psi + scan.angle_min + scan.angle_increment * numpy.arange(len(ranges))
+            x, y = place[0] + ranges * numpy.cos(angles), place[1] + ranges * numpy.sin(angles)
+            fan.polygon(self.view.points(numpy.r_[place[0], x], numpy.r_[place[1], y]), fill=1)
+            hit = numpy.isfinite(scan.ranges)
+            for px, py in self.view.points(x[hit], y[hit]):
+                dots.ellipse([px - 1.5, py - 1.5, px + 1.5, py + 1.5], fill=1)
+        pixels = numpy.array(self.background)
+        chart = pixels[:self.view.height]
+        water = numpy.all(chart == _UNSEEN, axis=2)
+        chart[numpy.asarray(seen) & water] = _WATER
+        bare = numpy.any([numpy.all(chart == shade, axis=2) for shade in (_WATER, _UNSEEN, _HIDDEN)],
+                         axis=0)
+        chart[numpy.asarray(echoes) & bare & ~self.ashore] = _UNCHARTED
+        self.background = Image.fromarray(pixels)
 
     def _extend_trail(self, row):
         motion = self.run.motion
@@ -254,7 +309,7 @@ def write_gif(path, frames, rate):
 
 def _palette_image():
     from PIL import Image
-    fixed = [_WATER, _LAND, _UNCHARTED, _GRID, _INK, _MUTED, _PORT, _STARBOARD, _HULL]
+    fixed = [_WATER, _UNSEEN, _LAND, _COAST, _HIDDEN, _UNCHARTED, _GRID, _INK, _MUTED, _PORT, _STARBOARD, _HULL]
     scale = [_colour(k / 63) for k in range(64)]
     grey = [(v, v, v) for v in range(0, 256, 8)]
     # Between the ink and what it is written on.

@@ -14,7 +14,7 @@ import yaml
 
 from .chart import Grid
 from .errors import RecordingError
-from .run import CONTACTS, MOTION, Event, Plan, Run
+from .run import CONTACTS, MOTION, Event, Plan, Run, Scan
 from .table import Table, table_of
 from .trajectory import Trajectory
 from .vessel import load_vessel, vessel_of
@@ -32,6 +32,8 @@ _KINDS = {
     "otter_nav/ContactEvent": {"*": "contact"},
     "geometry_msgs/Vector3Stamped": {"wind": "wind", "current": "current"},
     "nav_msgs/OccupancyGrid": {"chart": "chart", "map": "map"},
+    "sensor_msgs/LaserScan": {"*": "scan"},
+    "tf2_msgs/TFMessage": {"tf_static": "tf_static"},
     "std_msgs/String": {"parameters": "parameters", "vessel": "vessel"},
 }
 _CYCLE = ("t", "number", "left", "right", "x_ref", "y_ref", "psi_ref", "u_ref", "v_ref", "r_ref", "x",
@@ -137,7 +139,7 @@ def vessel_topics(connections, namespace, path):
     topics = dict(found[with_motion[0]])
     # A chart or the weather may be shared by all vessels.
     for topic, kind in found.get("", {}).items():
-        if kind in ("chart", "map", "wind", "current") and kind not in topics.values():
+        if kind in ("chart", "map", "wind", "current", "tf_static") and kind not in topics.values():
             topics[topic] = kind
     # One topic a kind: the usual name first.
     usual = {"odometry": "odom", "truth": "plant_state", "command": "thruster_command"}
@@ -188,7 +190,7 @@ def _read(bag, path, vessel, namespace, partial):
             stamp = message.header.stamp.to_sec() if kind in ("truth", "odometry") else None
             if t < received - _JUMP_BACK_S or (
                     stamp is not None and stamp < stamps.get(topic, -numpy.inf) - _JUMP_BACK_S):
-                readers.append(_RunReader())
+                readers.append(_RunReader(readers[-1].mounts))
                 readers[-1].texts = dict(texts)
                 stamps = {}
             received = t
@@ -247,11 +249,13 @@ def _label(texts):
 class _RunReader:
     """Gathers the messages of one run."""
 
-    def __init__(self):
+    def __init__(self, mounts=()):
         self.rows = {kind: [] for kind in ("truth", "odometry", "ground_truth", "command", "contact",
                                            "wind", "current")}
         self.status = {"tracker": [], "planner": []}
         self.trajectories = []
+        self.scans = []
+        self.mounts = dict(mounts)  # of sensors on the vessel, by their frames
         self.chart = None
         self.chart_kind = ""
         self.cycles = []
@@ -272,6 +276,15 @@ class _RunReader:
             if m.cycle > 0 and (not self.cycles or m.time > self.cycles[-1][0]):
                 self.cycles.append((m.time, m.cycle, m.left, m.right, *m.reference, *m.estimate,
                                     *m.disturbance, *m.wind, *m.current, m.solver_iterations))
+        elif kind == "tf_static":
+            for transform in m.transforms:
+                place = transform.transform.translation
+                self.mounts[transform.child_frame_id] = place.x, place.y
+        elif kind == "scan":
+            mount = self.mounts.get(m.header.frame_id, (0.0, 0.0))
+            self.scans.append(Scan(m.header.stamp.to_sec(), mount, m.angle_min, m.angle_increment,
+                                   m.range_max,
+                                   numpy.array(m.ranges, dtype=numpy.float32)))
         else:
             t = m.header.stamp.to_sec()
             rows = self.rows[kind]
@@ -296,7 +309,7 @@ class _RunReader:
             goal=(m.goal.position.x, m.goal.position.y, 2.0 * numpy.arctan2(q.z, q.w))))
 
     def finish(self, vessel):
-        run = Run(vessel=vessel, trajectories=self.trajectories, chart=self.chart)
+        run = Run(vessel=vessel, trajectories=self.trajectories, scans=self.scans, chart=self.chart)
         run.truth = table_of(_TRUTH, self.rows["truth"])
         if not len(run.truth):
             run.truth = _level(self.rows["ground_truth"])

@@ -19,6 +19,17 @@ class Event:
 
 
 @dataclass
+class Scan:
+    """What the lidar saw, rays from its mount counted from the vessel's heading."""
+    t: float
+    mount: tuple            # m ahead and to port of base_link
+    angle_min: float
+    angle_increment: float
+    range_max: float
+    ranges: numpy.ndarray   # m; infinite: nothing as far as it reaches
+
+
+@dataclass
 class Plan:
     """Figures of one plan as the planner gave them."""
     t: float
@@ -60,6 +71,7 @@ class Run:
     wind: Table = field(default_factory=lambda: table_of(("t", "x", "y"), []))
     current: Table = field(default_factory=lambda: table_of(("t", "x", "y"), []))
     trajectories: list = field(default_factory=list)
+    scans: list = field(default_factory=list)
     plans: list = field(default_factory=list)
     events: list = field(default_factory=list)
     # (t, state, reason) at each change.

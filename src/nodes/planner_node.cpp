@@ -238,6 +238,11 @@ void PlannerNode::execute(const mission::Orders& orders) {
     sent_id_ = publisher_.publishStop(now_s_, supervisor_.goal());
     tracker_.expect(sent_id_, true);
   }
+  // The map around the way may have changed whenever the phase does.
+  if (orders.sail || orders.stop || shown_ != supervisor_.phase()) {
+    shown_ = supervisor_.phase();
+    publisher_.show(supervisor_, map_.field());
+  }
 }
 
 void PlannerNode::settle() {

@@ -77,6 +77,7 @@ class PlannerNode {
   TrackerWatch tracker_;
   mission::Supervisor supervisor_;
   PlannerPublisher publisher_;
+  mission::Phase shown_ = mission::Phase::kIdle;  // by its markers
 
   double now_s_ = 0.0;                                         // of the decision under way
   ros_bridge::OdometrySample vessel_;                          // at that decision

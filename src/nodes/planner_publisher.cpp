@@ -39,12 +39,23 @@ std::uint32_t PlannerPublisher::publish(const trajectory::TimedTrajectory& order
                                             kMapFrame, vessel_));
   path_.publish(
       ros_bridge::toPath(order.trajectory, order.start_time_s, kPathStepS, kMapFrame, vessel_));
-  trajectory_markers_.publish(ros_bridge::trajectoryMarkers(order.trajectory, vessel_));
   return last_id_;
 }
 
 std::uint32_t PlannerPublisher::publishStop(double now_s, const vessel::Pose& goal) {
   return publish({trajectory::Trajectory(), now_s}, goal);
+}
+
+void PlannerPublisher::show(const mission::Supervisor& supervisor,
+                            const map::DistanceField& field) {
+  const trajectory::Trajectory& sailed = supervisor.sailed().trajectory;
+  visualization_msgs::MarkerArray all = ros_bridge::trajectoryMarkers(sailed, vessel_);
+  for (const auto& more :
+       {ros_bridge::clearanceMarkers(sailed, supervisor.plannedClearance(), field),
+        ros_bridge::goalMarkers(supervisor.goal())}) {
+    all.markers.insert(all.markers.end(), more.markers.begin(), more.markers.end());
+  }
+  trajectory_markers_.publish(all);
 }
 
 void PlannerPublisher::publishPlan(const planner::Plan& plan, double wall_ms) {

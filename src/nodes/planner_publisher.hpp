@@ -21,6 +21,8 @@ class PlannerPublisher {
   std::uint32_t publish(const trajectory::TimedTrajectory& order, const vessel::Pose& goal);
   // Asks the tracker to stop by itself: an empty trajectory.
   std::uint32_t publishStop(double now_s, const vessel::Pose& goal);
+  // The way sailed, its clearance on the map as it is now, and the goal.
+  void show(const mission::Supervisor& supervisor, const map::DistanceField& field);
   void publishPlan(const planner::Plan& plan, double wall_ms);
   void publishStatus(const mission::Supervisor& supervisor, double now_s,
                      std::uint32_t trajectory_id);

@@ -1,11 +1,14 @@
 #include "otter_nav/ros/plan_markers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/speed_colour.hpp"
 
 namespace otter_nav::ros_bridge {
 namespace {
@@ -14,6 +17,7 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 // Heights over the water that keep flat things from hiding one another.
+constexpr double kRibbonHeightM = 0.01;
 constexpr double kTreeHeightM = 0.02;
 constexpr double kGuideHeightM = 0.03;
 constexpr double kTrajectoryHeightM = 0.05;
@@ -27,15 +31,6 @@ std_msgs::ColorRGBA color(double red, double green, double blue, double alpha = 
   value.b = static_cast<float>(blue);
   value.a = static_cast<float>(alpha);
   return value;
-}
-
-// From blue (0) over green to red (1).
-std_msgs::ColorRGBA rainbow(double share) {
-  const double s = std::clamp(share, 0.0, 1.0);
-  const auto bump = [s](double centre) {
-    return std::clamp(1.5 - 4.0 * std::abs(s - centre), 0.0, 1.0);
-  };
-  return color(bump(0.8), bump(0.5), bump(0.2));
 }
 
 // In the map at its origin, for ever; `width_m` is the lines'.
@@ -124,7 +119,8 @@ MarkerArray trajectoryMarkers(const trajectory::Trajectory& trajectory,
   while (!trajectory.empty()) {
     const vessel::FlatPoint flat = trajectory.flat(t_s);
     ribbon.points.push_back(toPoint(flat.position, kTrajectoryHeightM));
-    ribbon.colors.push_back(rainbow(flat.velocity.norm() / vessel.top_speed_mps));
+    const auto [red, green, blue] = speedColour(flat.velocity.norm() / vessel.top_speed_mps);
+    ribbon.colors.push_back(color(red, green, blue));
     if (t_s >= trajectory.duration()) {
       break;
     }
@@ -135,6 +131,55 @@ MarkerArray trajectoryMarkers(const trajectory::Trajectory& trajectory,
     ribbon.action = Marker::DELETE;
   }
   array.markers.push_back(ribbon);
+  return array;
+}
+
+MarkerArray clearanceMarkers(const trajectory::Trajectory& trajectory, double clearance_m,
+                             const map::DistanceField& field) {
+  constexpr double kNarrowerM = 0.1;  // less than that is the grid's
+  Marker ribbon = marker("clearance", Marker::TRIANGLE_LIST, 1.0, color(1, 1, 1));
+  std::optional<std::array<Eigen::Vector2d, 2>> before;
+  double t_s = 0.0;
+  while (!trajectory.empty() && clearance_m > 0.0) {
+    const vessel::FlatPoint flat = trajectory.flat(t_s);
+    const double speed = flat.velocity.norm();
+    // Turning on the spot it has no direction.
+    if (speed > 0.3) {
+      const Eigen::Vector2d ahead = flat.velocity / speed;
+      const Eigen::Vector2d port = clearance_m * Eigen::Vector2d(-ahead.y(), ahead.x());
+      const std::array<Eigen::Vector2d, 2> sides = {flat.position + port, flat.position - port};
+      if (before) {
+        const bool narrower = field.clearance(flat.position) < clearance_m - kNarrowerM;
+        const std_msgs::ColorRGBA shade =
+            narrower ? color(0.92, 0.5, 0.08, 0.55) : color(0.12, 0.55, 0.45, 0.22);
+        for (const Eigen::Vector2d& corner :
+             {(*before)[0], (*before)[1], sides[1], (*before)[0], sides[1], sides[0]}) {
+          ribbon.points.push_back(toPoint(corner, kRibbonHeightM));
+          ribbon.colors.push_back(shade);
+        }
+      }
+      before = sides;
+    }
+    if (t_s >= trajectory.duration()) {
+      break;
+    }
+    t_s = std::min(trajectory.duration(), t_s + kTrajectoryStepM / std::max(1.0, speed));
+  }
+  if (ribbon.points.empty()) {
+    ribbon.action = Marker::DELETE;
+  }
+  MarkerArray array;
+  array.markers.push_back(ribbon);
+  return array;
+}
+
+MarkerArray goalMarkers(const vessel::Pose& goal) {
+  MarkerArray array;
+  Marker arrow = marker("goal", Marker::ARROW, 0.5, color(0.8, 0.05, 0.5, 0.9));
+  arrow.pose = toPose(goal.position, goal.psi_rad);
+  arrow.pose.position.z = kTrajectoryHeightM;
+  arrow.scale.x = 2.5;
+  array.markers.push_back(arrow);
   return array;
 }
 

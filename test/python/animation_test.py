@@ -8,8 +8,9 @@ import numpy
 import synthetic
 from PIL import Image
 
-from otter_nav.animation import Film, frame_times, main as animate
+from otter_nav.animation import _UNCHARTED, _UNSEEN, _WATER, Film, frame_times, main as animate
 from otter_nav.bag import read_bag
+from otter_nav.run import Scan
 
 
 class AnimationTest(unittest.TestCase):
@@ -43,6 +44,27 @@ class AnimationTest(unittest.TestCase):
         frame = numpy.array(film.frame(run.motion.t[-1]))
         x, y = film.view(run.motion.x[-1], run.motion.y[-1])
         self.assertEqual(tuple(frame[int(y), int(x)]), (255, 255, 255))
+
+    def test_water_is_seen_where_beams_went(self):
+        run = read_bag(self.bag)[0]
+        begin = run.motion.t[0]
+        # Nothing in sight but an echo dead ahead, from a mast 1 m ahead.
+        ranges = numpy.full(361, numpy.inf, dtype=numpy.float32)
+        ranges[180] = 3.0
+        run.scans = [Scan(begin + 1.0, (1.0, 0.0), -numpy.pi, numpy.pi / 180, 5.0, ranges)]
+        film = Film(run, None, 500)
+
+        def at(frame, ahead, port):
+            row = int(numpy.searchsorted(run.motion.t, begin + 1.0))
+            c, s = numpy.cos(run.motion.psi[row]), numpy.sin(run.motion.psi[row])
+            x, y = film.view(run.motion.x[row] + c * ahead - s * port,
+                             run.motion.y[row] + s * ahead + c * port)
+            return tuple(frame[int(y), int(x)])
+        before, after = (numpy.array(film.frame(begin + t)) for t in (0.5, 1.5))
+        self.assertEqual(at(before, 1.0, 4.0), _UNSEEN)
+        self.assertEqual(at(after, 1.0, 4.0), _WATER)
+        self.assertEqual(at(after, 1.0, 6.0), _UNSEEN)
+        self.assertEqual(at(after, 4.0, 0.0), _UNCHARTED)
 
     def test_frames_end_with_the_run(self):
         run = read_bag(self.bag)[0]

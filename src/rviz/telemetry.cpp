@@ -1,0 +1,129 @@
+#include "telemetry.hpp"
+
+#include <ros/package.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/config/share.hpp"
+
+namespace otter_nav::rviz_plugins {
+namespace {
+
+constexpr double kAliveS = 3.0;
+constexpr double kAskAgainS = 2.0;
+constexpr double kAtLimit = 0.995;  // of a thruster's limit counts as saturated
+
+// rviz is no program of this package, beside which its files would be found.
+Result<vessel::Parameters> load(const std::string& name) {
+  const std::string shipped =
+      ros::package::getPath("otter_nav") + "/config/vessels/" + name + ".yaml";
+  auto vessel = vessel::loadParameters(shipped);
+  return vessel ? vessel : config::vesselFile(name).and_then(vessel::loadParameters);
+}
+
+}  // namespace
+
+void LastMinute::add(double time_s, double value) {
+  if (!samples_.empty() && time_s < samples_.back().time_s) {
+    samples_.clear();
+    sum_ = 0.0;
+  }
+  samples_.push_back({time_s, value});
+  sum_ += value;
+  while (samples_.front().time_s < time_s - kLengthS) {
+    sum_ -= samples_.front().value;
+    samples_.pop_front();
+  }
+}
+
+double LastMinute::mean() const {
+  return samples_.empty() ? 0.0 : sum_ / static_cast<double>(samples_.size());
+}
+
+double LastMinute::max() const {
+  double most = 0.0;
+  for (const Sample& sample : samples_) {
+    most = std::max(most, sample.value);
+  }
+  return most;
+}
+
+double shareOfThrust(double thrust_n, const vessel::Thrusters& thrusters) {
+  const double limit_n = thrust_n >= 0.0 ? thrusters.ahead_max_n : thrusters.astern_max_n;
+  return limit_n > 0.0 ? std::clamp(thrust_n / limit_n, -1.0, 1.0) : 0.0;
+}
+
+Telemetry::Telemetry(const ros::NodeHandle& node) : node_(node) {
+  subscribers_.push_back(node_.subscribe<PlannerStatus>(
+      "planner_status", 10, [this](const PlannerStatusConstPtr& message) {
+        planner_ = *message;
+        heard();
+      }));
+  subscribers_.push_back(node_.subscribe<TrackerStatus>(
+      "tracker_status", 10, [this](const TrackerStatusConstPtr& message) {
+        tracker_ = *message;
+        if (std::isfinite(message->position_error)) {
+          error_.add(message->header.stamp.toSec(), message->position_error);
+        }
+        heard();
+      }));
+  subscribers_.push_back(
+      node_.subscribe<nav_msgs::Odometry>("odom", 10, [this](const nav_msgs::OdometryConstPtr& m) {
+        odometry_ = *m;
+        heard();
+      }));
+  subscribers_.push_back(node_.subscribe<ThrusterCommand>(
+      "thruster_command", 100,
+      [this](const ThrusterCommandConstPtr& message) { onThrust(*message); }));
+  const auto keep = [this](const std::string& topic, std::optional<Eigen::Vector2d>& into) {
+    subscribers_.push_back(node_.subscribe<geometry_msgs::Vector3Stamped>(
+        topic, 10, [&into](const geometry_msgs::Vector3StampedConstPtr& message) {
+          into = Eigen::Vector2d(message->vector.x, message->vector.y);
+        }));
+  };
+  keep("wind", wind_);
+  keep("current", current_);
+}
+
+void Telemetry::onThrust(const ThrusterCommand& message) {
+  thrust_ = message;
+  if (vessel_) {
+    const bool at_limit =
+        std::max(std::abs(shareOfThrust(message.left, vessel_->thrusters)),
+                 std::abs(shareOfThrust(message.right, vessel_->thrusters))) >= kAtLimit;
+    saturated_.add(message.header.stamp.toSec(), at_limit ? 1.0 : 0.0);
+  }
+  heard();
+}
+
+bool Telemetry::alive() const {
+  return !heard_.isZero() && (ros::WallTime::now() - heard_).toSec() < kAliveS;
+}
+
+const std::optional<vessel::Parameters>& Telemetry::vessel() {
+  const ros::WallTime now = ros::WallTime::now();
+  if (!vessel_ && (now - vessel_asked_).toSec() > kAskAgainS) {
+    vessel_asked_ = now;
+    std::string name;
+    if (node_.getParam("tracker_node/vessel", name)) {
+      setVessel(name);
+    }
+  }
+  return vessel_;
+}
+
+bool Telemetry::setVessel(const std::string& name) {
+  vessel_.reset();
+  if (name.empty()) {
+    vessel_asked_ = {};
+    return true;
+  }
+  const auto vessel = load(name);
+  if (vessel) {
+    vessel_ = *vessel;
+  }
+  return vessel.has_value();
+}
+
+}  // namespace otter_nav::rviz_plugins
