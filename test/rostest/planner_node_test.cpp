@@ -7,7 +7,10 @@
 #include <otter_nav/PlannerStatus.h>
 #include <otter_nav/Trajectory.h>
 #include <std_srvs/Trigger.h>
+#include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -51,11 +54,35 @@ class PlannerNode : public testing::Test {
     return client_.getState().getText();
   }
 
+  // The clearance drawn is as wide as the one told.
+  void expectRibbon(const trajectory::Trajectory& trajectory) {
+    ASSERT_TRUE(statuses_.waitFor([](const auto& status) { return status.clearance > 0.0; }));
+    const double clearance_m = statuses_.messages.back().clearance;
+    visualization_msgs::Marker ribbon;
+    ASSERT_TRUE(markers_.waitFor([&](const visualization_msgs::MarkerArray& array) {
+      for (const visualization_msgs::Marker& marker : array.markers) {
+        ribbon = marker.ns == "clearance" ? marker : ribbon;
+      }
+      return !ribbon.points.empty();
+    }));
+    double farthest = 0.0;
+    for (const geometry_msgs::Point& p : ribbon.points) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (double t = 0.0; t < trajectory.duration(); t += 0.05) {
+        const Eigen::Vector2d there = trajectory.flat(t).position;
+        nearest = std::min(nearest, std::hypot(p.x - there.x(), p.y - there.y()));
+      }
+      farthest = std::max(farthest, nearest);
+    }
+    EXPECT_NEAR(farthest, clearance_m, 0.03);
+  }
+
   ros::NodeHandle node_;
   ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
   ros::WallTimer timer_;
   Inbox<Trajectory> trajectories_{node_, "trajectory"};
   Inbox<PlannerStatus> statuses_{node_, "planner_status"};
+  Inbox<visualization_msgs::MarkerArray> markers_{node_, "trajectory_markers"};
   Client client_{"move_base", false};
 };
 
@@ -104,6 +131,7 @@ TEST_F(PlannerNode, PlansFromTheVesselToTheGoal) {
   EXPECT_TRUE(statuses_.waitFor([](const auto& status) {
     return status.outcome == "solved" && status.length > 40.0 && status.planning_ms > 0.0;
   }));
+  expectRibbon(*trajectory);
   client_.cancelGoal();
   ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
   EXPECT_EQ(client_.getState().toString(), "PREEMPTED");
