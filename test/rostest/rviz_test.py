@@ -21,7 +21,7 @@ from PIL import ImageGrab
 from sensor_msgs.msg import LaserScan
 
 PACKAGE = rospkg.RosPack().get_path("otter_nav")
-PATIENCE_S = 90.0
+PATIENCE_S = 150.0
 CELLS = 240  # a side, of 0.25 m
 # src/rviz/nautical_palette.hpp and look.hpp.
 COLOURS = {"land": (0xd8, 0xc4, 0x8a), "charted": (0xa9, 0xcb, 0xe0), "seen": (0xe6, 0xf3, 0xf8),
@@ -120,7 +120,7 @@ class Rviz(unittest.TestCase):
         with Screen() as screen:
             environment["DISPLAY"] = screen.name
             rviz = subprocess.Popen(
-                ["rviz", "-d", os.path.join(PACKAGE, "rviz", "mission.rviz"), "--nosplash-screen"],
+                ["rviz", "-d", os.path.join(PACKAGE, "rviz", "mission.rviz")],
                 env=environment)
             try:
                 self.watch(screen, rviz)
