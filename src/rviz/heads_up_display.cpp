@@ -25,8 +25,8 @@ HeadsUpDisplay::HeadsUpDisplay()
     : legend_wanted_(new rviz::BoolProperty("Legend", true, "What the colours mean.", this)),
       vessel_(new rviz::StringProperty(
           "Vessel", "",
-          "Whose thrust limits to show: a name of config/vessels or a file; empty: the one "
-          "tracker_node was started with.",
+          "Whose thrust limits to show: a name of config/vessels or a file; empty: the one the "
+          "tracker tells.",
           this, SLOT(updateVessel()), this)) {}
 
 HeadsUpDisplay::~HeadsUpDisplay() = default;

@@ -161,7 +161,7 @@ void drawHull(QPainter& painter, const QPointF& middle, double angle_rad) {
 
 }  // namespace
 
-QImage paintFigures(Telemetry& telemetry) {
+QImage paintFigures(const Telemetry& telemetry) {
   QImage image = card(kFiguresWidth, kFiguresHeight);
   QPainter painter(&image);
   painter.setRenderHint(QPainter::Antialiasing);

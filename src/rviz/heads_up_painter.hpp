@@ -13,7 +13,7 @@ inline constexpr int kRoseSize = 164;
 inline constexpr int kLegendHeight = 48;
 inline constexpr int kLegendWidth = 780;
 
-[[nodiscard]] QImage paintFigures(Telemetry& telemetry);
+[[nodiscard]] QImage paintFigures(const Telemetry& telemetry);
 // `east_on_screen_rad`: where east points in the picture, counter-clockwise from the right.
 [[nodiscard]] QImage paintRose(const Telemetry& telemetry, double east_on_screen_rad);
 [[nodiscard]] QImage paintLegend(int width);

@@ -288,7 +288,7 @@ void MissionPanel::refreshThrusts() {
   port_label_->setText(QString("%1 N").arg(thrust.left, 0, 'f', 0));
   starboard_label_->setText(QString("%1 N").arg(thrust.right, 0, 'f', 0));
   if (!telemetry_.vessel()) {
-    saturation_->setText("limits unknown: no tracker_node names its vessel");
+    saturation_->setText("limits unknown: no tracker tells its vessel");
     return;
   }
   const vessel::Thrusters& thrusters = telemetry_.vessel()->thrusters;

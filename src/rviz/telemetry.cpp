@@ -1,6 +1,8 @@
 #include "telemetry.hpp"
 
 #include <ros/package.h>
+#include <std_msgs/String.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +13,6 @@ namespace otter_nav::rviz_plugins {
 namespace {
 
 constexpr double kAliveS = 3.0;
-constexpr double kAskAgainS = 2.0;
 constexpr double kAtLimit = 0.995;  // of a thruster's limit counts as saturated
 
 // rviz is no program of this package, beside which its files would be found.
@@ -84,6 +85,7 @@ Telemetry::Telemetry(const ros::NodeHandle& node) : node_(node) {
   };
   keep("wind", wind_);
   keep("current", current_);
+  setVessel("");
 }
 
 void Telemetry::onThrust(const ThrusterCommand& message) {
@@ -101,22 +103,27 @@ bool Telemetry::alive() const {
   return !heard_.isZero() && (ros::WallTime::now() - heard_).toSec() < kAliveS;
 }
 
-const std::optional<vessel::Parameters>& Telemetry::vessel() {
-  const ros::WallTime now = ros::WallTime::now();
-  if (!vessel_ && (now - vessel_asked_).toSec() > kAskAgainS) {
-    vessel_asked_ = now;
-    std::string name;
-    if (node_.getParam("tracker_node/vessel", name)) {
-      setVessel(name);
-    }
+void Telemetry::onVessel(const std::string& file) {
+  if (vessel_chosen_) {
+    return;
   }
-  return vessel_;
+  try {
+    const auto vessel = vessel::readParameters({YAML::Load(file), "vessel"});
+    if (vessel) {
+      vessel_ = *vessel;
+    }
+  } catch (const YAML::Exception&) {
+    vessel_.reset();
+  }
 }
 
 bool Telemetry::setVessel(const std::string& name) {
   vessel_.reset();
-  if (name.empty()) {
-    vessel_asked_ = {};
+  vessel_chosen_ = !name.empty();
+  if (!vessel_chosen_) {
+    // The topic is latched: a new subscription hears it again.
+    vessel_subscriber_ = node_.subscribe<std_msgs::String>(
+        "vessel", 1, [this](const std_msgs::StringConstPtr& message) { onVessel(message->data); });
     return true;
   }
   const auto vessel = load(name);

@@ -58,14 +58,14 @@ class Telemetry {
   // Whether anything was heard within the last seconds of wall time.
   [[nodiscard]] bool alive() const;
 
-  // The vessel that `vessel` of tracker_node names, asked for again until it is there; meanwhile
-  // and without one the thrusters' limits are unknown.
-  [[nodiscard]] const std::optional<vessel::Parameters>& vessel();
+  // The one that the tracker tells on `vessel`; without it the thrusters' limits are unknown.
+  [[nodiscard]] const std::optional<vessel::Parameters>& vessel() const { return vessel_; }
   // A file or a name of config/vessels instead; empty: as above. False if there is no such vessel.
   bool setVessel(const std::string& name);
 
  private:
   void onThrust(const ThrusterCommand& message);
+  void onVessel(const std::string& file);
   void heard() { heard_ = ros::WallTime::now(); }
 
   ros::NodeHandle node_;
@@ -78,8 +78,9 @@ class Telemetry {
   LastMinute error_;
   LastMinute saturated_;
   std::optional<vessel::Parameters> vessel_;
-  ros::WallTime vessel_asked_;
+  bool vessel_chosen_ = false;
   ros::WallTime heard_;
+  ros::Subscriber vessel_subscriber_;
   std::vector<ros::Subscriber> subscribers_;
 };
 

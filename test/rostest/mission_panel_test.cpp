@@ -6,6 +6,7 @@
 #include <geometry_msgs/PoseArray.h>
 #include <gtest/gtest.h>
 #include <otter_nav/Route.h>
+#include <std_msgs/String.h>
 #include <std_srvs/Trigger.h>
 
 #include <QApplication>
@@ -59,7 +60,9 @@ class Service {
 class Panel : public testing::Test {
  protected:
   Panel() {
-    ros::param::set("tracker_node/vessel", "otter_gazebo");
+    std_msgs::String vessel;
+    vessel.data = vessel::toYaml(vessel::Parameters());
+    vessel_.publish(vessel);
     panel_.resize(320, 760);
     panel_.show();
     EXPECT_TRUE(comes([&] {
@@ -98,6 +101,7 @@ class Panel : public testing::Test {
   ros::Publisher planner_ = node_.advertise<PlannerStatus>("planner_status", 10);
   ros::Publisher tracker_ = node_.advertise<TrackerStatus>("tracker_status", 100);
   ros::Publisher thrust_ = node_.advertise<ThrusterCommand>("thruster_command", 100);
+  ros::Publisher vessel_ = node_.advertise<std_msgs::String>("vessel", 1, true);
   ros::Publisher route_ = node_.advertise<Route>("route", 1);
   MissionPanel panel_;
 };
@@ -183,7 +187,7 @@ TEST_F(Panel, ListsTheGoalsAndChangesThem) {
 }
 
 TEST_F(Panel, GaugesThrustAndError) {
-  // Its vessel, 50 N ahead and astern, is asked for now and then.
+  // Of a vessel with 50 N ahead and astern.
   double stamp_s = 100.0;
   ASSERT_TRUE(comes([&] {
     ThrusterCommand command;

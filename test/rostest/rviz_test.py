@@ -19,6 +19,7 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 from otter_nav.msg import PlannerStatus, ThrusterCommand, TrackerStatus
 from PIL import ImageGrab
 from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
 
 PACKAGE = rospkg.RosPack().get_path("otter_nav")
 PATIENCE_S = 150.0
@@ -71,6 +72,7 @@ class Rviz(unittest.TestCase):
         self.chart = rospy.Publisher("chart", OccupancyGrid, **latched)
         self.map = rospy.Publisher("map", OccupancyGrid, **latched)
         self.updates = rospy.Publisher("map_updates", OccupancyGridUpdate, **latched)
+        self.vessel = rospy.Publisher("vessel", String, **latched)
         self.often = {name: rospy.Publisher(name, kind, queue_size=10) for name, kind in (
             ("/tf", tf2_msgs.msg.TFMessage), ("scan", LaserScan), ("odom", Odometry),
             ("planner_status", PlannerStatus), ("tracker_status", TrackerStatus),
@@ -112,6 +114,8 @@ class Rviz(unittest.TestCase):
     def test_the_picture(self):
         self.chart.publish(grid())
         self.map.publish(grid())
+        with open(os.path.join(PACKAGE, "config", "vessels", "otter_gazebo.yaml")) as file:
+            self.vessel.publish(file.read())
         update = OccupancyGridUpdate(x=140, y=112, width=8, height=16, data=[100] * 128)
         update.header.frame_id = "map"
         self.updates.publish(update)
