@@ -43,7 +43,9 @@ void slowed(const Course& sailed, double wait, double share, double hold, Course
       const bool before = at < wait - 1e-9;
       const bool within = !before && at < wait + hold - 1e-9;
       const double rate = within ? share : 1.0;
-      const double until = before ? wait : within ? wait + hold : std::numeric_limits<double>::infinity();
+      const double until = before   ? wait
+                           : within ? wait + hold
+                                    : std::numeric_limits<double>::infinity();
       const double lasts = std::min((end - t) / rate, until - at);
       course.legs.push_back({at, p, rate * leg.velocity});
       p += rate * lasts * leg.velocity;
@@ -65,8 +67,7 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
     if (intent.share < 1.0 && intent.hold_s > 0.0) {
       const Eigen::Vector2d v = motionAt(sailed, begin).velocity;
       const double half = 0.5 * handling.changeDuration(v, intent.share * v);
-      slowed(sailed, begin + half, intent.share, half + intent.hold_s + half,
-             course);
+      slowed(sailed, begin + half, intent.share, half + intent.hold_s + half, course);
     } else {
       course = sailed;
     }
@@ -183,10 +184,10 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
   std::vector<double> waits = {0.0, 8.0, 20.0, 40.0};
   for (const Other& other : others) {
     if (standsOn(other.record.role)) {
-      const double left = nearestApproach({water.sailed.legs.front().position,
-                                           water.sailed.legs.front().velocity},
-                                          other.motion)
-                              .time_s;
+      const double left =
+          nearestApproach({water.sailed.legs.front().position, water.sailed.legs.front().velocity},
+                          other.motion)
+              .time_s;
       waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 3.0));
       waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 7.0));
     }
@@ -230,9 +231,9 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
       }
       best.erase(same);
     }
-    const auto place = std::upper_bound(
-        best.begin(), best.end(), trial.price,
-        [](double value, const Choice& other) { return value < other.price; });
+    const auto place =
+        std::upper_bound(best.begin(), best.end(), trial.price,
+                         [](double value, const Choice& other) { return value < other.price; });
     best.insert(place, trial);
     if (best.size() > keep) {
       best.pop_back();
@@ -264,13 +265,12 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
   // The best, a step further in each of their figures.
   for (int round = 0; round < kRounds; ++round) {
     const double fine = std::pow(0.5, round);
-    const std::vector<Choice> centres(best.begin(),
-                                      best.begin() + static_cast<std::ptrdiff_t>(
-                                                         std::min(best.size(), kRefined)));
+    const std::vector<Choice> centres(
+        best.begin(), best.begin() + static_cast<std::ptrdiff_t>(std::min(best.size(), kRefined)));
     for (const Choice& centre : centres) {
       const Intent& i = centre.intent;
       for (const double sign : {1.0, -1.0}) {
-        const auto vary = [&](double Intent::* figure, double step, double least, double most) {
+        const auto vary = [&](double Intent::*figure, double step, double least, double most) {
           Intent other = i;
           other.*figure = std::clamp(other.*figure + sign * step * fine, least, most);
           consider(other);

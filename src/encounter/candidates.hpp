@@ -38,7 +38,7 @@ struct Water {
 struct Choice {
   Intent intent;
   Course course;
-  std::size_t tail = 0;  // the leg that leads back to the way
+  std::size_t tail = 0;                                    // the leg that leads back to the way
   double price = std::numeric_limits<double>::infinity();  // with the time it takes
 };
 

@@ -95,8 +95,8 @@ Handling::Handling(const vessel::Parameters& vessel, double cruise_mps) {
   const vessel::Thrusters& thrusters = vessel.thrusters;
   constexpr double kThrustShare = 0.85;
   constexpr double kTurnShare = 0.45;  // of the steady rate, on the mean
-  const double spare = std::max(0.1 * thrusters.ahead_max_n,
-                                kThrustShare * thrusters.ahead_max_n - 0.5 * model.d1_kgps * cruise_mps);
+  const double spare = std::max(0.1 * thrusters.ahead_max_n, kThrustShare * thrusters.ahead_max_n -
+                                                                 0.5 * model.d1_kgps * cruise_mps);
   turn_rate_radps_ = kTurnShare * 2.0 * thrusters.lever_arm_m * spare / model.d3_kgm2ps;
   turn_least_s_ = 1.5 * (1.0 + model.m2_kgm2 / model.d3_kgm2ps);
 }
@@ -164,8 +164,8 @@ Trajectory steer(const FlatPoint& start, const std::vector<Change>& changes, dou
       const double step = h / parts;
       const double middle = knots[k - 1] + (i + 0.5) * step;
       constexpr double kNode = 0.7745966692414834;
-      for (const auto& [node, weight] :
-           {std::pair(-kNode, 5.0 / 18.0), std::pair(0.0, 8.0 / 18.0), std::pair(kNode, 5.0 / 18.0)}) {
+      for (const auto& [node, weight] : {std::pair(-kNode, 5.0 / 18.0), std::pair(0.0, 8.0 / 18.0),
+                                         std::pair(kNode, 5.0 / 18.0)}) {
         course.at(middle + 0.5 * step * node, v, a, j);
         position += weight * step * v;
       }
@@ -212,8 +212,8 @@ Trajectory slowDown(const Trajectory& sailed, double at_s, double share, double 
     slow.position = z.position;
     slow.velocity = z.velocity * r[0];
     slow.acceleration = z.acceleration * (r[0] * r[0]) + z.velocity * r[1];
-    slow.jerk = z.jerk * (r[0] * r[0] * r[0]) + z.acceleration * (3.0 * r[0] * r[1]) +
-                z.velocity * r[2];
+    slow.jerk =
+        z.jerk * (r[0] * r[0] * r[0]) + z.acceleration * (3.0 * r[0] * r[1]) + z.velocity * r[2];
     return slow;
   };
   const int knots = std::max(4, static_cast<int>(std::ceil(whole / kKnotS)));

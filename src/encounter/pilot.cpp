@@ -251,6 +251,15 @@ class Pilot::Impl {
   }
 
   void see(double now_s, const traffic::Track& track) {
+    // A velocity hardly known yet tells of no course: only who is near counts then.
+    constexpr double kHardlyKnownMps = 0.45;
+    constexpr double kNearM = 40.0;
+    if (memories_.find(track.id) == memories_.end() &&
+        std::max(track.covariance(2, 2), track.covariance(3, 3)) >
+            kHardlyKnownMps * kHardlyKnownMps &&
+        (track.position - own_.position).norm() > kNearM) {
+      return;
+    }
     const auto [place, first] = memories_.try_emplace(track.id);
     Memory& memory = place->second;
     if (first) {
@@ -268,8 +277,8 @@ class Pilot::Impl {
     constexpr double kSigmas = 1.5;
     constexpr double kOffS = 1.5;
     const double deviation = std::sqrt(std::max(track.covariance(2, 2), track.covariance(3, 3)));
-    const bool off = (track.velocity - *steady).norm() >
-                     kOffMps + 0.1 * steady->norm() + kSigmas * deviation;
+    const bool off =
+        (track.velocity - *steady).norm() > kOffMps + 0.1 * steady->norm() + kSigmas * deviation;
     memory.off_since_s = !off ? -1.0 : memory.off_since_s < 0.0 ? now_s : memory.off_since_s;
     if (off && now_s - memory.off_since_s >= kOffS) {
       memory.changed_s = now_s;
@@ -309,10 +318,10 @@ class Pilot::Impl {
     }
     const double speed = own_.velocity.norm();
     const double share = speed / std::max(0.1, record.kept_velocity.norm());
-    const double turn =
-        speed > 0.3 ? -wrapAngle(own_.course() -
-                                 std::atan2(record.kept_velocity.y(), record.kept_velocity.x()))
-                    : 0.0;
+    const double turn = speed > 0.3
+                            ? -wrapAngle(own_.course() - std::atan2(record.kept_velocity.y(),
+                                                                    record.kept_velocity.x()))
+                            : 0.0;
     const bool turns = std::abs(turn) > kActionRad;
     if (turns || std::abs(share - 1.0) > kActionShare) {
       record.acted = true;
@@ -329,9 +338,8 @@ class Pilot::Impl {
   double knownFor(const Memory& memory, const map::DistanceField& field) const {
     constexpr double kLongS = 300.0;
     constexpr double kLeastS = 8.0;
-    double known = memory.changed_s < 0.0
-                       ? kLongS
-                       : std::max(kLeastS, 3.0 * (now_s_ - memory.changed_s));
+    double known =
+        memory.changed_s < 0.0 ? kLongS : std::max(kLeastS, 3.0 * (now_s_ - memory.changed_s));
     const double speed = memory.motion.velocity.norm();
     if (speed < 0.2 || !field.geometry().contains(memory.motion.position)) {
       return known;

@@ -66,7 +66,8 @@ double distanceToBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return least;
 }
 
-bool crossesBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double x0, double x1, double y) {
+bool crossesBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double x0, double x1,
+                double y) {
   const Eigen::Vector2d middle(0.5 * (x0 + x1), 0.0);
   return distanceToBox(a - middle, b - middle, {0.5 * (x1 - x0), y}) == 0.0;
 }
@@ -105,8 +106,7 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
     const Eigen::Vector2d from = leg.position - other.motion.after(leg.from_s).position;
     const Eigen::Vector2d closing = leg.velocity - other.motion.velocity;
     const double speed2 = closing.squaredNorm();
-    const double at =
-        speed2 > 1e-9 ? std::clamp(-from.dot(closing) / speed2, 0.0, duration) : 0.0;
+    const double at = speed2 > 1e-9 ? std::clamp(-from.dot(closing) / speed2, 0.0, duration) : 0.0;
     const double distance2 = (from + at * closing).squaredNorm();
     if (distance2 < nearest2) {
       nearest2 = distance2;
@@ -119,9 +119,9 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
       const double s = speed > kStillMps ? std::abs(leg.velocity.dot(port)) / speed : 1.0;
       const Eigen::Vector2d half(0.5 * other.length_m + half_length * c + half_beam * s,
                                  0.5 * other.beam_m + half_length * s + half_beam * c);
-      out.outlines_m = std::min(
-          out.outlines_m,
-          distanceToBox(inHerFrame(from), inHerFrame(from + duration * closing), half));
+      out.outlines_m =
+          std::min(out.outlines_m,
+                   distanceToBox(inHerFrame(from), inHerFrame(from + duration * closing), half));
     }
   }
   if (!options_.rules_of_the_road) {
@@ -134,6 +134,9 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
     out.from_s = -std::numeric_limits<double>::infinity();
   }
   bool past = false;
+  // Gaining speed is no action: it counts once the speed kept was reached, or falls again.
+  bool settling = record.role != Role::kNone && !record.acted;
+  double speed_before = 0.0;
   Eigen::Vector2d before = own.legs.empty() ? Eigen::Vector2d(0.0, 0.0) : own.legs[0].velocity;
   for (std::size_t k = 0; k < own.legs.size() && own.legs[k].from_s < end && !past; ++k) {
     const Leg& leg = own.legs[k];
@@ -143,17 +146,16 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
       // Each course that the turn sweeps over counts, then the leg's.
       constexpr double kSweepRad = 0.26;
       const double turn = -starboardTurn(before, leg.velocity);
-      const int steps =
-          before.norm() > kStillMps && leg.velocity.norm() > kStillMps
-              ? static_cast<int>(std::abs(turn) / kSweepRad)
-              : 0;
+      const int steps = before.norm() > kStillMps && leg.velocity.norm() > kStillMps
+                            ? static_cast<int>(std::abs(turn) / kSweepRad)
+                            : 0;
       for (int i = k == 0 ? steps + 1 : 1; i <= steps + 1 && record.role == Role::kNone; ++i) {
-        const Motion we{leg.position, i > steps ? leg.velocity
-                                                : turned(before, turn * i / (steps + 1.0))};
+        const Motion we{leg.position,
+                        i > steps ? leg.velocity : turned(before, turn * i / (steps + 1.0))};
         const Approach approach = nearestApproach(we, she);
         const double wait = i > steps ? std::max(0.0, approach.time_s - kRiskS + 1e-6) : 0.0;
-        if (approach.time_s <= 0.0 || approach.distance_m >= kRiskM || approach.time_s - wait >= kRiskS ||
-            leg.from_s + wait >= to) {
+        if (approach.time_s <= 0.0 || approach.distance_m >= kRiskM ||
+            approach.time_s - wait >= kRiskS || leg.from_s + wait >= to) {
           continue;
         }
         const Motion we_then = we.after(wait);
@@ -173,11 +175,12 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
     const Eigen::Vector2d closing = leg.velocity - other.motion.velocity;
     const double kept_speed = record.kept_velocity.norm();
     const double share = leg.velocity.norm() / std::max(0.1, kept_speed);
-    const double turn = leg.velocity.norm() > kStillMps
-                            ? starboardTurn(record.kept_velocity, leg.velocity)
-                            : 0.0;
+    const double turn =
+        leg.velocity.norm() > kStillMps ? starboardTurn(record.kept_velocity, leg.velocity) : 0.0;
     const bool turns = std::abs(turn) > kActionRad;
-    const bool slows = std::abs(share - 1.0) > kActionShare;
+    settling = settling && share < 1.0 - kActionShare && leg.velocity.norm() > speed_before - 0.02;
+    speed_before = leg.velocity.norm();
+    const bool slows = !settling && std::abs(share - 1.0) > kActionShare;
     const bool before_nearest = leg.from_s < out.nearest_s;
     if (before_nearest && (turns || slows) && leg.from_s >= record.since_s - 1e-6) {
       if (!record.acted) {
@@ -202,14 +205,14 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
         record.slowed_first = true;
       }
       record.turn_max_rad = std::max(record.turn_max_rad, std::abs(turn));
-      record.slowest_share = std::min(record.slowest_share, share);
+      record.slowest_share =
+          settling ? record.slowest_share : std::min(record.slowest_share, share);
       if (record.role == Role::kStandOn && turns && turn < 0.0) {
         out.broken |= kToPort;
       }
     }
     if (record.role == Role::kGiveWay || record.role == Role::kOvertaking) {
-      const double ahead_m =
-          record.role == Role::kGiveWay ? kLaneCrossingM : kLaneOvertakingM;
+      const double ahead_m = record.role == Role::kGiveWay ? kLaneCrossingM : kLaneOvertakingM;
       const Eigen::Vector2d a = inHerFrame(from);
       const Eigen::Vector2d b = inHerFrame(from + (to - leg.from_s) * closing);
       if (crossesBox(a, b, 0.0, ahead_m + half_length + 0.5 * other.length_m,
@@ -225,11 +228,9 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
     return out;
   }
   if (givesWay(record.role)) {
-    const bool turned_boldly =
-        record.turn_max_rad >= options_.apparent_turn_rad + kTurnMoreRad;
+    const bool turned_boldly = record.turn_max_rad >= options_.apparent_turn_rad + kTurnMoreRad;
     out.broken |= record.acted ? 0U : kLate;
-    if (record.role != Role::kOvertaking && !turned_boldly &&
-        record.slowest_share > kSlowShare) {
+    if (record.role != Role::kOvertaking && !turned_boldly && record.slowest_share > kSlowShare) {
       out.broken |= kNotApparent;
     }
     const bool to_starboard = record.first_turn >= 0;
@@ -274,9 +275,9 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
     const Other& other = others[j];
     Outlook& look = looks[j];
     look = this->look(own, other);
-    const double uncertain =
-        std::min(kUncertainMaxM, std::hypot(other.position_deviation_m,
-                                            other.velocity_deviation_mps * look.nearest_s));
+    const double uncertain = std::min(
+        kUncertainMaxM,
+        std::hypot(other.position_deviation_m, other.velocity_deviation_mps * look.nearest_s));
     const double wanted = options_.outline_wanted_m + kMoreM + uncertain;
     const double least = options_.outline_least_m + 0.5 * kMoreM;
     const double r = look.outlines_m;

@@ -33,9 +33,9 @@ struct Record {
   Eigen::Vector2d kept_velocity = Eigen::Vector2d::Zero();
   double bearing_rad = 0.0;  // of her then
   bool acted = false;
-  int first_turn = 0;         // 1: to starboard, -1: to port, 0: none yet
-  bool slowed_first = false;  // before any turn
-  double turn_max_rad = 0.0;  // the largest so far, either side
+  int first_turn = 0;          // 1: to starboard, -1: to port, 0: none yet
+  bool slowed_first = false;   // before any turn
+  double turn_max_rad = 0.0;   // the largest so far, either side
   double slowest_share = 1.0;  // of the speed kept
 };
 
@@ -45,7 +45,7 @@ struct Other {
   double length_m = 0.0;
   double beam_m = 0.0;
   double heading_rad = 0.0;
-  double position_deviation_m = 0.0;   // standard deviations, now
+  double position_deviation_m = 0.0;  // standard deviations, now
   double velocity_deviation_mps = 0.0;
   double known_s = 0.0;  // how long she is believed to keep course and speed
   Record record;
@@ -64,13 +64,13 @@ enum Broken : unsigned {
 
 struct Outlook {
   Role role = Role::kNone;
-  double outlines_m = 0.0;   // the least between the outlines
-  double nearest_s = 0.0;    // when the centres are nearest
+  double outlines_m = 0.0;  // the least between the outlines
+  double nearest_s = 0.0;   // when the centres are nearest
   unsigned broken = 0;
   // While it is we who give way to her.
   double from_s = 0.0;
   double to_s = 0.0;
-  double acted_s = -1.0;     // our first action on this course; negative: none
+  double acted_s = -1.0;  // our first action on this course; negative: none
 };
 
 class Prospect {

@@ -14,8 +14,8 @@ constexpr double kHeadOn = 12.0 * kDegree;
 }  // namespace
 
 const char* name(Role role) {
-  constexpr const char* kNames[] = {"clear",      "head-on",           "overtaking",
-                                    "overtaken",  "crossing, give way", "crossing, stand on"};
+  constexpr const char* kNames[] = {
+      "clear", "head-on", "overtaking", "overtaken", "crossing, give way", "crossing, stand on"};
   return kNames[static_cast<std::size_t>(role)];
 }
 

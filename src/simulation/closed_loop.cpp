@@ -157,8 +157,8 @@ void ClosedLoop::carryOut(const mission::Orders& orders) {
     if (!orders.plan->others.empty()) {
       all.add(orders.plan->others);
     }
-    planner::Plan plan = planner_.plan(all.startingAt(orders.plan->start_time_s),
-                                       orders.plan->query, termination);
+    planner::Plan plan =
+        planner_.plan(all.startingAt(orders.plan->start_time_s), orders.plan->query, termination);
     recorder_.addPlanning(watch.milliseconds());
     reply_ = Reply{orders.plan->id, std::move(plan)};
     // A little before the new trajectory begins, as in life.

@@ -63,7 +63,9 @@ struct Motion {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // map frame, m
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // over ground, m/s
   [[nodiscard]] double course() const;
-  [[nodiscard]] Motion after(double time_s) const { return {position + time_s * velocity, velocity}; }
+  [[nodiscard]] Motion after(double time_s) const {
+    return {position + time_s * velocity, velocity};
+  }
 };
 
 // The nearest approach of the centres if both keep course and speed.

@@ -34,8 +34,8 @@ TEST(Manoeuvre, TurnsAndSlowsAsTheHullCan) {
   EXPECT_NEAR((path.flat(40.0).velocity - slow).norm(), 0.0, 1e-9);
   EXPECT_NEAR((path.flat(12.0).velocity - aside).norm(), 0.0, 1e-9);
   const map::DistanceField water = test::openWater();
-  const feasibility::Verification verification = feasibility::verify(
-      path, water, vessel, feasibility::SafetyLimits::of(vessel));
+  const feasibility::Verification verification =
+      feasibility::verify(path, water, vessel, feasibility::SafetyLimits::of(vessel));
   EXPECT_TRUE(verification.ok) << verification.reason;
 }
 
@@ -57,8 +57,8 @@ TEST(Manoeuvre, SlowingDownKeepsTheWayAndItsEnd) {
   EXPECT_NEAR((slow.flat(10.0).velocity - 0.5 * sailed.flat(17.0).velocity).norm(), 0.0, 1e-3);
   const vessel::Parameters vessel = otter();
   const map::DistanceField water = test::openWater();
-  const feasibility::Verification verification = feasibility::verify(
-      slow, water, vessel, feasibility::SafetyLimits::of(vessel));
+  const feasibility::Verification verification =
+      feasibility::verify(slow, water, vessel, feasibility::SafetyLimits::of(vessel));
   EXPECT_TRUE(verification.ok) << verification.reason;
 }
 

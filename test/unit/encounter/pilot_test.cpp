@@ -33,8 +33,8 @@ class PilotTest : public ::testing::Test {
     traffic::Track track;
     track.id = 7;
     track.stamp_s = now;
-    track.velocity = speed * Eigen::Vector2d(std::sin(heading_deg * kDegree),
-                                             std::cos(heading_deg * kDegree));
+    track.velocity =
+        speed * Eigen::Vector2d(std::sin(heading_deg * kDegree), std::cos(heading_deg * kDegree));
     track.position = (now - 100.0) * track.velocity;
     track.heading_rad = std::atan2(track.velocity.y(), track.velocity.x());
     track.length_m = 6.0;
@@ -86,8 +86,7 @@ TEST_F(PilotTest, TheWayContinuesWhatIsSailedAndIsVerified) {
   EXPECT_NEAR((is.position - was.position).norm(), 0.0, 1e-9);
   EXPECT_NEAR((is.velocity - was.velocity).norm(), 0.0, 1e-9);
   limits_.speed_max_mps = 2.01;
-  const auto verification =
-      feasibility::verify(way->path.trajectory, water_, vessel_, limits_);
+  const auto verification = feasibility::verify(way->path.trajectory, water_, vessel_, limits_);
   EXPECT_TRUE(verification.ok) << verification.reason;
 }
 

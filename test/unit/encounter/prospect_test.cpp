@@ -108,6 +108,19 @@ TEST(Prospect, WhoStandsOnWaits) {
   EXPECT_EQ(broken(80.0, -50.0), unsigned{kToPort});
 }
 
+TEST(Prospect, GettingUnderWayIsNoAction) {
+  Other other = meeting(67.5, 2.0);
+  other.record.role = Role::kStandOn;
+  other.record.kept_velocity = north(2.0);
+  EXPECT_EQ(look(sail({{north(0.5), 2.0}, {north(1.2), 2.0}, {north(2.0), 190.0}}), other).broken,
+            0U);
+  EXPECT_EQ(
+      look(sail({{north(0.5), 2.0}, {north(2.0), 5.0}, {north(1.2), 20.0}, {north(2.0), 170.0}}),
+           other)
+          .broken,
+      unsigned{kActedEarly});
+}
+
 // Rule 2: giving way to one comes before standing on for another.
 TEST(Prospect, GivingWayExcusesFromStandingOn) {
   const Prospect prospect(Options(), hull());
