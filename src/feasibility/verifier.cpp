@@ -108,7 +108,8 @@ class Verifier {
                          (z.jerk - boundary.flat.jerk).norm()});
     }
     const vessel::InverseDynamics inverse(vessel_, limits_.disturbance);
-    const double drift = kDriftMps + inverse.greatestLoadAbeam() / vessel_.paper.d2_kgps;
+    const double drift =
+        kDriftMps + inverse.greatestLoadAbeam() / vessel_.manoeuvring.sway_drag_kgps;
     const double most = motion_ ? drift : kEndMps;
     if (motion > most) {
       fail(t, sentence((label + " motion missed").c_str(), t, motion, most));
@@ -180,9 +181,9 @@ class Verifier {
       slide_mps_ = slide_m_ = 0.0;
       return;
     }
-    const vessel::PaperModel& m = vessel_.paper;
-    slide_mps_ = std::min(slide_mps_ + report.sway_n / m.m1_kg * piece.duration_s,
-                          report.sway_n / m.d2_kgps);
+    const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
+    slide_mps_ = std::min(slide_mps_ + report.sway_n / m.sway_inertia_kg * piece.duration_s,
+                          report.sway_n / m.sway_drag_kgps);
     slide_m_ += slide_mps_ * piece.duration_s;
   }
 

@@ -31,12 +31,10 @@ bool paperHolds(const Parameters& vessel) {
   const PaperModel& p = vessel.paper;
   const ManoeuvringModel& m = vessel.manoeuvring;
   const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); };
-  const bool couples = m.munk_kg != 0.0 || m.sway_from_yaw_kgmps != 0.0 ||
-                       m.yaw_from_sway_kgmps != 0.0 || m.surge_drag_quadratic_kgpm != 0.0 ||
-                       m.sway_drag_quadratic_kgpm != 0.0 || m.yaw_drag_quadratic_kgm2 != 0.0;
+  const bool couples =
+      m.munk_kg != 0.0 || m.sway_from_yaw_kgmps != 0.0 || m.yaw_from_sway_kgmps != 0.0;
   return !couples && same(m.surge_inertia_kg, p.m1_kg) && same(m.sway_inertia_kg, p.m1_kg) &&
-         same(m.yaw_inertia_kgm2, p.m2_kgm2) && same(m.surge_drag_kgps, p.d1_kgps) &&
-         same(m.sway_drag_kgps, p.d2_kgps) && same(m.yaw_drag_kgm2ps, p.d3_kgm2ps);
+         same(m.yaw_inertia_kgm2, p.m2_kgm2);
 }
 
 void push(const ManoeuvringModel& model, const Disturbance& disturbance, const Swing& swing,

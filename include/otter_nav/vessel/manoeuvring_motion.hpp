@@ -9,8 +9,9 @@
 
 namespace otter_nav::vessel {
 
-// Whether the paper's model says all that the manoeuvring model does, but for how much sway force a
-// turn feels: plans are then made and verified with the paper's, otherwise with the other.
+// Whether the paper's model will do for plans: the same inertias and no couplings of sway and yaw
+// (drags it has as linear ones, and how much sway force a turn feels it leaves to the tracker).
+// Otherwise plans are made and verified with the manoeuvring model.
 [[nodiscard]] bool paperHolds(const Parameters& vessel);
 
 // A heading with its first two derivatives.
