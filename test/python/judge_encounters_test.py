@@ -1,0 +1,97 @@
+"""The judge of encounters on tracks whose figures are known."""
+import importlib.util
+import math
+import os
+import unittest
+
+import numpy as np
+
+SCRIPT = os.path.join(os.path.dirname(__file__), "..", "..", "scripts", "judge_encounters.py")
+SPEC = importlib.util.spec_from_file_location("judge_encounters", SCRIPT)
+judge = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(judge)
+
+MISSION = {"start": [0.0, -200.0, math.pi / 2], "goal": [0.0, 200.0, math.pi / 2], "speed_mps": 2.0}
+
+
+def sail(*legs):
+    """Own track from (0, -200): course in degrees to starboard of north, speed, duration."""
+    t, x, y, psi = [0.0], [0.0], [-200.0], [math.pi / 2]
+    for turn, speed, duration in legs:
+        course = math.pi / 2 - math.radians(turn)
+        for _ in range(int(duration / 0.1)):
+            t.append(t[-1] + 0.1)
+            x.append(x[-1] + 0.1 * speed * math.cos(course))
+            y.append(y[-1] + 0.1 * speed * math.sin(course))
+            psi.append(course)
+    return judge.Track(np.array(t), np.array(x), np.array(y), np.array(psi))
+
+
+def meet(own, heading, speed=2.0):
+    """One vessel that is at the origin after 100 s."""
+    h = math.radians(heading)
+    course = np.array([math.sin(h), math.cos(h)]) * speed
+    vessel = {"id": 1, "length_m": 6.0, "beam_m": 2.0, "speeds_mps": [speed],
+              "waypoints": [list(-100.0 * course), list(300.0 * course)]}
+    t = np.arange(0.0, own.t[-1] + 0.1, 0.1)
+    run = judge.Run(own, MISSION, [(vessel, judge.scripted(vessel, t))], (2.0, 1.08))
+    return run.encounters[0]
+
+
+def broken(encounter):
+    return {rule for rule, kept in encounter.rules if not kept}
+
+
+class Judge(unittest.TestCase):
+    def test_distance_of_rectangles(self):
+        still = judge.Track(np.array([0.0, 1.0]), np.zeros(2), np.zeros(2), np.zeros(2))
+        other = judge.Track(np.array([0.0, 1.0]), np.array([10.0, 10.0]), np.zeros(2),
+                            np.full(2, math.pi / 2))
+        t = np.array([0.5])
+        self.assertAlmostEqual(
+            judge.outline_distance(still, (2, 1), other, (6, 2), t)[0], 10 - 1 - 1)
+        # Corner to corner, and one within the other.
+        aside = judge.Track(other.t, np.full(2, 5.0), np.full(2, 6.5), np.zeros(2))
+        self.assertAlmostEqual(judge.outline_distance(still, (2, 1), aside, (2, 4), t)[0],
+                               math.hypot(3.0, 4.0))
+        self.assertEqual(judge.outline_distance(still, (2, 1), still, (6, 2), t)[0], 0.0)
+
+    def test_scores(self):
+        for r, score in ((12, 1.0), (10, 1.0), (6, 0.625), (3, 0.0), (8, 0.8125), (0, 0.0)):
+            self.assertAlmostEqual(judge.range_score(r), score)
+
+    def test_straight_on_is_contact(self):
+        for heading, situation in ((180, "head-on"), (270, "crossing give-way")):
+            encounter = meet(sail((0, 2.0, 200)), heading)
+            self.assertEqual(encounter.situation, situation)
+            self.assertEqual(encounter.r, 0.0)
+            self.assertLessEqual({"8a", "8b", "8d"}, broken(encounter))
+
+    def test_head_on(self):
+        good = meet(sail((0, 2.0, 20), (40, 2.0, 15), (0, 2.0, 160)), 180)
+        self.assertEqual(broken(good), set())
+        self.assertGreater(good.r, 10.0)
+        port = meet(sail((0, 2.0, 20), (-40, 2.0, 15), (0, 2.0, 160)), 180)
+        self.assertEqual(broken(port), {"14"})
+        timid = meet(sail((0, 2.0, 20), (15, 2.0, 40), (0, 2.0, 140)), 180)
+        self.assertEqual(broken(timid), {"8b"})
+        late = meet(sail((0, 2.0, 82), (60, 2.0, 12), (0, 2.0, 100)), 180)
+        self.assertEqual(broken(late), {"8a"})
+
+    def test_crossing(self):
+        self.assertEqual(broken(meet(sail((0, 2.0, 20), (0, 0.9, 30), (0, 2.0, 170)), 270)), set())
+        ahead = meet(sail((0, 2.0, 20), (-40, 2.0, 25), (0, 2.0, 170)), 270)
+        self.assertIn("15", broken(ahead))
+
+    def test_standing_on(self):
+        self.assertEqual(meet(sail((0, 2.0, 200)), 67.5).situation, "crossing stand-on")
+        self.assertEqual(broken(meet(sail((0, 2.0, 200)), 67.5)), {"17b"})
+        self.assertEqual(broken(meet(sail((0, 2.0, 76), (0, 0.5, 30), (0, 2.0, 120)), 67.5)), set())
+        early = broken(meet(sail((0, 2.0, 40), (0, 0.5, 30), (0, 2.0, 120)), 67.5))
+        self.assertEqual(early, {"17a"})
+        port = meet(sail((0, 2.0, 76), (-60, 2.0, 20), (0, 2.0, 100)), 67.5)
+        self.assertIn("17c", broken(port))
+
+
+if __name__ == "__main__":
+    unittest.main()
