@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "tracker/handover.hpp"
 #include "tracker/navigator.hpp"
@@ -232,7 +233,13 @@ void Tracker::Core::restAhead(double now_s, const vessel::State& state) {
 void Tracker::Core::beginHolding(double now_s, const vessel::State& state) {
   mode_ = Mode::kHolding;
   const trajectory::Sample goal = reference_source_.at(reference_source_.end());
-  keeper_.start(goal.state.head<2>(), goal.state[kPsi], state[kPsi], now_s);
+  // A path that alone says how the hull lies says nothing at rest but for the line: bow where it
+  // was.
+  constexpr double kBeforeS = 0.5;
+  const double before = reference_source_.at(reference_source_.end() - kBeforeS).state[kPsi];
+  const bool told = std::isinf(goal.heading_force_n);
+  const bool turned = !told && std::cos(goal.state[kPsi] - before) < 0.0;
+  keeper_.start(goal.state.head<2>(), goal.state[kPsi] + (turned ? kPi : 0.0), state[kPsi], now_s);
 }
 
 vessel::Thrusts Tracker::Core::track(double now_s, const vessel::State& state, Command& command) {
