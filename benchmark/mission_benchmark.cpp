@@ -22,6 +22,7 @@
 
 #include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/base/progress_line.hpp"
+#include "otter_nav/config/section.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
 
 namespace {
@@ -139,6 +140,12 @@ bool same(const scenario::MissionLabel& a, const scenario::MissionLabel& b) {
          a.disturbance == b.disturbance && a.seed == b.seed;
 }
 
+// Whether a YAML file is map_server's.
+bool isMap(const fs::path& path) {
+  const auto root = otter_nav::config::loadFile(path.string());
+  return root && (*root)["image"];
+}
+
 // The scenario itself, or all in a folder: YAML files that aren't maps.
 std::vector<std::string> scenarioFiles(const std::string& path) {
   if (!fs::is_directory(path)) {
@@ -150,7 +157,8 @@ std::vector<std::string> scenarioFiles(const std::string& path) {
     const auto endsIn = [&](const std::string& tail) {
       return stem.size() > tail.size() && stem.substr(stem.size() - tail.size()) == tail;
     };
-    if (entry.path().extension() == ".yaml" && !endsIn("_chart") && !endsIn("_world")) {
+    if (entry.path().extension() == ".yaml" && !endsIn("_chart") && !endsIn("_world") &&
+        !isMap(entry.path())) {
       files.push_back(entry.path().string());
     }
   }

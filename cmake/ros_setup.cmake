@@ -10,7 +10,7 @@ find_package(catkin REQUIRED COMPONENTS
 catkin_python_setup()
 add_message_files(FILES
   ContactEvent.msg DisturbanceEstimate.msg GuidePath.msg PlannerStatus.msg PlantState.msg Route.msg
-  ThrusterCommand.msg TrackerCycle.msg TrackerStatus.msg Trajectory.msg TrajectoryPiece.msg)
+  ThrusterCommand.msg Track.msg TrackerCycle.msg TrackerStatus.msg Tracks.msg Trajectory.msg TrajectoryPiece.msg)
 add_service_files(FILES FindGuidePath.srv SaveMap.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 

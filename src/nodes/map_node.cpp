@@ -8,6 +8,7 @@
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/grids.hpp"
+#include "otter_nav/ros/scans.hpp"
 #include "otter_nav/scenario/scenario.hpp"
 
 namespace otter_nav::nodes {
@@ -17,16 +18,6 @@ using ros_bridge::kMapFrame;
 using Level = ros_bridge::Diagnostics::Level;
 
 constexpr int kQueue = 50;
-
-map::Scan toScan(const sensor_msgs::LaserScan& message) {
-  map::Scan scan;
-  scan.angle_min_rad = static_cast<double>(message.angle_min);
-  scan.angle_increment_rad = static_cast<double>(message.angle_increment);
-  scan.range_min_m = static_cast<double>(message.range_min);
-  scan.range_max_m = static_cast<double>(message.range_max);
-  scan.ranges_m = message.ranges;
-  return scan;
-}
 
 }  // namespace
 
@@ -79,6 +70,8 @@ MapNode::MapNode(map::OccupancyMap map)
       ros_bridge::toMessage(map_.chart(), kMapFrame, ros::Time::now(), load_time_));
   scan_filter_.registerCallback(
       [this](const sensor_msgs::LaserScanConstPtr& message) { onScan(message); });
+  ghost_subscriber_ = node_.subscribe("ghosts", kQueue, &MapNode::onGhosts, this,
+                                      ros::TransportHints().tcpNoDelay());
   diagnostics_.setState(Level::kOk, "chart loaded");
 }
 
@@ -89,32 +82,18 @@ void MapNode::publishMapTo(const ros::SingleSubscriberPublisher& subscriber) con
   }
 }
 
-Result<map::SensorPose> MapNode::poseOf(const std::string& frame, const ros::Time& stamp) const {
-  try {
-    const geometry_msgs::Transform transform =
-        transforms_.lookupTransform(kMapFrame, frame, stamp).transform;
-    const Eigen::Vector3d angles = ros_bridge::rollPitchYaw(
-        {transform.rotation.w, transform.rotation.x, transform.rotation.y, transform.rotation.z});
-    map::SensorPose pose;
-    pose.position = {transform.translation.x, transform.translation.y, transform.translation.z};
-    pose.roll_rad = angles.x();
-    pose.pitch_rad = angles.y();
-    pose.yaw_rad = angles.z();
-    return pose;
-  } catch (const tf2::TransformException& exception) {
-    return failure(exception.what());
-  }
-}
-
 // Sensor and hull are where tf says they are, so the sensor may sit anywhere on the vessel.
 Result<map::CellRectangle> MapNode::insert(const sensor_msgs::LaserScan& message) {
   const ros::Time& stamp = message.header.stamp;
-  const Result<map::SensorPose> sensor = poseOf(message.header.frame_id, stamp);
-  const Result<map::SensorPose> base = poseOf(ros_bridge::kBaseFrame, stamp);
+  const Result<map::SensorPose> sensor =
+      ros_bridge::poseInMap(transforms_, message.header.frame_id, stamp);
+  const Result<map::SensorPose> base =
+      ros_bridge::poseInMap(transforms_, ros_bridge::kBaseFrame, stamp);
   if (!sensor || !base) {
     return failure((sensor ? base : sensor).error().message);
   }
-  return map_.insertScan(*sensor, {base->position.head<2>(), base->yaw_rad}, toScan(message));
+  return map_.insertScan(*sensor, {base->position.head<2>(), base->yaw_rad},
+                         ros_bridge::toScan(message));
 }
 
 void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
@@ -132,6 +111,22 @@ void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   }
   last_scan_ = message->header.stamp;
   publishUpdate(changed.value_or(map::CellRectangle{}), last_scan_);
+}
+
+// A vessel was met there before it was known to be one.
+void MapNode::onGhosts(const sensor_msgs::PointCloud& message) {
+  if (message.header.frame_id != kMapFrame) {
+    diagnostics_.refuse("ghosts", "frame_id is '" + message.header.frame_id + "'");
+    return;
+  }
+  std::vector<Eigen::Vector2d> points;
+  for (const geometry_msgs::Point32& point : message.points) {
+    points.emplace_back(static_cast<double>(point.x), static_cast<double>(point.y));
+  }
+  const map::CellRectangle changed = map_.forget(points);
+  if (!changed.empty()) {
+    publishUpdate(changed, last_scan_.isZero() ? message.header.stamp : last_scan_);
+  }
 }
 
 void MapNode::publishUpdate(map::CellRectangle changed, const ros::Time& stamp) {

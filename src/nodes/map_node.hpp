@@ -6,6 +6,7 @@
 #include <otter_nav/SaveMap.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/message_filter.h>
@@ -29,10 +30,8 @@ class MapNode {
   explicit MapNode(map::OccupancyMap map);
 
   void onScan(const sensor_msgs::LaserScanConstPtr& message);
+  void onGhosts(const sensor_msgs::PointCloud& message);
   [[nodiscard]] Result<map::CellRectangle> insert(const sensor_msgs::LaserScan& message);
-  // A frame's pose in the map frame.
-  [[nodiscard]] Result<map::SensorPose> poseOf(const std::string& frame,
-                                               const ros::Time& stamp) const;
   bool onSave(SaveMap::Request& request, SaveMap::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   // An update is sent for every scan, of one unchanged cell if need be: it says that the scan has
@@ -51,6 +50,7 @@ class MapNode {
   tf2_ros::TransformListener transform_listener_{transforms_};
   message_filters::Subscriber<sensor_msgs::LaserScan> scan_subscriber_;
   tf2_ros::MessageFilter<sensor_msgs::LaserScan> scan_filter_;
+  ros::Subscriber ghost_subscriber_;
   ros::Publisher map_publisher_;
   ros::Publisher chart_publisher_;
   ros::Publisher update_publisher_;

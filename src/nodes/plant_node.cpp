@@ -39,6 +39,7 @@ Result<std::unique_ptr<PlantNode>> PlantNode::create(config::Section section) {
   if (!simulator) {
     return failure(simulator.error().message);
   }
+  simulator->setVessels(setup->node.vessels);
   simulator->placeAt(setup->node.start.head<2>(), setup->node.start.z());
   return std::unique_ptr<PlantNode>(new PlantNode(setup->node, std::move(*simulator)));
 }
@@ -103,6 +104,10 @@ void PlantNode::run() {
 }
 
 void PlantNode::publishStep() {
+  if (simulator_.radarDue()) {
+    publisher_.publishRadar(simulator_.radar(), now_);
+  }
+  publisher_.publishAis(simulator_.takeAis());
   if (simulator_.scanDue()) {
     publisher_.publishScan(simulator_.scan(), now_);
     pending_scans_.push_back(now_);

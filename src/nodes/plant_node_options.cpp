@@ -17,6 +17,7 @@ Status takeScenario(PlantNodeOptions& options) {
   }
   options.world = scenario->world_path;
   options.start << mission->start.position, mission->start.psi_rad;
+  options.vessels = scenario->vessels;
   return {};
 }
 

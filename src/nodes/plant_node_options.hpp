@@ -8,6 +8,7 @@
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/plant/options.hpp"
+#include "otter_nav/vessel/scripted_vessel.hpp"
 
 namespace otter_nav::nodes {
 
@@ -24,6 +25,7 @@ struct PlantNodeOptions {
   bool lockstep = true;
   std::vector<std::string> lockstep_nodes = {"planner_node"};
   double lockstep_lag_s = 0.05;
+  std::vector<vessel::ScriptedVessel> vessels;  // the scenario's
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
@@ -47,7 +49,7 @@ struct PlantNodeSetup {
   PlantNodeOptions node;
   plant::Options plant;
 };
-// Fills world and start from the scenario if there is one.
+// Fills world, start and other vessels from the scenario if there is one.
 [[nodiscard]] Result<PlantNodeSetup> readPlantNodeSetup(config::Section section);
 
 }  // namespace otter_nav::nodes

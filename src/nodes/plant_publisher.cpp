@@ -1,11 +1,16 @@
 #include "plant_publisher.hpp"
 
+#include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/Vector3Stamped.h>
 #include <otter_nav/ContactEvent.h>
 #include <rosgraph_msgs/Clock.h>
+#include <std_msgs/String.h>
+
+#include <cmath>
 
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/tracks.hpp"
 
 namespace otter_nav::nodes {
 namespace {
@@ -51,6 +56,9 @@ PlantPublisher::PlantPublisher(ros::NodeHandle& node, const plant::LidarOptions&
       ground_truth_(node.advertise<nav_msgs::Odometry>("ground_truth", kQueue)),
       state_(node.advertise<PlantState>("plant_state", kQueue)),
       scan_(node.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
+      radar_(node.advertise<geometry_msgs::PoseArray>("radar", kQueue)),
+      ais_(node.advertise<std_msgs::String>("ais", kQueue)),
+      vessels_(node.advertise<Tracks>("vessels", kQueue)),
       contact_(node.advertise<ContactEvent>("contact", kQueue, true)),
       wind_(node.advertise<geometry_msgs::Vector3Stamped>("wind", kQueue)),
       current_(node.advertise<geometry_msgs::Vector3Stamped>("current", kQueue)),
@@ -70,6 +78,7 @@ void PlantPublisher::publish(const plant::Simulator& simulator, const ros::Time&
   publishContact(simulator, stamp);
   if (stamp >= next_weather_) {
     publishWeather(simulator.truth(), stamp);
+    publishVessels(simulator, stamp);
     next_weather_ = stamp + ros::Duration(kWeatherPeriodS);
   }
   // Last, because the tracker's answer lets time go on.
@@ -145,6 +154,44 @@ void PlantPublisher::publishTruth(const plant::Simulator& simulator, const ros::
 void PlantPublisher::publishWeather(const plant::Truth& truth, const ros::Time& stamp) {
   wind_.publish(vectorMessage(truth.wind_mps, stamp));
   current_.publish(vectorMessage(truth.current_mps, stamp));
+}
+
+// The truth of others, as tracks that are certain.
+void PlantPublisher::publishVessels(const plant::Simulator& simulator, const ros::Time& stamp) {
+  std::vector<traffic::Track> truth;
+  for (const plant::OtherVessel& other : simulator.others()) {
+    const double psi = other.motion.pose.psi_rad;
+    traffic::Track track;
+    track.id = other.id;
+    track.stamp_s = stamp.toSec();
+    track.position = other.motion.pose.position;
+    track.velocity = other.motion.speed_mps * Eigen::Vector2d(std::cos(psi), std::sin(psi));
+    track.heading_rad = psi;
+    track.length_m = other.hull.length_m;
+    track.beam_m = other.hull.beam_m;
+    truth.push_back(track);
+  }
+  if (!truth.empty()) {
+    vessels_.publish(toMessage(truth, stamp));
+  }
+}
+
+void PlantPublisher::publishRadar(const plant::RadarScan& radar, const ros::Time& stamp) {
+  geometry_msgs::PoseArray message;
+  message.header.frame_id = kBaseFrame;
+  message.header.stamp = stamp;
+  for (const Eigen::Vector2d& position : radar.positions_in_base) {
+    message.poses.push_back(toPose(position, 0.0));
+  }
+  radar_.publish(message);
+}
+
+void PlantPublisher::publishAis(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) {
+    std_msgs::String message;
+    message.data = sentence;
+    ais_.publish(message);
+  }
 }
 
 void PlantPublisher::publishContact(const plant::Simulator& simulator, const ros::Time& stamp) {

@@ -21,6 +21,8 @@ class PlantPublisher {
   // Clock, transform, odometry and truth at `stamp`; contact when it begins and ends.
   void publish(const plant::Simulator& simulator, const ros::Time& stamp);
   void publishScan(const plant::Scan& scan, const ros::Time& stamp);
+  void publishRadar(const plant::RadarScan& radar, const ros::Time& stamp);
+  void publishAis(const std::vector<std::string>& sentences);
   // The last of clock, odometry, state and scan once more, for whoever was not there
   // yet.
   void repeat();
@@ -30,12 +32,16 @@ class PlantPublisher {
   void publishTruth(const plant::Simulator& simulator, const ros::Time& stamp);
   void publishWeather(const plant::Truth& truth, const ros::Time& stamp);
   void publishContact(const plant::Simulator& simulator, const ros::Time& stamp);
+  void publishVessels(const plant::Simulator& simulator, const ros::Time& stamp);
 
   ros::Publisher clock_;
   ros::Publisher odometry_;
   ros::Publisher ground_truth_;
   ros::Publisher state_;
   ros::Publisher scan_;
+  ros::Publisher radar_;
+  ros::Publisher ais_;
+  ros::Publisher vessels_;
   ros::Publisher contact_;
   ros::Publisher wind_;
   ros::Publisher current_;

@@ -10,13 +10,13 @@ namespace otter_nav::traffic {
 namespace {
 
 // Densities of white acceleration, m^2/s^3, and of the turn rate's change, rad^2/s^3.
-constexpr double kStraightAcceleration = 0.002;
-constexpr double kTurningAcceleration = 0.3;
-constexpr double kTurnChange = 0.02;
-constexpr double kTurnDecayS = 8.0;  // a turn rate dies out
+constexpr double kStraightAcceleration = 0.0002;
+constexpr double kTurningAcceleration = 0.2;
+constexpr double kTurnChange = 0.002;
+constexpr double kTurnDecayS = 20.0;  // a turn rate dies out
 // How long a model holds on average.
-constexpr double kStraightHoldsS = 30.0;
-constexpr double kTurningHoldsS = 4.0;
+constexpr double kStraightHoldsS = 120.0;
+constexpr double kTurningHoldsS = 2.0;
 
 constexpr double kAnySpeedMps = 2.5;  // standard deviation of an unknown velocity, each axis
 constexpr double kAnyTurnRadps = 0.2;
@@ -113,6 +113,8 @@ void MotionFilter::mix(double dt_s) {
   const double leave[kModels] = {1.0 - std::exp(-dt_s / kStraightHoldsS),
                                  1.0 - std::exp(-dt_s / kTurningHoldsS)};
   const std::array<Model, kModels> before = models_;
+  // Who begins to turn may do so at any rate.
+  const double any_turn[kModels] = {0.0, kAnyTurnRadps * kAnyTurnRadps};
   for (std::size_t to = 0; to < kModels; ++to) {
     const std::size_t other = 1 - to;
     const double stays = (1.0 - leave[to]) * before[to].weight;
@@ -124,6 +126,7 @@ void MotionFilter::mix(double dt_s) {
     model.x = before[to].x + share * between;
     model.P = (1.0 - share) * before[to].P + share * before[other].P +
               share * (1.0 - share) * between * between.transpose();
+    model.P(4, 4) += share * any_turn[to];
   }
 }
 
@@ -210,8 +213,24 @@ void MotionFilter::update(const Measurement& measurement) {
   update({{measurement, likelihoods(measurement), 1.0}});
 }
 
+void MotionFilter::shift(const Eigen::Vector2d& by) {
+  for (Model& model : models_) {
+    model.x.head<2>() += by;
+  }
+}
+
 MotionState MotionFilter::state() const {
   return models_[0].weight * models_[0].x + models_[1].weight * models_[1].x;
+}
+
+MotionCovariance MotionFilter::likelyCovariance() const {
+  constexpr double kCertain = 0.985;
+  for (const Model& model : models_) {
+    if (model.weight > kCertain) {
+      return model.P;
+    }
+  }
+  return covariance();
 }
 
 MotionCovariance MotionFilter::covariance() const {

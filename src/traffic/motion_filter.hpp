@@ -48,9 +48,15 @@ class MotionFilter {
   // The vessel's for certain.
   void update(const Measurement& measurement);
 
+  // Moves the position alone: another point of the same vessel is followed from now on.
+  void shift(const Eigen::Vector2d& by);
+
   // Of all models together.
   [[nodiscard]] MotionState state() const;
   [[nodiscard]] MotionCovariance covariance() const;
+  // Of the model that is all but certain, if there is one: what the other one thinks possible is
+  // for finding the vessel again, not for what is said of her.
+  [[nodiscard]] MotionCovariance likelyCovariance() const;
   [[nodiscard]] double turningProbability() const { return models_[1].weight; }
 
  private:

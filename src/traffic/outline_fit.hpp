@@ -11,7 +11,9 @@ struct Cluster {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::size_t> beams;  // that met them
   int new_points = 0;              // in water that was seen free before
-  bool cut = false;                // goes on beyond the range, or behind something nearer
+  bool out_of_range = false;       // in part: it goes on beyond the range
+  bool first_hidden = false;       // it goes on behind something nearer, beyond its first point
+  bool last_hidden = false;        // or its last
 };
 
 // Along an axis: from `low` to `high`.

@@ -151,18 +151,17 @@ void ScanClusters::divide(std::size_t beams, double increment_rad) {
                   clusters_.end());
 }
 
-bool ScanClusters::isCut(const Cluster& cluster) const {
+void ScanClusters::findCuts(Cluster& cluster) const {
   constexpr double kNearerM = 1.0;
-  const auto ends = [&](std::size_t beam, const Eigen::Vector2d& point, std::size_t step) {
-    const double range = (point - eye_).norm();
-    if (range > range_max_m_ - kNearerM) {
-      return true;
-    }
-    const double beside = free_m_[(beam + step) % free_m_.size()];
-    return beside < range - kNearerM;
+  const std::size_t beams = free_m_.size();
+  const auto hidden = [&](std::size_t beam, const Eigen::Vector2d& point, std::size_t step) {
+    return free_m_[(beam + step) % beams] < (point - eye_).norm() - kNearerM;
   };
-  return ends(cluster.beams.front(), cluster.points.front(), free_m_.size() - 1) ||
-         ends(cluster.beams.back(), cluster.points.back(), 1);
+  cluster.first_hidden = hidden(cluster.beams.front(), cluster.points.front(), beams - 1);
+  cluster.last_hidden = hidden(cluster.beams.back(), cluster.points.back(), 1);
+  for (const Eigen::Vector2d& point : {cluster.points.front(), cluster.points.back()}) {
+    cluster.out_of_range = cluster.out_of_range || (point - eye_).norm() > range_max_m_ - kNearerM;
+  }
 }
 
 const std::vector<Cluster>& ScanClusters::gather(double stamp_s, const map::SensorPose& sensor,
@@ -177,7 +176,7 @@ const std::vector<Cluster>& ScanClusters::gather(double stamp_s, const map::Sens
   remember();
   divide(scan.ranges_m.size(), scan.angle_increment_rad);
   for (Cluster& cluster : clusters_) {
-    cluster.cut = isCut(cluster);
+    findCuts(cluster);
   }
   return clusters_;
 }
@@ -187,7 +186,9 @@ double ScanClusters::inSight(const Eigen::Vector2d& position, double length_m,
   const Eigen::Vector2d off = position - eye_;
   const double range = off.norm();
   constexpr double kMarginM = 0.5;
-  if (range - 0.5 * length_m + kMarginM > range_max_m_ || free_m_.empty()) {
+  // Nearer by less than this is the thing itself, a little before where it is thought to be.
+  constexpr double kSelfM = 2.5;
+  if (range - 0.5 * length_m - kSelfM > range_max_m_ || free_m_.empty()) {
     return 0.0;
   }
   const double half = std::atan2(0.25 * beam_m, std::max(range, 0.1));
@@ -196,8 +197,8 @@ double ScanClusters::inSight(const Eigen::Vector2d& position, double length_m,
     const double turns =
         std::remainder(bearing + side - angle_min_rad_ - kPi, 2.0 * kPi) + kPi;  // 0 to 2 pi
     const auto beam = static_cast<std::size_t>(std::lround(turns / increment_rad_));
-    if (beam < free_m_.size() && free_m_[beam] > range - 0.5 * length_m - kMarginM) {
-      return free_m_[beam] > range - 0.5 * beam_m - kMarginM ? 1.0 : 0.5;
+    if (beam < free_m_.size() && free_m_[beam] > range - 0.5 * length_m - kSelfM) {
+      return range + kMarginM < range_max_m_ ? 1.0 : 0.5;
     }
   }
   return 0.0;

@@ -34,7 +34,7 @@ class ScanClusters {
   void readEchoes(const map::SensorPose& sensor, const map::HullPose& own, const map::Scan& scan);
   void remember();
   void divide(std::size_t beams, double increment_rad);
-  [[nodiscard]] bool isCut(const Cluster& cluster) const;
+  void findCuts(Cluster& cluster) const;
 
   map::GridGeometry geometry_;
   std::vector<bool> charted_;  // land, and the cells next to it

@@ -11,6 +11,7 @@ constexpr double kCellM = 0.5;
 constexpr int kMarginCells = 24;  // the square moves when the vessel is nearer to its middle's edge
 constexpr std::uint8_t kSeenFree = 5;  // scans
 constexpr float kNewForS = 3.0F;
+constexpr float kUnknownForS = 0.6F;  // the same where nobody knows whether it was free
 constexpr float kFreeHoldsS = 20.0F;  // what was free so long ago says nothing
 constexpr float kEchoHoldsS = 1.0F;   // what was met so long ago doesn't stand there any more
 
@@ -67,7 +68,7 @@ bool ScanMemory::standsSince(const Cell& cell) const {
   if (cell.met_since_s < 0.0F || now_s_ - cell.met_last_s > kEchoHoldsS) {
     return false;
   }
-  return cell.free_count < kSeenFree || now_s_ - cell.met_since_s > kNewForS;
+  return now_s_ - cell.met_since_s > (cell.free_count < kSeenFree ? kUnknownForS : kNewForS);
 }
 
 bool ScanMemory::isNew(const Eigen::Vector2d& point) const {

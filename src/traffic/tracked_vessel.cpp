@@ -39,9 +39,30 @@ struct View {
         eye_along(ahead.dot(eye)),
         eye_athwart(across(ahead).dot(eye)),
         from_beside(looksAt(eye_athwart, athwart, eye_along, along)),
-        from_end(looksAt(eye_along, along, eye_athwart, athwart)) {}
+        from_end(looksAt(eye_along, along, eye_athwart, athwart)) {
+    hide(cluster.first_hidden, cluster.points.front(), ahead);
+    hide(cluster.last_hidden, cluster.points.back(), ahead);
+  }
+
+  // Whether an end of the spans is where something nearer begins, and not the hull's.
+  struct Hidden {
+    bool low = false;
+    bool high = false;
+    [[nodiscard]] bool any() const { return low || high; }
+  };
+  Hidden along_hidden;
+  Hidden athwart_hidden;
 
  private:
+  void hide(bool hidden, const Eigen::Vector2d& point, const Eigen::Vector2d& ahead) {
+    constexpr double kAtEndM = 0.3;
+    const auto mark = [&](double value, const Span& span, Hidden& ends) {
+      ends.low = ends.low || (hidden && value < span.low + kAtEndM);
+      ends.high = ends.high || (hidden && value > span.high - kAtEndM);
+    };
+    mark(ahead.dot(point), along, along_hidden);
+    mark(across(ahead).dot(point), athwart, athwart_hidden);
+  }
   static double outside(double value, const Span& span) {
     return std::max({0.0, span.low - value, value - span.high});
   }
@@ -60,17 +81,20 @@ struct Middle {
 
 // `eye`: the sensor along this axis; `whole_seen`: whether it sees the sides that lie along it. If
 // not, only the near end is seen, and the middle is half the size away.
-Middle middleAlong(const Span& span, double eye, bool whole_seen, double size_m, bool size_known) {
-  const bool whole = whole_seen && span.length() > 0.8 * size_m;
-  if (whole || (whole_seen && !size_known)) {
+Middle middleAlong(const Span& span, const View::Hidden& hidden, double eye, bool whole_seen,
+                   double size_m, bool size_known) {
+  const bool whole = whole_seen && !hidden.any() && span.length() > 0.8 * size_m;
+  if (whole || (whole_seen && !hidden.any() && !size_known)) {
     return {span.middle(), kSeenSideM};
   }
   const double half = 0.5 * std::max(size_m, span.length());
-  const double deviation = size_known ? kSeenSideM : kGuessedSideM;
-  if (std::abs(eye - span.low) < std::abs(eye - span.high)) {
-    return {span.low + half, deviation};
+  if (hidden.low && hidden.high) {
+    return {span.middle(), std::max(kGuessedSideM, half)};
   }
-  return {span.high - half, deviation};
+  const double deviation = size_known ? kSeenSideM : kGuessedSideM;
+  const bool from_low =
+      hidden.any() ? hidden.high : std::abs(eye - span.low) < std::abs(eye - span.high);
+  return {from_low ? span.low + half : span.high - half, deviation};
 }
 
 }  // namespace
@@ -85,11 +109,14 @@ std::optional<double> TrackedVessel::course() const {
   return std::atan2(x[3], x[2]);
 }
 
-void TrackedVessel::followCourse() {
-  if (const std::optional<double> now = course()) {
+bool TrackedVessel::followCourse() {
+  const std::optional<double> now = course();
+  const bool first = now && !heading_rad;
+  if (now) {
     heading_rad = now;
     has_moved = true;
   }
+  return first;
 }
 
 Track TrackedVessel::track() const {
@@ -101,7 +128,7 @@ Track TrackedVessel::track() const {
   track.position = x.head<2>();
   track.velocity = keeps_place ? Eigen::Vector2d::Zero() : Eigen::Vector2d(x.segment<2>(2));
   track.turn_rate_radps = keeps_place ? 0.0 : x[4];
-  track.covariance = motion.covariance().topLeftCorner<4, 4>();
+  track.covariance = motion.likelyCovariance().topLeftCorner<4, 4>();
   if (keeps_place) {
     track.covariance.rightCols<2>().setZero();
     track.covariance.bottomRows<2>().setZero();
@@ -124,22 +151,25 @@ Track TrackedVessel::track() const {
 }
 
 Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d& eye) const {
+  // Without a heading, along the line of sight: its near end doesn't shift as more of a hull comes
+  // into sight behind it.
   const bool young = hits < kYoungHits && size == Size::kGuessed;
-  const double direction =
-      heading_rad && !young ? *heading_rad : rectangleDirection(cluster.points);
-  const Eigen::Vector2d ahead = unit(direction);
+  const bool headed = heading_rad && !young;
+  const Eigen::Vector2d ahead =
+      headed ? unit(*heading_rad) : (cluster.points[cluster.points.size() / 2] - eye).normalized();
   const Eigen::Vector2d port = across(ahead);
   const View view(cluster, eye, ahead);
   Middle middle[2];
-  if (young || !heading_rad) {
-    middle[0] = {view.along.middle(), kGuessedSideM};
+  if (!headed) {
+    middle[0] = {view.along.low + 0.5 * beam_m, kGuessedSideM};
     middle[1] = {view.athwart.middle(), kGuessedSideM};
   } else {
     const bool known = size != Size::kGuessed;
-    middle[0] =
-        middleAlong(view.along, view.eye_along, view.from_beside && !cluster.cut, length_m, known);
-    middle[1] =
-        middleAlong(view.athwart, view.eye_athwart, view.from_end && !cluster.cut, beam_m, known);
+    const bool in_range = !cluster.out_of_range;
+    middle[0] = middleAlong(view.along, view.along_hidden, view.eye_along,
+                            view.from_beside && in_range, length_m, known);
+    middle[1] = middleAlong(view.athwart, view.athwart_hidden, view.eye_athwart,
+                            view.from_end && in_range, beam_m, known);
   }
   const Eigen::Matrix2d axes = (Eigen::Matrix2d() << ahead, port).finished();
   const Eigen::Vector2d variances(middle[0].deviation_m * middle[0].deviation_m,
@@ -148,6 +178,15 @@ Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d
   measurement.value.head<2>() = middle[0].at * ahead + middle[1].at * port;
   measurement.covariance.topLeftCorner<2, 2>() = axes * variances.asDiagonal() * axes.transpose();
   return measurement;
+}
+
+void TrackedVessel::followMiddle(const Cluster& cluster, const Eigen::Vector2d& eye) {
+  const std::optional<double> heading = heading_rad;
+  const Eigen::Vector4d headed = measure(cluster, eye).value;
+  heading_rad.reset();
+  const Eigen::Vector4d before = measure(cluster, eye).value;
+  heading_rad = heading;
+  motion.shift((headed - before).head<2>());
 }
 
 void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye) {
@@ -165,7 +204,8 @@ void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye
   const View view(cluster, eye, unit(*heading_rad));
   const bool guessed = size == Size::kGuessed;
   // Both have to be seen before a guess is left; what is cut off is longer than it seems.
-  if (cluster.cut || (guessed && !(view.from_beside && view.from_end))) {
+  const bool cut = cluster.out_of_range || cluster.first_hidden || cluster.last_hidden;
+  if (cut || (guessed && !(view.from_beside && view.from_end))) {
     length_m = std::max(length_m, view.along.length());
     beam_m = std::max(beam_m, view.athwart.length());
     return;

@@ -25,6 +25,8 @@ struct TrackedVessel {
   double last_s;  // when it was last seen or heard
   int hits = 1;
   int moving_hits = 0;  // scans in which it was met in water seen free before
+  int missed = 0;       // scans in a row that ought to have shown it and didn't
+
   std::uint32_t sources;
 
   // Outline. A size is taken as a guess until something measures it.
@@ -41,15 +43,25 @@ struct TrackedVessel {
 
   std::vector<Eigen::Vector2d> unconfirmed_points;  // echoes that went into the map meanwhile
 
+  // Begins to count anew: what was met now may be something else than before.
+  void doubt(double time_s) {
+    first_s = time_s;
+    hits = 1;
+    moving_hits = 0;
+  }
+
   // Course, if the motion tells one.
   [[nodiscard]] std::optional<double> course() const;
   // Takes the course as the heading where there is one.
-  void followCourse();
+  // Whether it is the first one.
+  bool followCourse();
   [[nodiscard]] Track track() const;
 
   // Where the outline's middle is if `cluster`, seen from `eye`, is this vessel: not the points'
   // middle, but the sides that are seen, with half the size from there on.
   [[nodiscard]] Measurement measure(const Cluster& cluster, const Eigen::Vector2d& eye) const;
+  // The first heading is known now: the hull's middle is followed from here on.
+  void followMiddle(const Cluster& cluster, const Eigen::Vector2d& eye);
   // What a cluster that is this vessel says of its size.
   void learnSize(const Cluster& cluster, const Eigen::Vector2d& eye);
   // Dimensions reported by AIS: the size, and where in the outline the reported position is.

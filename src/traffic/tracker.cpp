@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kGate2 = 16.0;      // squared Mahalanobis distance
 constexpr double kLivesS = 300.0;    // a vessel is there for so long on average
-constexpr double kConfirmed = 0.95;  // existence
+constexpr double kConfirmed = 0.98;  // existence
 constexpr double kGone = 0.02;
-constexpr int kFewestHits = 3;
+constexpr int kFewestHits = 2;
 constexpr double kOutOfReach = 0.1;  // with a lower chance to be detected nothing is concluded
 
 // Lidar.
@@ -28,15 +28,25 @@ constexpr double kPlacedM2 = 4.0;
 constexpr double kLidarClutterPerM2 = 2e-3;
 constexpr double kFirstExistence = 0.2;
 constexpr int kFewestNew = 2;  // echoes of a cluster in water seen free, to begin a track
-constexpr int kFewestMovingHits = 8;
-constexpr double kFewestSeconds = 1.0;
+constexpr int kFewestMovingHits = 6;
+constexpr double kFewestSeconds = 2.0;
+constexpr double kUnconfirmedAtMost = 0.99;
+constexpr double kUnconfirmedGone = 0.1;
+// Squared Mahalanobis distance: a hull's echoes are steadier than their deviation says, clutter
+// that follows on clutter isn't.
+constexpr double kSurprise2 = 5.0;
+constexpr int kMostMissed = 1;
 constexpr double kTentativeS = 8.0;      // what is not confirmed by then is dropped
 constexpr double kOutlineMarginM = 0.7;  // echoes this near a vessel's outline are hers
 constexpr double kLostS = 30.0;          // neither seen nor heard for so long
 
 // Radar.
 constexpr double kRadarDetection = 0.9;
-constexpr double kRadarClutterPerM2 = 1e-5;
+// Of false plots, a scan: begins at the first, then is what is seen, and never below the second.
+constexpr double kRadarClutterPerM2 = 1e-6;
+constexpr double kLeastClutterPerM2 = 3e-7;
+constexpr double kClutterShare = 0.1;   // by which a scan changes it
+constexpr double kVesselsPerM2 = 1e-6;  // that come into sight, a scan
 
 // AIS.
 constexpr double kAisPositionM = 2.5;  // standard deviations, each axis
@@ -95,7 +105,10 @@ class Tracker::Impl {
       const bool placed = vessel.motion.covariance().topLeftCorner<2, 2>().trace() < kPlacedM2;
       return seen * (placed ? kLidarDetection : kLidarUnplaced);
     };
-    look.seen = [&](TrackedVessel& vessel, std::size_t k) {
+    look.seen = [&](TrackedVessel& vessel, std::size_t k, bool first_course) {
+      if (first_course && vessel.sources == kLidar) {
+        vessel.followMiddle(clusters[k], eye);
+      }
       vessel.moving_hits += clusters[k].new_points >= kFewestNew ? 1 : 0;
       vessel.learnSize(clusters[k], eye);
       if (!vessel.confirmed) {
@@ -121,7 +134,7 @@ class Tracker::Impl {
     Look look;
     look.stamp_s = stamp_s;
     look.detections = positions.size();
-    look.clutter_per_m2 = kRadarClutterPerM2;
+    look.clutter_per_m2 = radar_clutter_per_m2_;
     look.source = kRadar;
     look.measure = [&](const TrackedVessel& /*vessel*/, std::size_t k) {
       return positionMeasurement(positions[k], options_.radar_noise_m);
@@ -131,14 +144,21 @@ class Tracker::Impl {
       const double range = (vessel.motion.state().head<2>() - own).norm();
       return range < options_.radar_range_m && !vessel.keeps_place ? kRadarDetection : 0.0;
     };
-    look.seen = [](TrackedVessel& /*vessel*/, std::size_t /*k*/) {};
+    look.seen = [](TrackedVessel& /*vessel*/, std::size_t /*k*/, bool /*first*/) {};
     const std::vector<double> taken = associate(look);
+    int nobodys = 0;
     for (std::size_t k = 0; k < positions.size(); ++k) {
       if (taken[k] < 0.3) {
         vessels_.emplace_back(next_id_++, positionMeasurement(positions[k], options_.radar_noise_m),
                               stamp_s, kRadar);
+        vessels_.back().existence = kVesselsPerM2 / (kVesselsPerM2 + radar_clutter_per_m2_);
+        ++nobodys;
       }
     }
+    const double area = kPi * options_.radar_range_m * options_.radar_range_m;
+    radar_clutter_per_m2_ =
+        std::max(kLeastClutterPerM2,
+                 radar_clutter_per_m2_ + kClutterShare * (nobodys / area - radar_clutter_per_m2_));
     unite();
     judge(stamp_s);
   }
@@ -169,7 +189,8 @@ class Tracker::Impl {
     std::function<Measurement(const TrackedVessel&, std::size_t)> measure;
     std::function<bool(const TrackedVessel&, std::size_t)> canBe;
     std::function<double(const TrackedVessel&)> detection;  // probability
-    std::function<void(TrackedVessel&, std::size_t)> seen;  // most probably this one
+    // Most probably this one; whether its course has become known by it.
+    std::function<void(TrackedVessel&, std::size_t, bool)> seen;
   };
 
   // Moves the tracks on and updates them; each detection's probability of being somebody's.
@@ -231,7 +252,12 @@ class Tracker::Impl {
     for (const double probability : probabilities) {
       exists += probability;
     }
-    vessel.existence = std::clamp(exists, 0.0, 0.9999);
+    vessel.existence = std::clamp(exists, 0.0, vessel.confirmed ? 0.9999 : kUnconfirmedAtMost);
+    const bool in_doubt = !vessel.confirmed && vessel.sources == kLidar;
+    vessel.missed += detection > 0.5 ? 1 : 0;
+    if (in_doubt && vessel.missed > kMostMissed) {
+      vessel.doubt(look.stamp_s);
+    }
     if (exists <= 0.0 || candidates.empty()) {
       return;
     }
@@ -240,13 +266,17 @@ class Tracker::Impl {
       candidates[l].probability = probabilities[l] / exists;
       best = probabilities[l] > probabilities[best] ? l : best;
     }
+    const double surprise = vessel.motion.distance2(candidates[best].measurement);
     vessel.motion.update(candidates);
     if (probabilities[best] > 0.5) {
+      vessel.missed = 0;
+      if (in_doubt && !vessel.heading_rad && surprise > kSurprise2) {
+        vessel.doubt(look.stamp_s);
+      }
       vessel.last_s = look.stamp_s;
       ++vessel.hits;
       vessel.sources |= look.source;
-      vessel.followCourse();
-      look.seen(vessel, links[best].detection);
+      look.seen(vessel, links[best].detection, vessel.followCourse());
     }
   }
 
@@ -413,7 +443,8 @@ class Tracker::Impl {
       return true;
     }
     if (!vessel.confirmed) {
-      return now_s - vessel.first_s > kTentativeS;
+      return now_s - vessel.first_s > kTentativeS ||
+             (vessel.sources == kLidar && vessel.hits > 1 && vessel.existence < kUnconfirmedGone);
     }
     const double unseen = now_s - vessel.last_s;
     if (vessel.mmsi != 0) {
@@ -476,6 +507,7 @@ class Tracker::Impl {
   std::vector<ais::Message> known_dimensions_;
   std::vector<Track> tracks_;
   ScanVerdict verdict_;
+  double radar_clutter_per_m2_ = kRadarClutterPerM2;
   int next_id_ = 1;
 };
 

@@ -23,6 +23,7 @@ FILES = {
                      "+": "mission"},
     "tracker_node": {"": "tracker_node", "tracker": "tracker"},
     "plant_node": {"": "plant_node", "plant": "plant"},
+    "traffic_node": {"": "traffic_node", "traffic": "traffic"},
     "mission_node": {"": "mission_node"},
 }
 

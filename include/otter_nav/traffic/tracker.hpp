@@ -23,14 +23,12 @@
 namespace otter_nav::traffic {
 
 struct Options {
-  double radar_range_m = 145.0;
-  double radar_noise_m = 1.0;
+  double radar_range_m = 145.0;  // nearer vessels ought to be seen
+  double radar_noise_m = 1.0;    // standard deviation, each axis
   ais::Datum datum;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
-    fields("radar_range_m", o.radar_range_m, {1.0, 100000.0}, "nearer vessels ought to be seen");
-    fields("radar_noise_m", o.radar_noise_m, {0.01, 100.0}, "standard deviation, each axis");
     fields.group("datum", o.datum, "the map's origin on the globe");
   }
 };

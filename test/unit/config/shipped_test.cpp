@@ -14,6 +14,7 @@
 #include "nodes/planner_node_options.hpp"
 #include "nodes/plant_node_options.hpp"
 #include "nodes/tracker_node_options.hpp"
+#include "nodes/traffic_node_options.hpp"
 #include "otter_nav/identification/identify.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
 #include "otter_nav/mission/supervisor.hpp"
@@ -72,6 +73,7 @@ std::vector<Shipped> allShipped() {
       shipped<nodes::PlannerNodeOptions>("planner_node.yaml"),
       shipped<nodes::TrackerNodeOptions>("tracker_node.yaml"),
       shipped<nodes::PlantNodeOptions>("plant_node.yaml"),
+      shipped<nodes::TrafficNodeOptions>("traffic_node.yaml"),
       shipped<nodes::MissionNodeOptions>("mission_node.yaml"),
   };
 }

@@ -18,9 +18,8 @@ namespace otter_nav::traffic::test {
 
 inline plant::Options plantOptions(const std::string& disturbance = "none") {
   const std::string config = std::string(OTTER_NAV_SOURCE_DIR) + "/config/";
-  return plant::loadOptions(
-             vessel::loadParameters(config + "vessels/otter_gazebo.yaml").value(),
-             config + "plant.yaml", config + "disturbances/" + disturbance + ".yaml")
+  return plant::loadOptions(vessel::loadParameters(config + "vessels/otter_gazebo.yaml").value(),
+                            config + "plant.yaml", config + "disturbances/" + disturbance + ".yaml")
       .value();
 }
 
@@ -88,8 +87,8 @@ class Sea {
   const ScanVerdict& look() {
     const plant::Scan& scan = simulator.scan();
     const plant::Odometry& odometry = simulator.odometry();
-    map::Scan seen{scan.angle_min_rad, scan.angle_increment_rad, scan.range_min_m,
-                   scan.range_max_m, scan.ranges};
+    map::Scan seen{scan.angle_min_rad, scan.angle_increment_rad, scan.range_min_m, scan.range_max_m,
+                   scan.ranges};
     if (disturb) {
       disturb(seen);
     }

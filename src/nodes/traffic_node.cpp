@@ -1,0 +1,196 @@
+#include "traffic_node.hpp"
+
+#include <otter_nav/Tracks.h>
+#include <sensor_msgs/PointCloud.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "otter_nav/base/first_failure.hpp"
+#include "otter_nav/config/fields.hpp"
+#include "otter_nav/config/share.hpp"
+#include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/grids.hpp"
+#include "otter_nav/ros/scans.hpp"
+#include "otter_nav/ros/tracks.hpp"
+#include "traffic_node_options.hpp"
+
+namespace otter_nav::nodes {
+namespace {
+
+using ros_bridge::kMapFrame;
+using Level = ros_bridge::Diagnostics::Level;
+
+constexpr int kQueue = 50;
+constexpr std::size_t kMostHeard = 1000;
+
+}  // namespace
+
+Result<std::unique_ptr<TrafficNode>> TrafficNode::create(config::Section section) {
+  TrafficNodeOptions node;
+  const Status fields = config::readFields(section, node);
+  const Result<traffic::Options> options = config::read<traffic::Options>(section.child("traffic"));
+  if (const Status status = firstFailure(section.finish(), fields, options); !status) {
+    return failure(status.error().message);
+  }
+  const Result<vessel::Parameters> own =
+      config::vesselFile(node.vessel).and_then(vessel::loadParameters);
+  if (!own) {
+    return failure(section.where() + ": parameter 'vessel': " + own.error().message);
+  }
+  return std::unique_ptr<TrafficNode>(new TrafficNode(*options, own->hull));
+}
+
+TrafficNode::TrafficNode(const traffic::Options& options, const vessel::Hull& hull)
+    : diagnostics_(node_, private_node_, "traffic"),
+      options_(options),
+      hull_(hull),
+      tracker_(options, {}, hull),
+      scan_subscriber_(node_, "scan", kQueue, ros::TransportHints().tcpNoDelay()),
+      scan_filter_(scan_subscriber_, transforms_, kMapFrame, kQueue, node_),
+      tracks_publisher_(node_.advertise<Tracks>("tracks", kQueue)),
+      markers_publisher_(node_.advertise<visualization_msgs::MarkerArray>("track_markers", 1)),
+      still_publisher_(node_.advertise<sensor_msgs::LaserScan>("scan_still", kQueue)),
+      ghosts_publisher_(node_.advertise<sensor_msgs::PointCloud>("ghosts", kQueue)) {
+  diagnostics_.setState(Level::kOk, "without a chart");
+  chart_subscriber_ = node_.subscribe("chart", 1, &TrafficNode::onChart, this);
+  radar_subscriber_ = node_.subscribe("radar", kQueue, &TrafficNode::onRadar, this,
+                                      ros::TransportHints().tcpNoDelay());
+  ais_subscriber_ =
+      node_.subscribe("ais", kQueue, &TrafficNode::onAis, this, ros::TransportHints().tcpNoDelay());
+  scan_filter_.registerCallback(
+      [this](const sensor_msgs::LaserScanConstPtr& message) { onScan(message); });
+}
+
+// What the chart shows is no vessel; the tracks begin anew.
+void TrafficNode::onChart(const nav_msgs::OccupancyGrid& message) {
+  const Result<map::OccupancyGrid> chart = ros_bridge::toGrid(message, kMapFrame);
+  if (!chart) {
+    diagnostics_.refuse("chart", chart.error().message);
+    return;
+  }
+  tracker_ = traffic::Tracker(options_, *chart, hull_);
+  diagnostics_.setState(Level::kOk, "with the chart");
+}
+
+void TrafficNode::onRadar(const geometry_msgs::PoseArray& message) {
+  if (message.header.frame_id != ros_bridge::kBaseFrame) {
+    diagnostics_.refuse("radar", "frame_id is '" + message.header.frame_id + "', expected '" +
+                                     ros_bridge::kBaseFrame + "'");
+    return;
+  }
+  Heard heard;
+  heard.stamp = message.header.stamp;
+  heard.is_radar = true;
+  for (const geometry_msgs::Pose& pose : message.poses) {
+    if (!std::isfinite(pose.position.x) || !std::isfinite(pose.position.y)) {
+      diagnostics_.refuse("radar", "a position is not finite");
+      return;
+    }
+    heard.radar_in_base.emplace_back(pose.position.x, pose.position.y);
+  }
+  heard_.push_back(std::move(heard));
+}
+
+void TrafficNode::onAis(const std_msgs::String& message) {
+  Heard heard;
+  heard.stamp = last_scan_;
+  heard.ais = message.data;
+  heard_.push_back(std::move(heard));
+  if (heard_.size() > kMostHeard) {  // no scans
+    heard_.pop_front();
+  }
+}
+
+// Up to the scan before.
+void TrafficNode::takeOthers() {
+  while (!heard_.empty() && heard_.front().stamp <= last_scan_) {
+    const Heard heard = std::move(heard_.front());
+    heard_.pop_front();
+    const double stamp_s = heard.stamp.toSec();
+    if (!heard.is_radar) {
+      if (const Status status = tracker_.addAis(stamp_s, heard.ais); !status) {
+        diagnostics_.refuse("ais", status.error().message);
+      }
+      continue;
+    }
+    const Result<map::SensorPose> base =
+        ros_bridge::poseInMap(transforms_, ros_bridge::kBaseFrame, heard.stamp);
+    if (!base) {
+      diagnostics_.refuse("radar", base.error().message);
+      continue;
+    }
+    const Eigen::Vector2d own = base->position.head<2>();
+    std::vector<Eigen::Vector2d> positions;
+    for (const Eigen::Vector2d& position : heard.radar_in_base) {
+      positions.emplace_back(own + Eigen::Rotation2Dd(base->yaw_rad) * position);
+    }
+    tracker_.addRadar(stamp_s, positions, own);
+  }
+}
+
+void TrafficNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
+  const ros::Time& stamp = message->header.stamp;
+  if (stamp <= last_scan_) {
+    if (stamp == last_scan_) {
+      still_publisher_.publish(last_still_);  // sent again: whoever asked missed the answer
+    } else {
+      diagnostics_.refuse("scan", "its stamp goes backwards");
+    }
+    return;
+  }
+  takeOthers();
+  sensor_msgs::LaserScan still = *message;
+  const Result<map::SensorPose> sensor =
+      ros_bridge::poseInMap(transforms_, message->header.frame_id, stamp);
+  const Result<map::SensorPose> base =
+      ros_bridge::poseInMap(transforms_, ros_bridge::kBaseFrame, stamp);
+  if (!sensor || !base) {
+    diagnostics_.refuse("scan", (sensor ? base : sensor).error().message);
+  } else {
+    const traffic::ScanVerdict& verdict =
+        tracker_.addScan(stamp.toSec(), *sensor, {base->position.head<2>(), base->yaw_rad},
+                         ros_bridge::toScan(*message));
+    for (std::size_t i = 0; i < still.ranges.size(); ++i) {
+      if (verdict.on_vessel[i]) {
+        still.ranges[i] = std::numeric_limits<float>::quiet_NaN();
+      }
+    }
+    publishGhosts(stamp, verdict.ghosts);
+  }
+  last_scan_ = stamp;
+  last_still_ = std::move(still);
+  publish(stamp);
+}
+
+void TrafficNode::publishGhosts(const ros::Time& stamp,
+                                const std::vector<Eigen::Vector2d>& ghosts) {
+  if (ghosts.empty()) {
+    return;
+  }
+  sensor_msgs::PointCloud message;
+  message.header.frame_id = kMapFrame;
+  message.header.stamp = stamp;
+  for (const Eigen::Vector2d& ghost : ghosts) {
+    geometry_msgs::Point32 point;
+    point.x = static_cast<float>(ghost.x());
+    point.y = static_cast<float>(ghost.y());
+    message.points.push_back(point);
+  }
+  ghosts_publisher_.publish(message);
+}
+
+// The map's answer to the scan lets time go on: it comes last.
+void TrafficNode::publish(const ros::Time& stamp) {
+  tracks_publisher_.publish(ros_bridge::toMessage(tracker_.tracks(), stamp));
+  if (markers_publisher_.getNumSubscribers() > 0) {
+    markers_publisher_.publish(ros_bridge::trackMarkers(tracker_.tracks(), stamp));
+  }
+  still_publisher_.publish(last_still_);
+}
+
+}  // namespace otter_nav::nodes

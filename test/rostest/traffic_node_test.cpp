@@ -1,0 +1,94 @@
+// traffic_node alone: tracks from radar and AIS, the scan passed on, nonsense refused.
+#include <geometry_msgs/PoseArray.h>
+#include <gtest/gtest.h>
+#include <otter_nav/Tracks.h>
+#include <sensor_msgs/LaserScan.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <limits>
+
+#include "support.hpp"
+
+namespace otter_nav::rostest {
+namespace {
+
+class TrafficNode : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(waitUntil([&] {
+      return scans_.getNumSubscribers() > 0 && radar_.getNumSubscribers() > 0 &&
+             ais_.getNumSubscribers() > 0 && transforms_.getNumSubscribers() > 0;
+    }));
+    ASSERT_TRUE(tracks_.connected() && still_.connected());
+  }
+
+  // The vessel lies at the origin and looks into open water.
+  void scanAt(const ros::Time& stamp) {
+    tf2_msgs::TFMessage transforms;
+    for (const char* child : {ros_bridge::kBaseFrame, ros_bridge::kLidarFrame}) {
+      geometry_msgs::TransformStamped transform;
+      transform.header.frame_id = ros_bridge::kMapFrame;
+      transform.header.stamp = stamp;
+      transform.child_frame_id = child;
+      transform.transform.translation.z = 0.8;
+      transform.transform.rotation.w = 1.0;
+      transforms.transforms.push_back(transform);
+    }
+    transforms_.publish(transforms);
+    sensor_msgs::LaserScan scan;
+    scan.header.frame_id = ros_bridge::kLidarFrame;
+    scan.header.stamp = stamp;
+    scan.angle_min = -3.14F;
+    scan.angle_max = 3.13F;
+    scan.angle_increment = 0.01F;
+    scan.range_min = 0.2F;
+    scan.range_max = 25.0F;
+    scan.ranges.assign(628, std::numeric_limits<float>::infinity());
+    scans_.publish(scan);
+  }
+  void radarAt(const ros::Time& stamp, double x, double y) {
+    geometry_msgs::PoseArray plot;
+    plot.header.frame_id = ros_bridge::kBaseFrame;
+    plot.header.stamp = stamp;
+    plot.poses.push_back(ros_bridge::toPose({x, y}, 0.0));
+    radar_.publish(plot);
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher scans_ = node_.advertise<sensor_msgs::LaserScan>("scan", 10);
+  ros::Publisher radar_ = node_.advertise<geometry_msgs::PoseArray>("radar", 10);
+  ros::Publisher ais_ = node_.advertise<std_msgs::String>("ais", 10);
+  ros::Publisher transforms_ = node_.advertise<tf2_msgs::TFMessage>("/tf", 10);
+  Inbox<Tracks> tracks_{node_, "tracks"};
+  Inbox<sensor_msgs::LaserScan> still_{node_, "scan_still"};
+};
+
+TEST_F(TrafficNode, TracksWhatTheRadarAndAisTell) {
+  ros::Time stamp(100.0);
+  for (int k = 0; k < 12; ++k) {
+    stamp += ros::Duration(0.5);
+    if (k % 2 == 0) {
+      radarAt(stamp, 80.0 - stamp.toSec() + 100.0, 20.0);
+    }
+    std_msgs::String nonsense;
+    nonsense.data = "!AIVDM,1,1,,A,nonsense,0*00";
+    ais_.publish(nonsense);
+    ros::WallDuration(0.05).sleep();
+    scanAt(stamp);
+    ASSERT_TRUE(still_.waitFor([&](const auto& scan) { return scan.header.stamp == stamp; })) << k;
+    EXPECT_EQ(still_.messages.back().ranges.size(), 628U);
+  }
+  ASSERT_TRUE(tracks_.waitFor([](const Tracks& message) { return message.tracks.size() == 1; }));
+  const Track& track = tracks_.messages.back().tracks.at(0);
+  EXPECT_NEAR(track.velocity.x, -1.0, 0.4);
+  EXPECT_NEAR(track.position.y, 20.0, 1.5);
+  EXPECT_EQ(track.sources, Track::RADAR);
+  EXPECT_GT(track.covariance[0], 0.0);
+  EXPECT_EQ(tracks_.messages.back().header.frame_id, ros_bridge::kMapFrame);
+}
+
+}  // namespace
+}  // namespace otter_nav::rostest
+
+OTTER_NAV_ROSTEST_MAIN("traffic_node_test")

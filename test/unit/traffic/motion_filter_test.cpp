@@ -1,0 +1,143 @@
+// The filter on motion drawn from its own models: its covariance is what it claims to be.
+#include "traffic/motion_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "otter_nav/base/random.hpp"
+#include "traffic/association.hpp"
+
+namespace otter_nav::traffic {
+namespace {
+
+Measurement at(const Eigen::Vector2d& position, double deviation_m) {
+  Measurement measurement;
+  measurement.value.head<2>() = position;
+  measurement.covariance.topLeftCorner<2, 2>().diagonal().setConstant(deviation_m * deviation_m);
+  return measurement;
+}
+
+// Straight legs with a little noise and turns now and then, as the models have them.
+class Vessel {
+ public:
+  explicit Vessel(Random& random) : random_(random) {
+    const double course = random.uniform(-kPi, kPi);
+    velocity_ = random.uniform(0.5, 3.0) * Eigen::Vector2d(std::cos(course), std::sin(course));
+  }
+  void sail(double time_s) {
+    constexpr double kStepS = 0.05;
+    for (double t = 0.0; t < time_s - 1e-9; t += kStepS) {
+      if (random_.uniform() < kStepS / (turning_ ? 2.0 : 120.0)) {
+        turning_ = !turning_;
+        rate_radps_ = turning_ ? 0.2 * random_.normal() : 0.0;
+      }
+      const double acceleration = turning_ ? 0.2 : 0.0002;
+      const double angle = rate_radps_ * kStepS;
+      const Eigen::Vector2d before = velocity_;
+      velocity_ =
+          Eigen::Vector2d(std::cos(angle) * before.x() - std::sin(angle) * before.y(),
+                          std::sin(angle) * before.x() + std::cos(angle) * before.y()) +
+          std::sqrt(acceleration * kStepS) * Eigen::Vector2d(random_.normal(), random_.normal());
+      position_ += 0.5 * kStepS * (before + velocity_);
+    }
+  }
+  [[nodiscard]] Eigen::Vector4d state() const {
+    return (Eigen::Vector4d() << position_, velocity_).finished();
+  }
+
+ private:
+  Random& random_;
+  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity_;
+  bool turning_ = false;
+  double rate_radps_ = 0.0;
+};
+
+// Normalised estimation error squared, averaged over runs: of four components, chi squared with 4
+// degrees of freedom a run. The band holds 95 % of the averages (normal approximation).
+TEST(MotionFilter, IsConsistent) {
+  constexpr int kRuns = 100;
+  constexpr int kSeconds = 40;
+  std::vector<double> sum(kSeconds, 0.0);
+  Random random(21);
+  for (int run = 0; run < kRuns; ++run) {
+    Vessel vessel(random);
+    const auto measured = [&] {
+      return at(vessel.state().head<2>() + Eigen::Vector2d(random.normal(), random.normal()), 1.0);
+    };
+    MotionFilter filter(measured(), 0.0);
+    for (int second = 1; second <= kSeconds; ++second) {
+      vessel.sail(1.0);
+      filter.predict(second);
+      filter.update(measured());
+      const Eigen::Vector4d off = vessel.state() - filter.state().head<4>();
+      const Eigen::Matrix4d p = filter.likelyCovariance().topLeftCorner<4, 4>();
+      sum[static_cast<std::size_t>(second - 1)] += off.dot(p.inverse() * off) / kRuns;
+    }
+  }
+  const double half_band = 1.96 * std::sqrt(2.0 * 4.0 / kRuns);
+  double mean = 0.0;
+  for (int second = 5; second < kSeconds; ++second) {
+    mean += sum[static_cast<std::size_t>(second)] / (kSeconds - 5);
+  }
+  EXPECT_NEAR(mean, 4.0, half_band) << mean;
+}
+
+TEST(MotionFilter, FollowsATurnAndTheLegAfterIt) {
+  MotionFilter filter(at({0.0, 0.0}, 0.5), 0.0);
+  const auto truth = [](double t) {
+    return t < 20.0 ? Eigen::Vector2d(2.0 * t, 0.0) : Eigen::Vector2d(40.0, 2.0 * (t - 20.0));
+  };
+  for (int k = 1; k <= 20; ++k) {
+    filter.predict(k);
+    filter.update(at(truth(k), 0.5));
+  }
+  EXPECT_LT(filter.turningProbability(), 0.2);
+  EXPECT_NEAR(filter.state()[2], 2.0, 0.1);
+  double most = 0.0;
+  for (int k = 21; k <= 50; ++k) {
+    filter.predict(k);
+    filter.update(at(truth(k), 0.5));
+    most = std::max(most, filter.turningProbability());
+  }
+  EXPECT_GT(most, 0.8);  // she turned at once
+  EXPECT_NEAR(filter.state()[3], 2.0, 0.1);
+  EXPECT_NEAR(filter.state()[2], 0.0, 0.1);
+}
+
+// Against all events written out by hand.
+TEST(Association, GivesEachDetectionToOneTrack) {
+  const std::vector<double> none = {0.2, 0.3};
+  const std::vector<std::vector<Link>> links = {{{0, 2.0}, {1, 0.5}}, {{0, 1.5}}};
+  const Marginals m = jointMarginals(none, links, 3);
+  const double total = 0.2 * 0.3 + 0.2 * 1.5 + 2.0 * 0.3 + 0.5 * 0.3 + 0.5 * 1.5;
+  EXPECT_NEAR(m.none[0], (0.2 * 0.3 + 0.2 * 1.5) / total, 1e-12);
+  EXPECT_NEAR(m.links[0][0], 2.0 * 0.3 / total, 1e-12);
+  EXPECT_NEAR(m.links[0][1], (0.5 * 0.3 + 0.5 * 1.5) / total, 1e-12);
+  EXPECT_NEAR(m.none[1], (0.2 * 0.3 + 2.0 * 0.3 + 0.5 * 0.3) / total, 1e-12);
+  EXPECT_NEAR(m.links[1][0], (0.2 * 1.5 + 0.5 * 1.5) / total, 1e-12);
+}
+
+TEST(Association, BearsCrowds) {
+  Random random(2);
+  std::vector<double> none(12, 0.1);
+  std::vector<std::vector<Link>> links(12);
+  for (auto& of_track : links) {
+    for (std::size_t k = 0; k < 10; ++k) {
+      of_track.push_back({k, random.uniform()});
+    }
+  }
+  const Marginals m = jointMarginals(none, links, 10);
+  for (std::size_t t = 0; t < 12; ++t) {
+    double sum = m.none[t];
+    for (const double link : m.links[t]) {
+      sum += link;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace otter_nav::traffic
