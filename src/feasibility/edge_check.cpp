@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kInstantsPerSecond = 5.0;
 constexpr int kFewestInstants = 4;
-constexpr double kSpeedShare = 0.98;  // of the speed limit, on an edge
 // Bent edges.
 constexpr double kBentStepS = 0.1;
 constexpr double kSlowMps = 0.3;        // slower, the pieces at start and goal are rebuilt anyway
@@ -31,7 +30,7 @@ void EdgeCheck::begin(const Obstacles& obstacles, const SafetyLimits& limits) {
   limits_ = limits;
   inverse_ = vessel::InverseDynamics(vessel_, limits.disturbance);
   hull_ = HullCover(limits.hull);
-  speed_max_mps_ = kSpeedShare * limits.speed_max_mps;
+  least_force_n_ = leastHeadingForce(vessel_, limits, kLeastForceShare);
   force_ahead_n_ = 2.0 * limits.thrust_share * vessel_.thrusters.ahead_max_n;
   force_astern_n_ = 2.0 * limits.thrust_share * vessel_.thrusters.astern_max_n;
 }
@@ -50,9 +49,9 @@ EdgeCheck::Motion EdgeCheck::motionAt(const trajectory::Piece& piece, double t_s
   return m;
 }
 
-EdgeFault EdgeCheck::checkMotion(const Motion& motion) const {
-  const double speed2 = motion.velocity.squaredNorm();
-  if (speed2 > speed_max_mps_ * speed_max_mps_) {
+EdgeFault EdgeCheck::checkMotion(const Motion& motion, double time_s) const {
+  const double speed_max = speedMax(time_s);
+  if (motion.velocity.squaredNorm() > speed_max * speed_max) {
     return EdgeFault::kSpeed;
   }
   const Eigen::Vector2d through = inverse_.throughWater(motion.velocity);
@@ -64,7 +63,8 @@ EdgeFault EdgeCheck::checkMotion(const Motion& motion) const {
 EdgeFault EdgeCheck::check(const trajectory::Piece& piece, double start_s) const {
   constexpr std::array<double, 3> kFirst = {0.5, 0.25, 0.75};
   for (const double share : kFirst) {
-    const EdgeFault fault = checkMotion(motionAt(piece, share * piece.duration_s));
+    const double t = share * piece.duration_s;
+    const EdgeFault fault = checkMotion(motionAt(piece, t), start_s + t);
     if (fault != EdgeFault::kNone) {
       return fault;
     }
@@ -73,7 +73,7 @@ EdgeFault EdgeCheck::check(const trajectory::Piece& piece, double start_s) const
       std::max(kFewestInstants, static_cast<int>(piece.duration_s * kInstantsPerSecond));
   for (int i = 1; i <= instants; ++i) {
     const double t = piece.duration_s * i / instants;
-    const EdgeFault fault = checkMotion(motionAt(piece, t));
+    const EdgeFault fault = checkMotion(motionAt(piece, t), start_s + t);
     if (fault != EdgeFault::kNone) {
       return fault;
     }
@@ -87,7 +87,7 @@ EdgeFault EdgeCheck::checkTurning(const vessel::FlatPoint& z) const {
   if (speed < kSlowMps) {
     return EdgeFault::kNone;
   }
-  const double floor = kLeastForceShare * 2.0 * vessel_.thrusters.ahead_max_n;
+  const double floor = least_force_n_;
   const Eigen::Vector2d w = inverse_.headingForce(z.velocity, z.acceleration);
   const Eigen::Vector2d w1 = inverse_.headingForceRate(z.acceleration, z.jerk);
   const double force2 = w.squaredNorm();
@@ -103,8 +103,9 @@ EdgeFault EdgeCheck::checkTurning(const vessel::FlatPoint& z) const {
 EdgeFault EdgeCheck::checkBent(const trajectory::Piece& piece, double start_s) const {
   const int steps = std::max(2, static_cast<int>(std::ceil(piece.duration_s / kBentStepS)));
   for (int i = 0; i <= steps; ++i) {
-    const vessel::FlatPoint z = piece.flat(piece.duration_s * i / steps);
-    EdgeFault fault = checkMotion({z.position, z.velocity, z.acceleration});
+    const double t = piece.duration_s * i / steps;
+    const vessel::FlatPoint z = piece.flat(t);
+    EdgeFault fault = checkMotion({z.position, z.velocity, z.acceleration}, start_s + t);
     fault = fault == EdgeFault::kNone ? checkTurning(z) : fault;
     if (fault != EdgeFault::kNone) {
       return fault;

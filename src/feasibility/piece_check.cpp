@@ -178,7 +178,7 @@ void PieceCheck::checkDynamics(const trajectory::MotionAlong& motion, std::size_
         std::max({report.thrust_share,
                   left.bound(vessel::shareOfLimit(p.thrusts[vessel::kLeft], vessel_.thrusters)),
                   right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
-    report.speed_mps = std::max(report.speed_mps, p.speed_mps);
+    noteSpeed(p.speed_mps, p.t_s, report);
     report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
     const Fault before = report.fault;
     if (before == Fault::kNone) {
@@ -190,7 +190,7 @@ void PieceCheck::checkDynamics(const trajectory::MotionAlong& motion, std::size_
         report.fault = Fault::kHeadingJump;
       } else if (report.thrust_share > kThrustSlack * limits_.thrust_share) {
         report.fault = Fault::kThrust;
-      } else if (report.speed_mps > limits_.speed_max_mps) {
+      } else if (report.speed_share > 1.0) {
         report.fault = Fault::kSpeed;
       } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
         report.fault = Fault::kYawRate;
@@ -200,7 +200,12 @@ void PieceCheck::checkDynamics(const trajectory::MotionAlong& motion, std::size_
   }
 }
 
-void PieceCheck::checkSpin(PieceReport& report) const {
+void PieceCheck::noteSpeed(double speed_mps, double time_s, PieceReport& report) const {
+  report.speed_mps = std::max(report.speed_mps, speed_mps);
+  report.speed_share = std::max(report.speed_share, speed_mps / limits_.speedMaxAt(time_s));
+}
+
+void PieceCheck::checkSpin(double start_s, PieceReport& report) const {
   const int steps =
       std::max(2, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
   Sampled left;
@@ -212,7 +217,7 @@ void PieceCheck::checkSpin(PieceReport& report) const {
         std::max({report.thrust_share,
                   left.bound(vessel::shareOfLimit(p.thrusts[vessel::kLeft], vessel_.thrusters)),
                   right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
-    report.speed_mps = std::max(report.speed_mps, p.velocity.norm());
+    noteSpeed(p.velocity.norm(), start_s + report.time_s, report);
     report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
     checkSway(p.sway_n, kSwayN, report);
     if (report.fault != Fault::kNone) {
@@ -220,7 +225,7 @@ void PieceCheck::checkSpin(PieceReport& report) const {
     }
     if (report.thrust_share > limits_.thrust_share) {
       report.fault = Fault::kThrust;
-    } else if (report.speed_mps > limits_.speed_max_mps) {
+    } else if (report.speed_share > 1.0) {
       report.fault = Fault::kSpeed;
     } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
       report.fault = Fault::kYawRate;
@@ -228,23 +233,23 @@ void PieceCheck::checkSpin(PieceReport& report) const {
   }
 }
 
-void PieceCheck::checkDynamics(PieceReport& report) const {
+void PieceCheck::checkDynamics(double start_s, PieceReport& report) const {
   report.heading_force_n = std::numeric_limits<double>::infinity();
   if (piece_.kind == trajectory::PieceKind::kSpin) {
-    checkSpin(report);
+    checkSpin(start_s, report);
     return;
   }
   const int steps =
       std::max(4, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
   Sampled left;
   Sampled right;
-  const double least_force = tolerances_.heading_force_share * 2.0 * vessel_.thrusters.ahead_max_n;
+  const double least_force = leastHeadingForce(vessel_, limits_, tolerances_.heading_force_share);
   double branch = 0.0;  // sign of w . v
   for (int i = 0; i <= steps; ++i) {
     report.time_s = piece_.duration_s * i / steps;
     const Point p = at(report.time_s);
     const double speed = p.velocity.norm();
-    report.speed_mps = std::max(report.speed_mps, speed);
+    noteSpeed(speed, start_s + report.time_s, report);
     report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
     report.thrust_share =
         std::max({report.thrust_share,
@@ -269,7 +274,7 @@ void PieceCheck::checkDynamics(PieceReport& report) const {
     }
     if (report.thrust_share > limits_.thrust_share) {
       report.fault = Fault::kThrust;
-    } else if (report.speed_mps > limits_.speed_max_mps) {
+    } else if (report.speed_share > 1.0) {
       report.fault = Fault::kSpeed;
     } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
       report.fault = Fault::kYawRate;

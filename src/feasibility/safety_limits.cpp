@@ -9,6 +9,8 @@ constexpr double kSpeedShare = 0.98;
 // Over the rate at which the thrusters against each other hold a turn.
 constexpr double kYawRateShare = 1.02;
 
+constexpr double kSlowingShare = 0.3;  // of what the lesser drag does
+
 constexpr double kBesideM = 0.26;  // between the hull's side and what lies beside it
 
 }  // namespace
@@ -26,8 +28,43 @@ SafetyLimits SafetyLimits::of(const vessel::Parameters& vessel, double clearance
   limits.hull = vessel.hull;
   limits.thrust_share = kThrustShare * thrust_share;
   limits.speed_max_mps = kSpeedShare * thrust_share * vessel.top_speed_mps;
+  limits.limitSpeed(vessel.speed_max_mps);
   limits.yaw_rate_max_radps = kYawRateShare * moment / vessel.paper.d3_kgm2ps;
   return limits;
+}
+
+void SafetyLimits::limitSpeed(double speed_mps) {
+  if (speed_mps > 0.0) {
+    speed_max_mps = std::min(speed_max_mps, kSpeedShare * speed_mps);
+  }
+}
+
+SafetyLimits SafetyLimits::startingAt(double speed_mps, const vessel::Parameters& vessel) const {
+  constexpr double kStillFaster = 1.05;  // what accelerates goes on to for a moment
+  constexpr double kNoticeS = 3.0;
+  SafetyLimits limits = *this;
+  if (speed_mps > speed_max_mps) {
+    const vessel::PaperModel& m = vessel.paper;
+    limits.start_speed_mps = kStillFaster * speed_mps;
+    limits.slowing_from_s = kNoticeS;
+    limits.slowing_per_s = kSlowingShare * std::min(m.d1_kgps, m.d2_kgps) / m.m1_kg;
+  }
+  return limits;
+}
+
+double leastHeadingForce(const vessel::Parameters& vessel, const SafetyLimits& limits,
+                         double share) {
+  constexpr double kOfSteady = 0.3;
+  return std::min(share * 2.0 * vessel.thrusters.ahead_max_n,
+                  kOfSteady * vessel.paper.d2_kgps * limits.speed_max_mps);
+}
+
+double usualSpeed(const vessel::Parameters& vessel, const SafetyLimits& limits) {
+  return kSpeedShare * limits.thrust_share / kThrustShare * vessel.top_speed_mps;
+}
+
+double speedShare(const vessel::Parameters& vessel, const SafetyLimits& limits) {
+  return std::min(1.0, limits.speed_max_mps / usualSpeed(vessel, limits));
 }
 
 }  // namespace otter_nav::feasibility

@@ -200,7 +200,7 @@ class Verifier {
     if (motion_) {
       check.checkDynamics(*motion_, i, report);
     } else {
-      check.checkDynamics(report);
+      check.checkDynamics(trajectory_.startOf(i), report);
     }
     slide(piece, report);
     if (report.fault == Fault::kNone) {
@@ -228,14 +228,14 @@ class Verifier {
         fail(t, sentence("thrust share too large", t, r.thrust_share, o.thrust_share));
         break;
       case Fault::kSpeed:
-        fail(t, sentence("too fast, m/s", t, r.speed_mps, o.speed_max_mps));
+        fail(t, sentence("too fast, m/s", t, r.speed_mps, o.speedMaxAt(t)));
         break;
       case Fault::kYawRate:
         fail(t, sentence("turns too fast, rad/s", t, r.yaw_rate_radps, o.yaw_rate_max_radps));
         break;
       case Fault::kHeadingUndefined:
         fail(t, sentence("turns without a force to turn by, N", t, r.heading_force_n,
-                         tolerances_.heading_force_share * 2.0 * vessel_.thrusters.ahead_max_n));
+                         leastHeadingForce(vessel_, o, tolerances_.heading_force_share)));
         break;
       case Fault::kHeadingJump:
         fail(t, sentence("heading swings across the course", t, 0.0, 0.0));
@@ -276,7 +276,8 @@ Verification verify(const trajectory::Trajectory& trajectory, const Obstacles& o
                     const vessel::Parameters& vessel, const trajectory::Boundary& start,
                     const trajectory::Boundary& goal, const SafetyLimits& limits,
                     const Tolerances& tolerances) {
-  return Verifier(trajectory, obstacles, vessel, limits, tolerances).run(&start, &goal);
+  const SafetyLimits from_start = limits.startingAt(start.flat.velocity.norm(), vessel);
+  return Verifier(trajectory, obstacles, vessel, from_start, tolerances).run(&start, &goal);
 }
 
 Verification verify(const trajectory::Trajectory& trajectory, const Obstacles& obstacles,

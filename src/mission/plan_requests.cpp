@@ -12,15 +12,18 @@ namespace {
 // From `at_s` on, the first time at which a new trajectory can begin: well under way, and with a
 // heading that follows from the path. A plan that starts at walking pace has a heading that hardly
 // counts and turns at once.
-std::optional<double> joiningTime(const trajectory::Trajectory& sailed, double at_s) {
+std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, double at_s) {
   constexpr double kStepS = 0.1;
   constexpr double kLeastSpeedMps = 0.4;
+  constexpr double kLeastSpeedShare = 0.4;  // of the speed limit, where that is less
+  const double least = std::min(kLeastSpeedMps, kLeastSpeedShare * whole.speed_max_mps);
+  const trajectory::Trajectory& sailed = whole.trajectory;
   const int steps = static_cast<int>(std::ceil((sailed.duration() - at_s) / kStepS));
   for (int k = 0; k < steps; ++k) {
     const double t = at_s + k * kStepS;
     const trajectory::Piece& piece = sailed.pieces()[sailed.pieceAt(t)];
     if (piece.kind != trajectory::PieceKind::kSpin &&
-        sailed.flat(t).velocity.norm() >= kLeastSpeedMps) {
+        sailed.flat(t).velocity.norm() >= least) {
       return t;
     }
   }
@@ -48,7 +51,7 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                                                     double thrust_share, const vessel::Pose& goal,
                                                     const feasibility::Obstacles& obstacles) {
   const std::optional<double> at =
-      joiningTime(sailed.trajectory, now_s + latency.seconds() - sailed.start_time_s);
+      joiningTime(sailed, now_s + latency.seconds() - sailed.start_time_s);
   if (!at) {
     return std::nullopt;
   }
@@ -128,7 +131,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
       std::max(safety.limits(safety.freeThrustShare(), room).speed_max_mps, kSlowsDown * speed));
   request.thrust_share = thrust_share;
   request.moving = from != From::kRest;
-  asked_ = Asked{request, from, false, now_s, {}};
+  asked_ = Asked{request, from, false, now_s, safety.speedMax(), {}};
   return request;
 }
 

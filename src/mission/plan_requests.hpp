@@ -39,6 +39,7 @@ class PlanRequests {
     From from = From::kRest;
     bool improves = false;  // asked for only to be faster
     double since_s = 0.0;
+    double speed_max_mps = 0.0;  // the mission's, when it was asked for
     // What the plan continues, from the sailed trajectory on; empty: that itself.
     trajectory::TimedTrajectory lead;
   };

@@ -59,6 +59,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   if (!plansBlind()) {
     limits.disturbance = weather_.mean();
   }
+  limits.limitSpeed(options_.speed_max_mps);
   return limits;
 }
 

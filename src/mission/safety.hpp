@@ -71,6 +71,10 @@ class Safety {
   // instead is better than none.
   [[nodiscard]] bool plansBlind() const;
 
+  // Of all plans from now on; 0: the vessel's alone.
+  void setSpeedMax(double speed_mps) { options_.speed_max_mps = speed_mps; }
+  [[nodiscard]] double speedMax() const { return options_.speed_max_mps; }
+
   // A goal's heading, or where that can't be held the one into what wind and current push with.
   [[nodiscard]] double restHeading(double psi_rad) const;
   // Why no leg can be sailed nor a spot be held in this weather; empty if that's not so.

@@ -132,6 +132,14 @@ class Supervisor::Impl {
     return follow(kResumeRules, m);
   }
 
+  Status setSpeedMax(double speed_mps) {
+    if (Status status = checkSpeedMax(speed_mps); !status) {
+      return status;
+    }
+    safety().setSpeedMax(speed_mps);
+    return {};
+  }
+
   Orders update(const Moment& m) {
     feel(m);
     lookOut(m);
@@ -252,6 +260,15 @@ class Supervisor::Impl {
                kWrongRad;
   }
   bool isBeyondThrust(const Moment& /*m*/) { return !safety().beyondThrust().empty(); }
+  bool hasNewSpeedMax(const Moment& /*m*/) { return planned_for_mps_ != safety().speedMax(); }
+  // A plan that slows down is to be had in time, or there is none.
+  bool isTooFastForLong(const Moment& m) {
+    constexpr double kPatienceS = 4.0;
+    if (!isTooFast()) {
+      too_fast_since_s_ = m.now_s;
+    }
+    return m.now_s - too_fast_since_s_ > kPatienceS;
+  }
   bool mayImprove(const Moment& m) {
     const double period = options_.improve_period_s;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
@@ -329,6 +346,15 @@ class Supervisor::Impl {
     }
     return orders;
   }
+  Orders planForSpeedMax(const Moment& m) {
+    if (!isTooFast()) {
+      planned_for_mps_ = safety().speedMax();
+      return planToImprove(m);
+    }
+    enter(Phase::kReplanning, text("the speed limit is %.2f m/s now", safety().speedMax()));
+    for_clearance_ = false;
+    return planFromSailed(m);
+  }
   Orders planToImprove(const Moment& m) {
     plan_time_s_ = m.now_s;
     Orders orders = planFromSailed(m);
@@ -367,6 +393,9 @@ class Supervisor::Impl {
   }
 
   Orders brake(const Moment& m) { return brakeFor(m, conflictText(conflict_)); }
+  Orders brakeForSpeed(const Moment& m) {
+    return brakeFor(m, text("no plan keeps to %.2f m/s from here", safety().speedMax()));
+  }
   Orders brakeCancelled(const Moment& m) {
     cancelled_ = true;
     return brakeFor(m, end_reason_);
@@ -490,12 +519,14 @@ class Supervisor::Impl {
       {kUnderWay, &Impl::isBeyondThrust, &Impl::stopBeyondThrust},
       {kSailing, &Impl::isNarrow, &Impl::lookForAnother, kGoesOn},
       {kReplanning, &Impl::mustBrake, &Impl::brake},
+      {kUnderWay, &Impl::isTooFastForLong, &Impl::brakeForSpeed},
       {kReplanning, &Impl::isClearAgain, &Impl::keepThePlan, kGoesOn},
       {kUnderWay, &Impl::mustWait, &Impl::keepOn},
       {kUnderWay, &Impl::shouldMakeWay, &Impl::makeWay},
       {kUnderWay, &Impl::isFarOff, &Impl::planFromFarOff},
       {kUnderWay, &Impl::lacksThrust, &Impl::planForWeather},
       {kUnderWay, &Impl::endsOnAWrongHeading, &Impl::planForGoalHeading},
+      {kUnderWay, &Impl::hasNewSpeedMax, &Impl::planForSpeedMax},
       {kReplanning, &Impl::always, &Impl::planFromSailed},
       {kSailing, &Impl::mayImprove, &Impl::planToImprove},
 
@@ -599,6 +630,11 @@ class Supervisor::Impl {
     }
     return knowsPlace(m) ? "" : "no odometry";
   }
+  // The mission's limit fell below that of the plan.
+  bool isTooFast() {
+    const double limit = safety().speedMax();
+    return limit > 0.0 && (planned_for_mps_ == 0.0 || limit < planned_for_mps_);
+  }
   Obstacles alongSailed(const Moment& m) { return m.obstacles.startingAt(sailed_.start_time_s); }
   stopping::Conflict firstBelow(const Moment& m, double clearance_m) {
     return stopping::firstConflict(sailed_.trajectory, sailed_.elapsed(m.now_s), alongSailed(m),
@@ -619,6 +655,9 @@ class Supervisor::Impl {
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
     planned_limits_ = asked.request.query.limits;
     planned_thrust_share_ = asked.request.thrust_share;
+    planned_for_mps_ = asked.speed_max_mps;
+    too_fast_since_s_ = m.now_s;
+    sailed_.speed_max_mps = asked.request.query.limits.speed_max_mps;
     planned_goal_psi_rad_ = asked.request.query.goal.psi_rad;
     planned_disturbance_ = weather().mean();
     planned_in_known_weather_ = weather().isKnown();
@@ -741,6 +780,8 @@ class Supervisor::Impl {
   double felt_s_ = -std::numeric_limits<double>::infinity();
   bool holds_ = false;              // the tracker was told to keep the place
   double calm_by_s_ = 0.0;          // or the mission fails
+  double planned_for_mps_ = 0.0;    // the mission's speed limit then
+  double too_fast_since_s_ = 0.0;
   stopping::Conflict conflict_;     // what the last condition found on the way
   double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for
   double stop_time_s_ = 0.0;        // when the vessel began to come to rest
@@ -802,6 +843,12 @@ Orders Supervisor::planFinished(double now_s, int id, const planner::Plan& plan,
                                 const Situation& situation, const Obstacles& obstacles) {
   return impl_->withOthers(
       impl_->planFinished(impl_->momentOf(now_s, situation, obstacles), id, plan));
+}
+Status Supervisor::setSpeedMax(double speed_mps) {
+  return impl_->setSpeedMax(speed_mps);
+}
+double Supervisor::speedMax() const {
+  return impl_->safety().speedMax();
 }
 Phase Supervisor::phase() const {
   return impl_->phase_;

@@ -6,6 +6,15 @@
 
 namespace otter_nav::mission {
 
+Status checkSpeedMax(double speed_mps) {
+  constexpr double kLeastMps = 0.2;
+  if (speed_mps == 0.0 || speed_mps >= kLeastMps) {
+    return {};
+  }
+  return failure("parameter 'speed_max_mps' is " + std::to_string(speed_mps) +
+                 ", allowed are 0 (no limit) and 0.2 or more");
+}
+
 Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
   const std::string where = section.where();
   Result<SupervisorOptions> options = config::read<SupervisorOptions>(std::move(section));
@@ -20,6 +29,9 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
     return failure(where +
                    ": parameter 'critical_side_clearance_m' must not be above the last of "
                    "'side_clearances_m'");
+  }
+  if (const Status status = checkSpeedMax(options->speed_max_mps); !status) {
+    return failure(where + ": " + status.error().message);
   }
   return options;
 }

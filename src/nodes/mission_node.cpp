@@ -114,10 +114,10 @@ void MissionNode::onState(const PlantState& message) {
 }
 
 void MissionNode::onTrajectory(const Trajectory& message) {
-  Result<trajectory::Trajectory> trajectory =
+  Result<trajectory::TimedTrajectory> timed =
       ros_bridge::toTrajectory(message, ros_bridge::kMapFrame);
-  if (trajectory) {
-    references_.add(message.id, message.header.stamp.toSec(), std::move(*trajectory));
+  if (timed) {
+    references_.add(message.id, timed->start_time_s, std::move(timed->trajectory));
   }
 }
 

@@ -35,8 +35,7 @@ PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters ves
 
 std::uint32_t PlannerPublisher::publish(const trajectory::TimedTrajectory& order,
                                         const vessel::Pose& goal) {
-  trajectory_.publish(ros_bridge::toMessage(order.trajectory, order.start_time_s, ++last_id_, goal,
-                                            kMapFrame, vessel_));
+  trajectory_.publish(ros_bridge::toMessage(order, ++last_id_, goal, kMapFrame, vessel_));
   path_.publish(
       ros_bridge::toPath(order.trajectory, order.start_time_s, kPathStepS, kMapFrame, vessel_));
   return last_id_;

@@ -102,16 +102,17 @@ void TrackerNode::begin() {
 
 void TrackerNode::onTrajectory(const Trajectory& message) {
   const double start_s = message.header.stamp.toSec();
-  Status taken =
-      ros_bridge::toTrajectory(message, kMapFrame)
-          .and_then([&](const trajectory::Trajectory& trajectory) -> Status {
-            if (trajectory.empty()) {
-              // In lockstep no step may depend on when the message came.
-              tracker_.requestStop("asked to stop", options_.lockstep ? start_s : 0.0, message.id);
-              return {};
-            }
-            return tracker_.setTrajectory(trajectory, start_s, message.id);
-          });
+  Status taken = ros_bridge::toTrajectory(message, kMapFrame)
+                     .and_then([&](const trajectory::TimedTrajectory& timed) -> Status {
+                       if (timed.trajectory.empty()) {
+                         // In lockstep no step may depend on when the message came.
+                         tracker_.requestStop("asked to stop", options_.lockstep ? start_s : 0.0,
+                                              message.id);
+                         return {};
+                       }
+                       return tracker_.setTrajectory(timed.trajectory, timed.start_time_s,
+                                                     message.id, timed.speed_max_mps);
+                     });
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (taken) {

@@ -29,6 +29,7 @@ constexpr int kRounds = 5;
 constexpr double kMostKeptShare = 0.5;  // of a thruster's force, for what the objective leaves out
 constexpr int kIterationsPerRound = 12;
 constexpr double kWeightGrowth = 1.5;  // of the weights of what fails, from round to round
+constexpr double kSlower = 0.97;       // wanted, where a speed failed
 // A trajectory that asks for this share too much of a thruster is slowed down to suit.
 constexpr double kDilationMax = 0.06;
 // After the first feasible result.
@@ -50,6 +51,18 @@ class GlobalOptimizer::Solver {
   Solver(const GlobalOptions& options, const vessel::Parameters& vessel)
       : options_(options), vessel_(vessel), problem_(vessel), initial_(vessel) {}
 
+  // Under a low speed limit all is done in slow motion: the spline's time runs so that the limit is
+  // what the vessel usually sails, and scales, weights and the number of pieces stay as they are.
+  void slowTo(double slow) {
+    if (slow == slow_) {
+      return;
+    }
+    slow_ = slow;
+    const vessel::Parameters other = inSlowMotion(vessel_, slow);
+    problem_ = SplineProblem(other);
+    initial_ = InitialSpline(other);
+  }
+
   Result<Optimized> run(const feasibility::Obstacles& obstacles,
                         const std::vector<Eigen::Vector2d>& path, const trajectory::Boundary& start,
                         const trajectory::Boundary& goal, const Budget& budget,
@@ -62,7 +75,8 @@ class GlobalOptimizer::Solver {
     start_ = &start;
     goal_ = &goal;
     budget_ = &budget;
-    limits_ = limits;
+    limits_ = limits.startingAt(start.flat.velocity.norm(), vessel_);
+    slowTo(feasibility::speedShare(vessel_, limits_));
     result_ = Optimized();
     for (int i = 0; i < std::min(budget.max_attempts, kAttempts); ++i) {
       if (attempt(path, i)) {
@@ -113,7 +127,8 @@ class GlobalOptimizer::Solver {
     problem_.targets.weights = attempt.weights;
     problem_.targets.obstacles = obstacles_;
     problem_.targets.kept_n.clear();
-    problem_.setDisturbance(limits_.disturbance);
+    problem_.targets.clock = 1.0 / slow_;
+    problem_.setDisturbance(inSlowMotion(limits_.disturbance, slow_));
     initial_.options = attempt.initial;
     end_options_ = attempt.ends;
   }
@@ -123,12 +138,12 @@ class GlobalOptimizer::Solver {
     chosen_ = chooser_.choose(obstacles_->field(), path, *start_, *goal_);
     solver_.restart();
     startWhereTheManoeuvreEnds();
-    initial_.build(*obstacles_, path, chooser_.splineEnds(chosen_, *start_), spline_);
+    initial_.build(*obstacles_, path, inSplineTime(chooser_.splineEnds(chosen_, *start_)), spline_);
     SplineSolver::Stop stop;
     stop.max_iterations = kIterationsPerRound;
     stop.out_of_time = [this] { return outOfTime(); };
     smoothFirst(stop);
-    chooser_.guide(chosen_, spline_);
+    inRealTime([&] { chooser_.guide(chosen_, spline_); });
     for (int round = 0; round < kRounds; ++round) {
       result_.iterations += solver_.improve(problem_, stop, spline_);
       followEnds();
@@ -147,12 +162,36 @@ class GlobalOptimizer::Solver {
     return false;
   }
 
+  template <typename Action>
+  void inRealTime(const Action& action) {
+    if (slow_ != 1.0) {
+      stretch(1.0 / slow_, spline_);
+    }
+    action();
+    if (slow_ != 1.0) {
+      stretch(slow_, spline_);
+    }
+  }
+  [[nodiscard]] SplineEnds inSplineTime(SplineEnds ends) const {
+    for (vessel::FlatPoint* z : {&ends.start, &ends.goal}) {
+      z->velocity /= slow_;
+      z->acceleration /= slow_ * slow_;
+      z->jerk /= slow_ * slow_ * slow_;
+    }
+    return ends;
+  }
+  [[nodiscard]] trajectory::Trajectory assembled() {
+    trajectory::Trajectory whole;
+    inRealTime([&] { whole = assemble(chosen_, spline_); });
+    return whole;
+  }
+
   // The spline's obstacles are met after the manoeuvre that leads to it.
   void startWhereTheManoeuvreEnds() {
     problem_.targets.start_s = chosen_.start.manoeuvre.duration_s;
   }
   void followEnds() {
-    chooser_.follow(spline_, chosen_);
+    inRealTime([&] { chooser_.follow(spline_, chosen_); });
     startWhereTheManoeuvreEnds();
   }
 
@@ -218,14 +257,14 @@ class GlobalOptimizer::Solver {
   void verifyDilated(double dilation_max) {
     constexpr int kTries = 6;
     const Spline shape = spline_;
-    result_.trajectory = assemble(chosen_, spline_);
+    result_.trajectory = assembled();
     for (int i = 0; i < kTries; ++i) {
       const double excess = this->excess();
       if (excess <= 0.0 || excess > dilation_max) {
         break;
       }
       dilate(1.0 + 0.7 * excess + 0.001, spline_);
-      result_.trajectory = assemble(chosen_, spline_);
+      result_.trajectory = assembled();
     }
     result_.verification =
         feasibility::verify(result_.trajectory, *obstacles_, vessel_, *start_, *goal_, limits_);
@@ -241,6 +280,9 @@ class GlobalOptimizer::Solver {
       const double excess = std::min(v.thrust_share - limits_.thrust_share, 0.04);
       problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
       problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
+      problem_.targets.weights.dynamics *= kWeightGrowth;
+    } else if (v.speed_mps > limits_.speedMaxEver()) {
+      problem_.targets.limits.speed_mps *= kSlower;
       problem_.targets.weights.dynamics *= kWeightGrowth;
     } else {
       const double missing = limits_.clearance_m - v.clearance_m;
@@ -362,6 +404,7 @@ class GlobalOptimizer::Solver {
 
   GlobalOptions options_;
   vessel::Parameters vessel_;
+  double slow_ = 1.0;
   SplineProblem problem_;
   InitialSpline initial_;
   SplineSolver solver_;

@@ -112,8 +112,8 @@ void LocalOptimizer::pullTowards(const feasibility::EdgeCheck& check, const Knot
       stretch = -1;
     }
     const double speed = z.col(1).norm();
-    if (speed > check.speedMax()) {
-      pull.target.col(1) = 0.95 * check.speedMax() / speed * z.col(1);
+    if (speed > check.speedMaxEver()) {
+      pull.target.col(1) = 0.95 * check.speedMaxEver() / speed * z.col(1);
       pull.weight[1] = kWeightDynamics * growth;
     }
     const double asked = inverse.push(inverse.throughWater(z.col(1)), z.col(1), z.col(2)).norm();

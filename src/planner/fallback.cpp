@@ -16,7 +16,9 @@ constexpr double kLaunchM = 3.0;
 // Of the limits, in spins.
 constexpr double kSpinThrustShare = 0.93;
 constexpr double kSpinRateShare = 0.9;
-constexpr double kLaunchSpeedShare = 0.41;  // of the speed limit, at the launch's end
+// At the launch's end: of the speed usual, and of the speed limit at most.
+constexpr double kLaunchSpeedShare = 0.41;
+constexpr double kLaunchLimitShare = 0.85;
 
 FlatPoint reversed(const FlatPoint& z) {
   FlatPoint r = z;
@@ -119,13 +121,18 @@ trajectory::Trajectory assemble(const std::vector<Piece>& smooth, double slowdow
 
 }  // namespace
 
+double launchSpeed(const vessel::Parameters& vessel, const feasibility::SafetyLimits& limits) {
+  return std::min(kLaunchSpeedShare * feasibility::usualSpeed(vessel, limits),
+                  kLaunchLimitShare * limits.speed_max_mps);
+}
+
 Launch launchFrom(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
-                  double speed_max_mps) {
+                  double speed_mps) {
   FlatPoint rest;
   rest.position = position;
   FlatPoint end;
   end.position = position + kLaunchM * direction;
-  end.velocity = kLaunchSpeedShare * speed_max_mps * direction;
+  end.velocity = speed_mps * direction;
   Launch launch;
   launch.root.position = end.position;
   launch.root.velocity = end.velocity;
@@ -134,8 +141,8 @@ Launch launchFrom(const Eigen::Vector2d& position, const Eigen::Vector2d& direct
 }
 
 Launch stopAt(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
-              double speed_max_mps) {
-  Launch stop = launchFrom(position, -direction, speed_max_mps);
+              double speed_mps) {
+  Launch stop = launchFrom(position, -direction, speed_mps);
   FlatPoint rest;
   rest.position = position;
   const FlatPoint moving = reversed(stop.piece.flat(stop.piece.duration_s));

@@ -17,11 +17,14 @@ struct Launch {
   KinoState root;
   trajectory::Piece piece;
 };
+// How fast it ends.
+[[nodiscard]] double launchSpeed(const vessel::Parameters& vessel,
+                                 const feasibility::SafetyLimits& limits);
 [[nodiscard]] Launch launchFrom(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
-                                double speed_max_mps);
+                                double speed_mps);
 // The same backwards in time: the state before a straight stop at `position`.
 [[nodiscard]] Launch stopAt(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
-                            double speed_max_mps);
+                            double speed_mps);
 
 // The tree's quintics, launch and stop included, as a trajectory that can be verified: spins at
 // ends at rest to and from the path's own directions, the jerks at joints averaged (pieces of

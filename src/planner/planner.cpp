@@ -244,10 +244,11 @@ class Planner::Pipeline {
     launch_.reset();
     stop_.reset();
     if (roots == Roots::kLaunched) {
-      stop_ = stopAt(goal.position, line_.at(line_.length()).direction, limits.speed_max_mps);
+      const double speed = launchSpeed(vessel_, limits);
+      stop_ = stopAt(goal.position, line_.at(line_.length()).direction, speed);
       goal = stop_->root;
       if (trajectory::atRest(run.query.start)) {
-        launch_ = launchFrom(start.position, line_.at(0.0).direction, limits.speed_max_mps);
+        launch_ = launchFrom(start.position, line_.at(0.0).direction, speed);
         start = launch_->root;
       }
     }
@@ -263,6 +264,8 @@ class Planner::Pipeline {
     options.key_spacing_m /= 1.0 + 0.5 * attempt;
     options.uniform_share = options_.uniform_share;
     options.speed_max_mps = kSampleSpeedShare * run.query.limits.speed_max_mps;
+    const double slow = feasibility::speedShare(vessel_, run.query.limits);
+    options.accel_mps2 *= slow * slow;
     Sampler sampler(options, line_, run.obstacles.field(),
                     run.query.seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(attempt));
     search_.joinRoots();

@@ -16,6 +16,7 @@ constexpr double kWorthRewiring = 1e-6;
 
 Search::Search(const SearchOptions& options, const vessel::Parameters& vessel)
     : options_(options),
+      vessel_(vessel),
       check_(vessel),
       still_(vessel),
       local_(vessel),
@@ -27,7 +28,11 @@ Search::Search(const SearchOptions& options, const vessel::Parameters& vessel)
 
 void Search::reset(const feasibility::Obstacles& obstacles, const feasibility::SafetyLimits& limits,
                    const KinoState& start, const KinoState& goal) {
-  check_.begin(obstacles, limits);
+  // At a fraction of the speed edges keep their shape at its sixth power of sigma: T by its
+  // inverse, the integral of squared jerk by its fifth power.
+  constexpr double kPower = 6.0;
+  sigma_ = options_.sigma * std::pow(feasibility::speedShare(vessel_, limits), kPower);
+  check_.begin(obstacles, limits.startingAt(start.velocity.norm(), vessel_));
   still_.begin(obstacles.field(), limits);
   from_start_.reset(start);
   to_goal_.reset(goal);
@@ -48,7 +53,7 @@ bool Search::joinRoots() {
   if ((goal.position - start.position).norm() > kEdgeMaxM) {
     return false;
   }
-  const auto steered = steer(start, goal, options_.sigma);
+  const auto steered = steer(start, goal, sigma_);
   if (steered) {
     direct_ = feasibleEdge(start, goal, *steered, occasionOf(from_start_, 0));
   }
@@ -86,7 +91,7 @@ bool Search::extend(const KinoState& sample) {
 // far plus sigma times the time the straight line takes at full speed. A heap holds the best.
 int Search::findNeighbours(const Tree& tree, const KinoState& sample) {
   const auto worse = [](const Candidate& a, const Candidate& b) { return a.bound < b.bound; };
-  const double per_metre = options_.sigma / check_.speedMax();
+  const double per_metre = sigma_ / check_.speedMaxEver();
   int found = 0;
   for (int i = 0; i < tree.size(); ++i) {
     const Node& node = tree.node(i);
@@ -115,7 +120,7 @@ int Search::steerNeighbours(const Tree& tree, const KinoState& sample, int found
     Candidate candidate = candidates_[static_cast<std::size_t>(i)];
     const Node& node = tree.node(candidate.node);
     const auto best =
-        steer(tree.from(node.state, sample), tree.to(node.state, sample), options_.sigma);
+        steer(tree.from(node.state, sample), tree.to(node.state, sample), sigma_);
     if (best) {
       candidate.steer = *best;
       candidate.bound = node.cost + best->cost;
@@ -182,7 +187,7 @@ std::optional<Edge> Search::repairedEdge(const KinoState& from, const KinoState&
   }
   double cost = 0.0;
   for (const trajectory::Piece& piece : repaired_.pieces) {
-    cost += pieceCost(piece, options_.sigma);
+    cost += pieceCost(piece, sigma_);
   }
   const Edge edge{repaired_.duration_s, cost, static_cast<int>(pieces_.size()),
                   optimizer::RepairedEdge::kPieces};
@@ -193,7 +198,7 @@ std::optional<Edge> Search::repairedEdge(const KinoState& from, const KinoState&
 std::optional<Edge> Search::slowerEdge(const KinoState& from, const KinoState& to,
                                        const Steer& steer, const Occasion& occasion) {
   constexpr std::array<double, 4> kStretch = {1.1, 1.25, 1.45, 1.75};
-  const SteerCost cost(from, to, options_.sigma);
+  const SteerCost cost(from, to, sigma_);
   for (const double stretch : kStretch) {
     const double duration = stretch * steer.duration_s;
     const feasibility::EdgeFault fault =
@@ -217,13 +222,13 @@ void Search::rewire(Tree& tree, int added) {
     const int index = candidates_[static_cast<std::size_t>(i)].node;
     const Node& node = tree.node(index);
     const double distance = (node.state.position - state.position).norm();
-    const double bound = cost + options_.sigma * distance / check_.speedMax();
+    const double bound = cost + sigma_ * distance / check_.speedMaxEver();
     if (index == added || node.parent == kNone || bound >= node.cost) {
       continue;
     }
     const KinoState& from = tree.from(state, node.state);
     const KinoState& to = tree.to(state, node.state);
-    const auto best = steer(from, to, options_.sigma);
+    const auto best = steer(from, to, sigma_);
     if (!best || cost + best->cost >= node.cost - kWorthRewiring || tree.isBelow(added, index)) {
       continue;
     }

@@ -83,6 +83,8 @@ class Search {
   void rewire(Tree& tree, int added);
 
   SearchOptions options_;
+  vessel::Parameters vessel_;
+  double sigma_ = 0.0;  // of the query's speed limit
   feasibility::EdgeCheck check_;
   feasibility::EdgeCheck still_;  // without what moves
   optimizer::LocalOptimizer local_;

@@ -64,13 +64,15 @@ bool join(const Piece& before, const Piece& after) {
 
 }  // namespace
 
-Trajectory toMessage(const trajectory::Trajectory& trajectory, double start_s, std::uint32_t id,
+Trajectory toMessage(const trajectory::TimedTrajectory& timed, std::uint32_t id,
                      const vessel::Pose& goal, const std::string& frame,
                      const vessel::Parameters& vessel) {
+  const trajectory::Trajectory& trajectory = timed.trajectory;
   Trajectory message;
   message.header.frame_id = frame;
-  message.header.stamp = toRosTime(start_s);
+  message.header.stamp = toRosTime(timed.start_time_s);
   message.id = id;
+  message.speed_max = std::isfinite(timed.speed_max_mps) ? timed.speed_max_mps : 0.0;
   message.goal = toPose(goal.position, goal.psi_rad);
   if (!trajectory.empty()) {
     const vessel::State start = trajectory.sample(0.0, vessel).state;
@@ -83,12 +85,16 @@ Trajectory toMessage(const trajectory::Trajectory& trajectory, double start_s, s
   return message;
 }
 
-Result<trajectory::Trajectory> toTrajectory(const Trajectory& message, const std::string& frame) {
+Result<trajectory::TimedTrajectory> toTrajectory(const Trajectory& message, const std::string& frame) {
   if (message.header.frame_id != frame) {
     return failure("frame_id is '" + message.header.frame_id + "', expected '" + frame + "'");
   }
   if (message.header.stamp.isZero()) {
     return failure("header.stamp, the start time, is zero");
+  }
+  if (!std::isfinite(message.speed_max) || message.speed_max < 0.0) {
+    return failure("speed_max is " + std::to_string(message.speed_max) +
+                   " m/s, has to be positive, or 0 for none");
   }
   if (message.pieces.size() > kMaxPieces) {
     return failure("holds " + std::to_string(message.pieces.size()) + " pieces, at most " +
@@ -107,7 +113,12 @@ Result<trajectory::Trajectory> toTrajectory(const Trajectory& message, const std
     }
     pieces.push_back(*piece);
   }
-  return trajectory::Trajectory(std::move(pieces));
+  trajectory::TimedTrajectory timed{trajectory::Trajectory(std::move(pieces)),
+                                    message.header.stamp.toSec()};
+  if (message.speed_max > 0.0) {
+    timed.speed_max_mps = message.speed_max;
+  }
+  return timed;
 }
 
 nav_msgs::Path toPath(const trajectory::Trajectory& trajectory, double start_s, double step_s,

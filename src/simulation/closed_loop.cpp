@@ -34,6 +34,11 @@ ClosedLoop::ClosedLoop(const LoopOptions& options, plant::Simulator plant, map::
       goal_(mission.goal) {
   plant_.placeAt(mission.start.position, mission.start.psi_rad);
 }
+
+Status ClosedLoop::setSpeedMax(double speed_mps) {
+  return supervisor_.setSpeedMax(speed_mps);
+}
+
 ClosedLoop::~ClosedLoop() = default;
 ClosedLoop::ClosedLoop(ClosedLoop&&) noexcept = default;
 ClosedLoop& ClosedLoop::operator=(ClosedLoop&&) noexcept = default;
@@ -45,7 +50,13 @@ Result<ClosedLoop> ClosedLoop::create(const LoopOptions& options, Waters waters,
     return failure(plant.error().message);
   }
   plant->setVessels(std::move(waters.vessels));
-  return ClosedLoop(options, std::move(*plant), std::move(waters.chart), mission, seed);
+  ClosedLoop loop(options, std::move(*plant), std::move(waters.chart), mission, seed);
+  if (mission.speed_mps) {
+    if (const Status status = loop.setSpeedMax(*mission.speed_mps); !status) {
+      return failure(status.error().message);
+    }
+  }
+  return loop;
 }
 
 bool ClosedLoop::step() {
@@ -143,7 +154,8 @@ void ClosedLoop::carryOut(const mission::Orders& orders) {
   if (orders.sail) {
     stop_ordered_ = false;
     const Status status =
-        tracker_.setTrajectory(orders.sail->trajectory, orders.sail->start_time_s);
+        tracker_.setTrajectory(orders.sail->trajectory, orders.sail->start_time_s, 0,
+                               orders.sail->speed_max_mps);
     if (!status) {
       finish(scenario::Outcome::kError,
              "the tracker refused a trajectory: " + status.error().message);

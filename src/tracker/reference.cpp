@@ -24,6 +24,7 @@ constexpr double kLeastWaitingSpeedMps = 0.3;
 // spent), and catches up by at most so many seconds a second.
 constexpr double kLeashLengths = 1.0;
 constexpr double kCatchUpRate = 0.5;
+constexpr double kOverReference = 1.01;  // of a reference faster than its limit
 
 }  // namespace
 
@@ -43,7 +44,8 @@ void ReferenceSource::wait(double now_s, const Vector2d& position) {
   const double speed = z.velocity.norm();
   const double elapsed = now_s - waited_at_s_;
   waited_at_s_ = now_s;
-  lag_s_ = std::max(0.0, lag_s_ - kCatchUpRate * elapsed);
+  const double spare = speed > 0.0 ? std::max(0.0, speed_max_mps_ / speed - 1.0) : kCatchUpRate;
+  lag_s_ = std::max(0.0, lag_s_ - std::min(kCatchUpRate, spare) * elapsed);
   const double behind = speed > 0.0 ? (z.position - position).dot(z.velocity) / speed : 0.0;
   const double leash_m = kLeashLengths * vessel_.hull.length_m;
   if (behind > leash_m) {
@@ -53,9 +55,10 @@ void ReferenceSource::wait(double now_s, const Vector2d& position) {
 }
 
 void ReferenceSource::start(const trajectory::Trajectory* trajectory, double start_s,
-                            double now_s) {
+                            double speed_max_mps, double now_s) {
   trajectory_ = trajectory;
   start_s_ = start_s;
+  speed_max_mps_ = speed_max_mps;
   lag_s_ = 0.0;
   waited_at_s_ = now_s;
   joins_ = false;
@@ -225,6 +228,8 @@ void ReferenceSource::fill(double start_s, double step_s, int stages, double psi
       unwrapNear(reference.states[0][kPsi], psi_near_rad) - reference.states[0][kPsi];
   for (int k = 0; k <= stages; ++k) {
     reference.states[k][kPsi] += turns;
+    const double sailed = reference.states[k].segment<2>(kSurge).norm();
+    reference.speed_max_mps[k] = std::max(speed_max_mps_, kOverReference * sailed);
   }
 }
 

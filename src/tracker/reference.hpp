@@ -5,6 +5,8 @@
 // follow by the manoeuvring model's inverse dynamics (vessel/inverse_dynamics.hpp).
 #pragma once
 
+#include <limits>
+
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
@@ -18,7 +20,8 @@ class ReferenceSource {
   ReferenceSource(const Options& options, const vessel::Parameters& vessel);
 
   // A new trajectory, in force from `start_s`; the reference starts at psi of the trajectory.
-  void start(const trajectory::Trajectory* trajectory, double start_s, double now_s);
+  void start(const trajectory::Trajectory* trajectory, double start_s, double speed_max_mps,
+             double now_s);
   // From now on the reference is led from `offset` (position and velocity off the trajectory's,
   // earth frame) to the trajectory within `duration_s`.
   void join(double now_s, const Eigen::Vector2d& offset, const Eigen::Vector2d& velocity_offset,
@@ -55,6 +58,7 @@ class ReferenceSource {
   const trajectory::Trajectory* trajectory_ = nullptr;
   double start_s_ = 0.0;
   double lag_s_ = 0.0;
+  double speed_max_mps_ = std::numeric_limits<double>::infinity();
   double waited_at_s_ = 0.0;
   trajectory::Piece joining_;
   double joining_start_s_ = 0.0;

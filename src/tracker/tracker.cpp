@@ -31,6 +31,7 @@ constexpr double kBrakingShare = 0.6;  // of the thrust astern: how far ahead a 
 // shrinks at this mean speed.
 constexpr double kJoinLengths = 1.5;
 constexpr double kJoinSpeedMps = 0.7;
+constexpr double kJoinSpeedShare = 0.3;  // of the speed limit, where that is less
 constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts the next one
 constexpr double kBrakeBlindS = 5.0;  // braking by the model alone without odometry; then no thrust
 
@@ -64,7 +65,8 @@ class Tracker::Core {
  public:
   Core(const Options& options, const vessel::Parameters& vessel);
 
-  Status setTrajectory(trajectory::Trajectory trajectory, double start_s, std::uint32_t order);
+  Status setTrajectory(trajectory::Trajectory trajectory, double start_s, std::uint32_t order,
+                       double speed_max_mps);
   void addOdometry(double stamp_s, const vessel::State& state);
   void requestStop(std::string_view reason, double start_s, std::uint32_t order);
   Command step(double now_s);
@@ -78,6 +80,7 @@ class Tracker::Core {
   struct Assignment {
     trajectory::Trajectory trajectory;  // empty: stop
     double start_s = 0.0;
+    double speed_max_mps = 0.0;
     std::string_view reason;
     std::uint32_t order = 0;
   };
@@ -138,7 +141,7 @@ Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
       controller_(options, vessel) {}
 
 Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double start_s,
-                                    std::uint32_t order) {
+                                    std::uint32_t order, double speed_max_mps) {
   if (Status status = checkTrajectory(trajectory); !status) {
     return status;
   }
@@ -153,6 +156,10 @@ Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double st
   assignment->trajectory = std::move(trajectory);
   assignment->start_s = start_s;
   assignment->order = order;
+  assignment->speed_max_mps = speed_max_mps;
+  if (vessel_.speed_max_mps > 0.0) {
+    assignment->speed_max_mps = std::min(speed_max_mps, vessel_.speed_max_mps);
+  }
   incoming_.give(std::move(assignment));
   return {};
 }
@@ -200,13 +207,15 @@ void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
   const bool under_way = mode_ == Mode::kTracking;
   mode_ = Mode::kTracking;
   stop_reason_ = {};
-  reference_source_.start(&sailing_->trajectory, sailing_->start_s, now_s);
+  reference_source_.start(&sailing_->trajectory, sailing_->start_s, sailing_->speed_max_mps, now_s);
   const vessel::FlatPoint z = reference_source_.flat(now_s);
   const Vector2d offset = state.head<2>() - z.position;
   if (offset.norm() > kJoinLengths * vessel_.hull.length_m) {
     const Vector2d velocity_offset = velocityOverGround(state) - z.velocity;
     reference_source_.join(now_s, offset, velocity_offset,
-                           std::max(4.0, offset.norm() / kJoinSpeedMps));
+                           std::max(4.0, offset.norm() / std::min(kJoinSpeedMps,
+                                                                  kJoinSpeedShare *
+                                                                      sailing_->speed_max_mps)));
   }
   controller_.start(under_way && offset.norm() < kSamePathLengths * vessel_.hull.length_m);
 }
@@ -398,8 +407,8 @@ Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
 Status Tracker::setTrajectory(trajectory::Trajectory trajectory, double start_s,
-                              std::uint32_t order) {
-  return core_->setTrajectory(std::move(trajectory), start_s, order);
+                              std::uint32_t order, double speed_max_mps) {
+  return core_->setTrajectory(std::move(trajectory), start_s, order, speed_max_mps);
 }
 
 void Tracker::addOdometry(double stamp_s, const vessel::State& state) {

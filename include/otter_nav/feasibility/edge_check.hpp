@@ -26,7 +26,10 @@ class EdgeCheck {
   [[nodiscard]] const vessel::InverseDynamics& inverse() const { return inverse_; }
   [[nodiscard]] double clearance() const { return limits_.clearance_m; }
   // What edges may ask for: a little less than the whole trajectory.
-  [[nodiscard]] double speedMax() const { return speed_max_mps_; }
+  [[nodiscard]] double speedMax(double time_s) const {
+    return kSpeedShare * limits_.speedMaxAt(time_s);
+  }
+  [[nodiscard]] double speedMaxEver() const { return kSpeedShare * limits_.speedMaxEver(); }
   [[nodiscard]] double forceMax() const { return force_ahead_n_; }  // both thrusters ahead, N
 
   // Sail pieces only. The heading is taken along w (vessel/inverse_dynamics.hpp), so a drifting
@@ -40,11 +43,12 @@ class EdgeCheck {
   [[nodiscard]] bool isFree(const Eigen::Vector2d& position, double time_s = 0.0) const;
 
  private:
+  static constexpr double kSpeedShare = 0.98;  // of the speed limit, on an edge
   struct Motion {
     Eigen::Vector2d position, velocity, acceleration;
   };
   [[nodiscard]] static Motion motionAt(const trajectory::Piece& piece, double t_s);
-  [[nodiscard]] EdgeFault checkMotion(const Motion& motion) const;
+  [[nodiscard]] EdgeFault checkMotion(const Motion& motion, double time_s) const;
   [[nodiscard]] EdgeFault checkTurning(const vessel::FlatPoint& z) const;
   [[nodiscard]] bool isClear(const trajectory::Piece& piece, double start_s) const;
 
@@ -52,7 +56,7 @@ class EdgeCheck {
   vessel::InverseDynamics inverse_;
   SafetyLimits limits_;
   HullCover hull_;
-  double speed_max_mps_ = 0.0;
+  double least_force_n_ = 0.0;
   double force_ahead_n_ = 0.0;
   double force_astern_n_ = 0.0;
   std::optional<Obstacles> obstacles_;

@@ -30,6 +30,7 @@ struct PieceReport {
   double time_s = 0.0;  // of the fault, from the piece's start
   double thrust_share = 0.0;
   double speed_mps = 0.0;
+  double speed_share = 0.0;  // of what is allowed at the time
   double yaw_rate_radps = 0.0;
   double heading_force_n = 0.0;  // least; infinite on straight pieces
   double clearance_m = 0.0;
@@ -47,8 +48,8 @@ class PieceCheck {
   [[nodiscard]] double heading(double t_s) const;
   [[nodiscard]] double yawRate(double t_s) const;
 
-  // Fills all of the report but the clearance.
-  void checkDynamics(PieceReport& report) const;
+  // Fills all of the report but the clearance. `start_s` as below.
+  void checkDynamics(double start_s, PieceReport& report) const;
   // The same by the manoeuvring model: the piece is number `index` of the trajectory `motion` is
   // of.
   void checkDynamics(const trajectory::MotionAlong& motion, std::size_t index,
@@ -62,7 +63,8 @@ class PieceCheck {
   struct Point;
   [[nodiscard]] Point at(double t_s) const;
   [[nodiscard]] Point inSpin(double t_s) const;
-  void checkSpin(PieceReport& report) const;
+  void checkSpin(double start_s, PieceReport& report) const;
+  void noteSpeed(double speed_mps, double time_s, PieceReport& report) const;
   // Of a piece of the kind this one is; sets the fault and, in a spin, what sets it aside.
   void checkSway(double sway_n, double allowed_n, PieceReport& report) const;
   [[nodiscard]] Eigen::Vector2d bowAt(double t_s) const;

@@ -51,6 +51,7 @@ struct SupervisorOptions {
   std::vector<double> side_clearances_m = {1.06, 0.66, 0.36, 0.26};
   double critical_side_clearance_m = 0.11;
   double thrust_share = 0.95;
+  double speed_max_mps = 0.0;
   double planning_latency_s = 0.3;
   int rounds_from_rest = 3;
   int stops_max = 8;
@@ -70,6 +71,8 @@ struct SupervisorOptions {
            "likewise, m: the vessel brakes for less than this on the way");
     fields("thrust_share", o.thrust_share, {0.4, 1.0},
            "of the thrusters' limits in plans; in gusts less by what they take");
+    fields("speed_max_mps", o.speed_max_mps, {0.0, 100.0},
+           "over ground; a mission may say otherwise; 0: the vessel's");
     fields("planning_latency_s", o.planning_latency_s, {0.0, 2.0},
            "from a request under way to the start of the new trajectory");
     fields("rounds_from_rest", o.rounds_from_rest, {1, 1000},
@@ -87,6 +90,7 @@ struct SupervisorOptions {
     fields.group("encounter", o.encounter, "other vessels, and the rules of the road");
   }
 };
+[[nodiscard]] Status checkSpeedMax(double speed_mps);
 [[nodiscard]] Result<SupervisorOptions> readSupervisorOptions(config::Section section);
 [[nodiscard]] Result<SupervisorOptions> loadSupervisorOptions(const std::string& path);
 
@@ -158,6 +162,11 @@ class Supervisor {
   [[nodiscard]] Orders planFinished(double now_s, int id, const planner::Plan& plan,
                                     const Situation& situation,
                                     const feasibility::Obstacles& obstacles);
+
+  // Of all plans from now on; what is sailed is planned anew. 0: the vessel's alone. An error if it
+  // is less than a vessel can steer by.
+  [[nodiscard]] Status setSpeedMax(double speed_mps);
+  [[nodiscard]] double speedMax() const;
 
   [[nodiscard]] Phase phase() const;
   // Why the phase is what it is; empty if there is nothing to explain.

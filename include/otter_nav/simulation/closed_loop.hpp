@@ -67,6 +67,8 @@ class ClosedLoop {
 
   // One control period; false when the mission is over.
   bool step();
+  // From now on; at first it is the mission's.
+  [[nodiscard]] Status setSpeedMax(double speed_mps);
 
   [[nodiscard]] double time() const { return plant_.time(); }
   [[nodiscard]] const mission::Supervisor& supervisor() const { return supervisor_; }

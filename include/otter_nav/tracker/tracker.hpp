@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -71,9 +72,12 @@ class Tracker {
 
   // Any thread, at any time. The trajectory takes over at `start_s`, or at the next step when that
   // has passed. Errors: empty or malformed (piece and fault named), not finite, over already.
-  // `order` is the caller's number for it.
-  [[nodiscard]] Status setTrajectory(trajectory::Trajectory trajectory, double start_s,
-                                     std::uint32_t order = 0);
+  // `order` is the caller's number for it. `speed_max_mps`: over ground, to keep to also when the
+  // vessel is behind; what the trajectory itself sails counts where it is more, and the vessel's own
+  // limit where it is less.
+  [[nodiscard]] Status setTrajectory(
+      trajectory::Trajectory trajectory, double start_s, std::uint32_t order = 0,
+      double speed_max_mps = std::numeric_limits<double>::infinity());
   // Any one thread. Not finite or out of order: dropped, and the next status says so.
   void addOdometry(double stamp_s, const vessel::State& state);
   // Any thread: brake and hold the spot from `start_s` on, until the next trajectory. `reason` is

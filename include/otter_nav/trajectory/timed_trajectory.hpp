@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "otter_nav/trajectory/trajectory.hpp"
 
 namespace otter_nav::trajectory {
@@ -8,6 +10,8 @@ namespace otter_nav::trajectory {
 struct TimedTrajectory {
   Trajectory trajectory;
   double start_time_s = 0.0;
+  // What it was planned for, over ground; where the trajectory itself is faster, that counts.
+  double speed_max_mps = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] double elapsed(double now_s) const { return now_s - start_time_s; }
   [[nodiscard]] double left(double now_s) const { return trajectory.duration() - elapsed(now_s); }

@@ -132,6 +132,7 @@ struct Parameters {
   Thrusters thrusters;
   Hull hull;
   double top_speed_mps = 5.0;
+  double speed_max_mps = 0.0;
   // What sails for it in simulation: `planar` is the manoeuvring model above, `otter` and
   // `otter_gazebo` are plants of their own (docs/plant.md).
   std::string plant_model = "planar";
@@ -140,6 +141,8 @@ struct Parameters {
   static void describe(Self& p, Fields& fields) {
     fields("name", p.name, "of the vessel");
     fields("top_speed_mps", p.top_speed_mps, kPositive, "steady surge at full thrust");
+    fields.optional("speed_max_mps", p.speed_max_mps, kNotNegative,
+                    "over ground, that it may go; 0: as fast as it can");
     fields.optionalText("plant_model", p.plant_model, {"planar", "otter", "otter_gazebo"},
                         "what sails for it in simulation");
     fields.group("paper_model", p.paper, "the planner's");

@@ -15,6 +15,12 @@ namespace {
 constexpr double kLeastTurnRad = 1e-3;
 constexpr double kStraightLaunchS = 0.4;
 constexpr double kLaunchShare = 0.95;     // of the full force, so that the way may turn at once
+// Under a low speed limit: with steady thrust at this share of it where the launch ends, after so
+// long, and where the arrival begins.
+constexpr double kLaunchSpeedShare = 0.8;
+constexpr double kGentleLaunchS = 1.6;
+constexpr double kGentleRampS = 0.6;
+constexpr double kBrakeSpeedShare = 0.9;
 constexpr double kAheadShare = 0.5;       // of the full force, before that
 constexpr double kDriftForceShare = 0.4;  // of full astern, at most, while turning at the goal
 constexpr double kLeastBrakeShare = 0.1;  // of the force astern, that is left against a load
@@ -190,10 +196,14 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
   std::optional<TurnProfile> turn;
   const bool turns = std::abs(turn_rad) > kLeastTurnRad;
   const double share = turns && !vessel::paperHolds(vessel) ? kLaunchShareTurning : kLaunchShare;
-  const double most = share * thrust.ahead_n;
+  const vessel::PaperModel& m = vessel.paper;
+  const double speed = kLaunchSpeedShare * limits.speed_max_mps;
+  const double most =
+      std::min(share * thrust.ahead_n, speed * (m.d1_kgps + m.m1_kg / kGentleLaunchS));
+  const bool gentle = most < share * thrust.ahead_n;
   std::vector<SurgeRamp> ramps = {{kLongAgoS, kLongAgoS, most, most}};
   double turning_n = 0.0;
-  double end = kStraightLaunchS;
+  double end = gentle ? 0.0 : kStraightLaunchS;
   if (turns) {
     // One thruster full ahead and the other full astern turn a hull best that has less astern: it
     // gets under way meanwhile.
@@ -219,6 +229,11 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
       ramps.insert(ramps.begin(), {0.0, limits.surge_ramp_s, 0.0, turning_n});
     }
     end = ramps.back().to_s;
+  }
+  if (gentle) {
+    const double full_s = end + kGentleLaunchS - kGentleRampS;
+    end = full_s + kGentleRampS;
+    ramps.push_back({full_s, end, most, speed * m.d1_kgps});
   }
   const ForcedMotion forced(vessel, placed.seen(limits.disturbance), turn ? &*turn : nullptr,
                             std::move(ramps));
@@ -280,7 +295,10 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   if (!turn && !turns_at_rest) {
     forced.clearRamps();
   }
-  forced.addFirst({ramp_s, ramp_s + limits.brake_ramp_s, kAheadShare * thrust.ahead_n, -brake_n});
+  const double ahead_n =
+      std::min(kAheadShare * thrust.ahead_n,
+               kBrakeSpeedShare * limits.speed_max_mps * vessel.paper.d1_kgps);
+  forced.addFirst({ramp_s, ramp_s + limits.brake_ramp_s, ahead_n, -brake_n});
   back.reach(ramp_s);
   const double begin_s = vessel::paperHolds(vessel) ? ramp_s : ramp_s - kRunInS;
   back.reach(begin_s);

@@ -21,6 +21,7 @@ namespace otter_nav::optimizer {
 struct ManoeuvreLimits {
   double thrust_share = 0.94;  // of each thruster's limits
   double yaw_rate_max_radps = 1.8;
+  double speed_max_mps = 1e3;
   double ramp_s = 0.12;       // in which the moment goes from one value to the next
   double drift_mps = 0.3;     // speed left when the arrival's turn begins; 0: it turns at rest
   double surge_ramp_s = 0.3;  // to full ahead, and from full astern to nothing

@@ -12,7 +12,8 @@ namespace {
 constexpr double kLookAheadM = 5.0;  // beyond a manoeuvre, that the path's direction is taken over
 constexpr int kAimRounds = 4;
 constexpr double kAimedRad = 0.03;
-constexpr double kSlowestMps = 0.5;
+constexpr double kSlowestMps = 0.5;  // of an arrival, where the speed limit is not lower
+constexpr double kSlowestShare = 0.4;
 constexpr double kReachRad = 0.3;  // steps of a manoeuvre's parameters that are still nearly linear
 constexpr double kReachMps = 0.8;
 constexpr double kStep = 1e-3;          // of parameters, for differences
@@ -38,6 +39,10 @@ Eigen::Vector2d directionOf(const vessel::FlatPoint& z, double psi_rad) {
 }
 
 }  // namespace
+
+double EndChooser::slowest() const {
+  return std::min(kSlowestMps, kSlowestShare * options_.limits.speed_max_mps);
+}
 
 bool EndChooser::clear(const map::DistanceField& field, const Manoeuvre& manoeuvre) const {
   for (const trajectory::Piece& piece : manoeuvre.pieces) {
@@ -134,7 +139,7 @@ End EndChooser::chooseGoal(const map::DistanceField& field,
     end.limits = options_.limits;
     end.limits.drift_mps *= options_.careful ? 0.0 : choice.drift_share;
     end.speed_mps = options_.arrival_speed_mps * choice.speed_share;
-    while (end.speed_mps > kSlowestMps &&
+    while (end.speed_mps > slowest() &&
            arrivalLength(end.speed_mps, vessel_, end.limits) > longest) {
       end.speed_mps *= 0.9;
     }
@@ -169,7 +174,7 @@ std::optional<EndFamily> EndChooser::familyOf(const End& end) const {
     return std::nullopt;
   }
   EndFamily family;
-  family.reach = {kReachRad, kReachMps};
+  family.reach = {kReachRad, std::min(kReachMps, options_.limits.speed_max_mps)};
   const StateVector now = stateOf(end.manoeuvre.joint);
   const auto difference = [&](End moved, int column, double step) {
     make(moved);
@@ -204,8 +209,8 @@ void EndChooser::follow(Knot& knot, End& end) const {
   if (end.turn_rad != 0.0) {
     end.turn_rad = side * std::max(side * (end.turn_rad + knot.family->moved[0]), kLeastTurnRad);
   }
-  end.speed_mps = std::clamp(end.speed_mps + knot.family->moved[1], kSlowestMps,
-                             std::max(kSlowestMps, options_.arrival_speed_max_mps));
+  end.speed_mps = std::clamp(end.speed_mps + knot.family->moved[1], slowest(),
+                             std::max(slowest(), options_.arrival_speed_max_mps));
   make(end);
   const StateVector state = stateOf(end.manoeuvre.joint);
   for (int m = 0; m < 4; ++m) {

@@ -67,6 +67,7 @@ class EndChooser {
   void leaveAlong(const std::vector<Eigen::Vector2d>& path, End& end) const;
   void arriveAlong(const std::vector<Eigen::Vector2d>& path, End& end) const;
   void make(End& end) const;
+  [[nodiscard]] double slowest() const;  // that an arrival may begin with
   [[nodiscard]] std::optional<EndFamily> familyOf(const End& end) const;
   void follow(Knot& knot, End& end) const;
   [[nodiscard]] bool clear(const map::DistanceField& field, const Manoeuvre& manoeuvre) const;

@@ -33,6 +33,9 @@ struct SplineLimits {
   double thrust_ahead_n = 50.0;   // per side
   double thrust_astern_n = 50.0;
   double speed_mps = 4.8;
+  double start_speed_mps = 0.0;  // of a vessel that is faster, and slows down by the rate
+  double slowing_per_s = 0.0;
+  double slowing_from_s = 0.0;
   double yaw_rate_radps = 1.2;
   double heading_force_n = 8.0;  // least |w|
 };
@@ -42,6 +45,7 @@ struct Targets {
   SplineWeights weights;
   SplineLimits limits;
   double start_s = 0.0;  // the spline's start, on the obstacles' clock
+  double clock = 1.0;    // seconds of that for one of the spline
   // Not owned; null: no such term.
   const feasibility::Obstacles* obstacles = nullptr;
   const Originals* originals = nullptr;
@@ -65,7 +69,8 @@ struct PieceModel {
 
   std::size_t index = 0;
   Eigen::Matrix<double, 2, trajectory::kSepticEnds> ends;
-  double start_s = 0.0;
+  double start_s = 0.0;  // and
+  double clock = 1.0;    // as in Targets
   double duration_s = 1.0;
   bool wanted = false;  // gradient and Hessian
   double cost = 0.0;
@@ -95,7 +100,7 @@ class Point {
         const vessel::InverseDynamics& motion, double floor_n, PieceModel& model)
       : number(index),
         share(part),
-        time_s(model.start_s + at * model.duration_s),
+        time_s(model.start_s + at * model.duration_s * model.clock),
         dynamics(motion),
         force_floor_n(floor_n),
         piece(model),

@@ -68,7 +68,13 @@ class SpeedLimit final : public Cost {
   void add(const Targets& targets, Point& point) const override {
     const Eigen::Vector2d velocity = point.path().col(1);
     const double speed = velocity.norm();
-    point.addHinge(targets.weights.dynamics, speed - targets.limits.speed_mps, kMotionKnee, 1,
+    const SplineLimits& limits = targets.limits;
+    double most = limits.speed_mps;
+    if (limits.start_speed_mps > most) {
+      const double slowing_s = std::max(0.0, point.time_s - limits.slowing_from_s);
+      most = std::max(most, limits.start_speed_mps * std::exp(-limits.slowing_per_s * slowing_s));
+    }
+    point.addHinge(targets.weights.dynamics, speed - most, kMotionKnee, 1,
                    [&]() -> Eigen::Vector2d { return velocity / speed; });
   }
 };

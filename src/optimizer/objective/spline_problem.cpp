@@ -137,6 +137,7 @@ double SplineProblem::evaluate(const Spline& spline, System* system) const {
   PieceModel piece;
   piece.wanted = system != nullptr;
   piece.start_s = targets.start_s;
+  piece.clock = targets.clock;
   if (system != nullptr) {
     system->reset(spline.knots.size());
   }
@@ -147,7 +148,7 @@ double SplineProblem::evaluate(const Spline& spline, System* system) const {
     piece.gradient.setZero();
     piece.hessian.setZero();
     addPiece(piece);
-    piece.start_s += piece.duration_s;
+    piece.start_s += piece.duration_s * piece.clock;
     if (system == nullptr) {
       continue;
     }

@@ -39,10 +39,12 @@ trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline) {
 
 double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Parameters& vessel,
                    const feasibility::SafetyLimits& safety, double psi_start_rad) {
+  constexpr double kOpen = 1e3;
   feasibility::SafetyLimits open = safety;
-  open.thrust_share = 1e3;
-  open.speed_max_mps = 1e3;
-  open.yaw_rate_max_radps = 1e3;
+  open.thrust_share *= kOpen;
+  open.speed_max_mps *= kOpen;
+  open.start_speed_mps *= kOpen;
+  open.yaw_rate_max_radps *= kOpen;
   feasibility::Tolerances tolerances;
   tolerances.heading_force_share = 0.0;
   feasibility::PieceReport worst;
@@ -52,21 +54,47 @@ double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Param
       worst.thrust_share =
           std::max({worst.thrust_share, vessel::shareOfLimit(p.thrusts[0], vessel.thrusters),
                     vessel::shareOfLimit(p.thrusts[1], vessel.thrusters)});
-      worst.speed_mps = std::max(worst.speed_mps, p.speed_mps);
+      worst.speed_share = std::max(worst.speed_share, p.speed_mps / safety.speedMaxAt(p.t_s));
     }
-    return std::max(worst.thrust_share / safety.thrust_share,
-                    worst.speed_mps / safety.speed_max_mps) -
-           1.0;
+    return std::max(worst.thrust_share / safety.thrust_share, worst.speed_share) - 1.0;
   }
-  for (const trajectory::Piece& piece : trajectory.pieces()) {
+  for (std::size_t i = 0; i < trajectory.pieces().size(); ++i) {
     feasibility::PieceReport report;
-    feasibility::PieceCheck(piece, vessel, open, tolerances).checkDynamics(report);
+    feasibility::PieceCheck(trajectory.pieces()[i], vessel, open, tolerances)
+        .checkDynamics(trajectory.startOf(i), report);
     worst.thrust_share = std::max(worst.thrust_share, report.thrust_share);
-    worst.speed_mps = std::max(worst.speed_mps, report.speed_mps);
+    worst.speed_share = std::max(worst.speed_share, report.speed_share);
   }
-  return std::max(worst.thrust_share / safety.thrust_share,
-                  worst.speed_mps / safety.speed_max_mps) -
-         1.0;
+  return std::max(worst.thrust_share / safety.thrust_share, kOpen * worst.speed_share) - 1.0;
+}
+
+void stretch(double factor, Spline& spline) {
+  for (Span& span : spline.spans) {
+    span.duration_s *= factor;
+  }
+  for (Knot& knot : spline.knots) {
+    double scale = 1.0;
+    for (int m = 1; m < 4; ++m) {
+      scale /= factor;
+      knot.state.col(m) *= scale;
+      if (knot.family) {
+        knot.family->state.middleRows<2>(2 * m) *= scale;
+      }
+    }
+    if (knot.family) {
+      knot.family->duration_s *= factor;
+    }
+  }
+}
+
+vessel::Parameters inSlowMotion(const vessel::Parameters& vessel, double slow) {
+  vessel::Parameters other = vessel;
+  other.paper.m1_kg *= slow * slow;
+  other.paper.m2_kgm2 *= slow * slow;
+  other.paper.d1_kgps *= slow;
+  other.paper.d2_kgps *= slow;
+  other.paper.d3_kgm2ps *= slow;
+  return other;
 }
 
 AtPoints excessAlong(const trajectory::Trajectory& trajectory, std::size_t first_span,

@@ -31,4 +31,16 @@ using AtPoints = std::vector<std::array<double, trajectory::kLobattoPoints>>;
 // one pieces: the outermost stay, as their ends are the manoeuvres'.
 void dilate(double factor, Spline& spline);
 
+// The same shape with its time, and its ends' families, stretched by a factor.
+void stretch(double factor, Spline& spline);
+
+// At the speed limit in its own time a vessel is the one that is this at full speed.
+[[nodiscard]] vessel::Parameters inSlowMotion(const vessel::Parameters& vessel, double slow);
+// And what acts on it; loads of the wind depend on the heading alone.
+[[nodiscard]] inline vessel::Disturbance inSlowMotion(vessel::Disturbance disturbance,
+                                                      double slow) {
+  disturbance.current_mps /= slow;
+  return disturbance;
+}
+
 }  // namespace otter_nav::optimizer

@@ -19,6 +19,9 @@ constexpr double kPieceLengthM = 17.0;
 constexpr double kWeightClearance = 20.0;   // of squared metres too near
 constexpr double kWeightDynamics = 5.0;     // of squared shares of a thruster too much
 constexpr double kArrivalSpeedShare = 0.6;  // of the speed wanted, when the brake begins
+constexpr double kGentleBrakeS = 2.0;
+constexpr double kBeforeBraking = 0.95;
+constexpr double kDriftShare = 0.4;  // of the speed limit
 constexpr double kArrivalSpeedMaxShare = 0.9;
 
 // Wanted, of the limits that are verified.
@@ -26,6 +29,7 @@ constexpr double kThrustShare = 0.95 / 0.97;
 constexpr double kSpeedShare = 4.85 / 4.9;
 constexpr double kYawRateShare = 1.8 / 1.989;
 constexpr double kHeadingForceShare = 0.08;  // least |w| while turning, of both thrusters ahead
+constexpr double kSwayDragShare = 0.5;       // and of what holds it at the speed limit, at most
 
 struct Care {
   bool careful;
@@ -50,9 +54,17 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   const double share = kThrustShare * safety.thrust_share * care.thrust_factor;
   limits.thrust_ahead_n = share * vessel.thrusters.ahead_max_n;
   limits.thrust_astern_n = share * vessel.thrusters.astern_max_n;
-  limits.speed_mps = kSpeedShare * safety.speed_max_mps * care.thrust_factor;
-  limits.yaw_rate_radps = kYawRateShare * safety.yaw_rate_max_radps;
-  limits.heading_force_n = kHeadingForceShare * 2.0 * vessel.thrusters.ahead_max_n;
+  // In slow motion. A low speed limit leaves thrust to spare: it needs no more care.
+  const double slow = feasibility::speedShare(vessel, safety);
+  limits.speed_mps =
+      kSpeedShare * safety.speed_max_mps / slow * std::min(1.0, care.thrust_factor / slow);
+  limits.start_speed_mps = kSpeedShare * safety.start_speed_mps / slow;
+  limits.slowing_per_s = safety.slowing_per_s;
+  limits.slowing_from_s = safety.slowing_from_s;
+  limits.yaw_rate_radps = kYawRateShare * safety.yaw_rate_max_radps / slow;
+  limits.heading_force_n =
+      std::min(kHeadingForceShare * 2.0 * vessel.thrusters.ahead_max_n,
+               kSwayDragShare * vessel.paper.d2_kgps * safety.speed_max_mps);
   return limits;
 }
 
@@ -69,8 +81,26 @@ EndOptions endsOf(const Care& care, const vessel::Parameters& vessel,
   const double top =
       std::min(2.0 * thrust_share * vessel.thrusters.ahead_max_n / vessel.paper.d1_kgps,
                kSpeedShare * safety.speed_max_mps);
-  ends.arrival_speed_mps = kArrivalSpeedShare * care.arrival_factor * top;
+  // Under a low speed limit there is little force to steer by at less: it is left late, and so
+  // gently that it isn't exceeded before.
+  const double slow = feasibility::speedShare(vessel, safety);
+  ends.arrival_speed_mps =
+      kArrivalSpeedShare * (1.0 - (1.0 - care.arrival_factor) * slow) * top;
   ends.arrival_speed_max_mps = kArrivalSpeedMaxShare * top;
+  if (slow < 1.0) {
+    // What the vessel loses while the thrust turns round comes on top.
+    const double lost = 0.5 * ends.limits.brake_ramp_s *
+                        (1.0 / kGentleBrakeS + vessel.paper.d1_kgps / vessel.paper.m1_kg);
+    ends.arrival_speed_max_mps = kBeforeBraking * top / (1.0 + lost);
+    ends.arrival_speed_mps =
+        std::min(ends.arrival_speed_mps, kArrivalSpeedMaxShare * ends.arrival_speed_max_mps);
+    const double astern_n = 2.0 * thrust_share * vessel.thrusters.astern_max_n;
+    ends.limits.astern_share =
+        std::min(ends.limits.astern_share,
+                 vessel.paper.m1_kg * safety.speed_max_mps / (kGentleBrakeS * astern_n));
+    ends.limits.drift_mps = std::min(ends.limits.drift_mps, kDriftShare * safety.speed_max_mps);
+  }
+  ends.limits.speed_max_mps = kSpeedShare * safety.speed_max_mps;
   return ends;
 }
 

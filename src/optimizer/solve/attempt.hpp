@@ -18,6 +18,7 @@ struct Attempt {
   EndOptions ends;
 };
 
+// Limits and weights are those of the spline, whose time runs slow by feasibility::speedShare.
 // `number` counts from 0; `cell_m` is the map's resolution.
 [[nodiscard]] Attempt attemptOf(int number, const GlobalOptions& options,
                                 const vessel::Parameters& vessel,

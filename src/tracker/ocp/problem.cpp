@@ -40,6 +40,13 @@ void ControlProblem::expand(const Plan& plan, const OcpReference& reference, qp:
     qp::StateCost& cost = qp.state_costs[k];
     cost.weight_q = Pack{w[2], w[3], w[4], w[5]};
     cost.gradient_q = Pack{g[2], g[3], g[4], g[5]};
+    // A square beyond the limit: its curvature counts where it is exceeded.
+    const double over = plan.states[k][vessel::kSurge] - reference.speed_max_mps[k];
+    if (over > 0.0) {
+      const double weight = options_.overspeed * options_.step_s;
+      cost.weight_q[1] += weight;
+      cost.gradient_q[1] += weight * over;
+    }
     for (int i = 0; i < 2; ++i) {
       cost.weight_p[i] = w[i];
       cost.gradient_p[i] = g[i];

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "otter_nav/tracker/limits.hpp"
 #include "otter_nav/vessel/types.hpp"
@@ -30,15 +31,20 @@ struct OcpOptions {
   vessel::Thrusts lower_n = vessel::Thrusts::Constant(-50.0);
   vessel::Thrusts upper_n = vessel::Thrusts::Constant(50.0);
   double far_m = 1e3;
+  double overspeed = 1e4;  // per (m/s)^2 and second, as the weights before their step
 };
 
 // psi of all states is continuous along the horizon and near the measured one. `attitude` in [0, 1]
 // scales the weights of a stage's heading, surge and sway: how far the reference means them.
 struct OcpReference {
-  OcpReference() { attitude.fill(1.0); }
+  OcpReference() {
+    attitude.fill(1.0);
+    speed_max_mps.fill(std::numeric_limits<double>::infinity());
+  }
 
   std::array<vessel::State, kMaxStages + 1> states;
   std::array<double, kMaxStages + 1> attitude;
+  std::array<double, kMaxStages + 1> speed_max_mps;  // surge ahead beyond it costs
   std::array<vessel::Thrusts, kMaxStages> thrusts;
 };
 

@@ -40,7 +40,7 @@ class PathLine {
 
   // The speed profile: no faster than `most(curvature)`; from the first point's `start_mps` faster
   // by no more than the acceleration `gain(speed)`, and down to the last one's `end_mps` slower by
-  // no more than `loss(speed)`. Needs directions.
+  // no more than `loss(speed)`, as it is from a start faster than on any line. Needs directions.
   template <typename Most, typename Gain, typename Loss>
   void setSpeeds(const Most& most, const Gain& gain, const Loss& loss, double start_mps,
                  double end_mps);
@@ -102,6 +102,14 @@ void PathLine::setSpeeds(const Most& most, const Gain& gain, const Loss& loss, d
     point.speed_mps = most(std::abs(point.curvature_per_m));
   }
   points_[0].speed_mps = start_mps;
+  for (std::size_t i = 1; i <= last && start_mps > most(0.0); ++i) {
+    const double before = points_[i - 1].speed_mps;
+    const double slowed = before * before - 2.0 * spacing_m_ * loss(before);
+    if (slowed < points_[i].speed_mps * points_[i].speed_mps) {
+      break;
+    }
+    points_[i].speed_mps = std::sqrt(slowed);
+  }
   points_[last].speed_mps = end_mps;
   for (std::size_t i = 1; i <= last; ++i) {
     const double speed = points_[i - 1].speed_mps;
