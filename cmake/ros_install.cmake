@@ -10,6 +10,8 @@ install(PROGRAMS scripts/otter_nav DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 install(FILES packaging/otter_nav.bash
   DESTINATION ${CATKIN_GLOBAL_SHARE_DESTINATION}/bash-completion/completions RENAME otter_nav)
 install(FILES plugin_description.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+catkin_install_python(PROGRAMS examples/constant_speed_planner.py examples/pursuit_tracker.py
+  DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 catkin_install_python(PROGRAMS python/programs/animate python/programs/bag_to_tum python/programs/replay_bag
   python/programs/report
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

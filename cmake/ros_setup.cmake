@@ -2,8 +2,8 @@
 # Packages that look for Python themselves must find the interpreter catkin uses.
 set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE} CACHE FILEPATH "Python for ament" FORCE)
 find_package(catkin REQUIRED COMPONENTS
-  actionlib diagnostic_msgs diagnostic_updater geometry_msgs map_msgs message_generation
-  move_base_msgs nav_msgs rosbag roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs tf2 tf2_msgs
+  actionlib diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs map_msgs
+  message_generation move_base_msgs nav_msgs rosbag roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs tf2 tf2_msgs
   tf2_ros topic_tools visualization_msgs xmlrpcpp)
 
 # Messages are generated into the Python package of python/.

@@ -69,7 +69,7 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
 std::optional<double> PlanRequests::joint(double now_s,
                                           const trajectory::TimedTrajectory& sailed) const {
   const std::optional<double> at =
-      joiningTime(sailed.trajectory, now_s + latency.seconds() - sailed.start_time_s);
+      joiningTime(sailed, now_s + latency.seconds() - sailed.start_time_s);
   return at ? std::optional<double>(sailed.start_time_s + *at) : std::nullopt;
 }
 

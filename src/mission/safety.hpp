@@ -71,6 +71,7 @@ class Safety {
   // instead is better than none.
   [[nodiscard]] bool plansBlind() const;
 
+  void setOptions(const SupervisorOptions& options) { options_ = options; }
   // Of all plans from now on; 0: the vessel's alone.
   void setSpeedMax(double speed_mps) { options_.speed_max_mps = speed_mps; }
   [[nodiscard]] double speedMax() const { return options_.speed_max_mps; }

@@ -132,6 +132,11 @@ class Supervisor::Impl {
     return follow(kResumeRules, m);
   }
 
+  void setOptions(const SupervisorOptions& options) {
+    options_ = options;
+    safety().setOptions(options);
+  }
+
   Status setSpeedMax(double speed_mps) {
     if (Status status = checkSpeedMax(speed_mps); !status) {
       return status;
@@ -846,6 +851,9 @@ Orders Supervisor::planFinished(double now_s, int id, const planner::Plan& plan,
 }
 Status Supervisor::setSpeedMax(double speed_mps) {
   return impl_->setSpeedMax(speed_mps);
+}
+void Supervisor::setOptions(const SupervisorOptions& options) {
+  impl_->setOptions(options);
 }
 double Supervisor::speedMax() const {
   return impl_->safety().speedMax();

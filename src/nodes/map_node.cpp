@@ -1,5 +1,7 @@
 #include "map_node.hpp"
 
+#include <filesystem>
+
 #include "map_node_options.hpp"
 #include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
@@ -97,6 +99,7 @@ Result<map::CellRectangle> MapNode::insert(const sensor_msgs::LaserScan& message
 }
 
 void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
+  diagnostics_.received("scan");
   if (message->header.stamp <= last_scan_) {
     if (message->header.stamp == last_scan_) {
       publishUpdate({}, last_scan_);
@@ -138,9 +141,11 @@ void MapNode::publishUpdate(map::CellRectangle changed, const ros::Time& stamp) 
 }
 
 bool MapNode::onSave(SaveMap::Request& request, SaveMap::Response& response) {
-  const Status status = map_.save(request.path);
+  // A relative path is one in this node's folder, which under roslaunch is ~/.ros.
+  const std::string path = std::filesystem::absolute(request.path).string();
+  const Status status = map_.save(path);
   response.success = static_cast<std::uint8_t>(status.has_value());
-  response.message = status ? "saved " + request.path : status.error().message;
+  response.message = status ? "saved " + path : status.error().message;
   return true;
 }
 

@@ -1,9 +1,12 @@
 #include "mission_node.hpp"
 
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <std_msgs/Header.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cmath>
+#include <fstream>
 #include <iostream>
 
 #include "goal_server.hpp"
@@ -25,9 +28,21 @@ constexpr int kQueue = 1000;
 constexpr double kTimerPeriodS = 0.1;
 constexpr double kShowPeriodS = 0.2;  // of wall time
 constexpr double kTrackPeriodS = 0.05;
-// What counts as arrived, of the true pose.
-constexpr double kArrivalDistanceM = 1.0;
-constexpr double kArrivalHeadingRad = 10.0 * kPi / 180.0;
+// Where no planner_node has tolerances of its own.
+constexpr double kArrivalDistanceM = 0.9;
+constexpr double kArrivalHeadingRad = 0.15;
+// Of the true pose, beyond what the planner asks for by its odometry.
+constexpr double kArrivalSlackM = 0.1;
+constexpr double kArrivalSlackRad = 0.025;
+constexpr char kPlannerOptions[] = "planner_node/supervisor/";
+constexpr char kPlannerService[] = "planner_node/set_parameters";
+
+// Whether roslaunch started this process: it is asked to end the launch, as by Ctrl-C.
+bool isUnderRoslaunch() {
+  std::ifstream file("/proc/" + std::to_string(getppid()) + "/cmdline");
+  const std::string command(std::istreambuf_iterator<char>(file), {});
+  return command.find("roslaunch") != std::string::npos;
+}
 
 vessel::State stateOf(const PlantState& message) {
   vessel::State state;
@@ -161,8 +176,34 @@ void MissionNode::onTimer() {
   }
 }
 
+// Before the goal, so that it holds for the first plan already.
+Status MissionNode::limitSpeed() {
+  if (!mission_.speed_mps) {
+    return {};
+  }
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.doubles.resize(1);
+  call.request.config.doubles[0].name = "speed_max_mps";
+  call.request.config.doubles[0].value = *mission_.speed_mps;
+  const std::string why = "the mission's speed limit can't be set";
+  if (!ros::service::waitForService(kPlannerService, ros::Duration(-1)) ||
+      !ros::service::call(kPlannerService, call)) {
+    return failure(why + ": no answer from " + kPlannerService);
+  }
+  for (const auto& number : call.response.config.doubles) {
+    if (number.name == "speed_max_mps" && number.value == *mission_.speed_mps) {
+      return {};
+    }
+  }
+  return failure(why + ": the planner refuses " + std::to_string(*mission_.speed_mps) + " m/s");
+}
+
 void MissionNode::sendGoal() {
   goal_sent_ = true;
+  if (const Status status = limitSpeed(); !status) {
+    finish(Outcome::kError, status.error().message);
+    return;
+  }
   move_base_msgs::MoveBaseGoal goal;
   goal.target_pose.header.frame_id = ros_bridge::kMapFrame;
   goal.target_pose.header.stamp = states_.front().header.stamp;
@@ -250,9 +291,14 @@ void MissionNode::judge() {
 
 std::string MissionNode::missWhenArrived() const {
   const vessel::State state = stateOf(*last_state_);
+  const auto tolerance = [](const char* key, double otherwise) {
+    return ros::param::param(std::string(kPlannerOptions) + key, otherwise);
+  };
+  const double most_m = kArrivalSlackM + tolerance("arrival_distance_m", kArrivalDistanceM);
+  const double most_rad = kArrivalSlackRad + tolerance("arrival_heading_rad", kArrivalHeadingRad);
   const double distance_m = (state.head<2>() - mission_.goal.position).norm();
   const double heading_rad = std::abs(wrapAngle(state[vessel::kPsi] - mission_.goal.psi_rad));
-  if (distance_m <= kArrivalDistanceM && heading_rad <= kArrivalHeadingRad) {
+  if (distance_m <= most_m && heading_rad <= most_rad) {
     return {};
   }
   return "the planner takes the goal for reached, " + std::to_string(distance_m) + " m and " +
@@ -305,7 +351,12 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
   exit_code_ = outcome == Outcome::kArrived ? 0 : 1;
   state_subscriber_.shutdown();
   trajectory_subscriber_.shutdown();
-  if (!sails_on_) {
+  if (sails_on_) {
+    return;
+  }
+  if (isUnderRoslaunch()) {
+    kill(getppid(), SIGINT);  // which ends this node too
+  } else {
     ros::requestShutdown();
   }
 }

@@ -47,6 +47,7 @@ class MissionNode {
   void onPlannerStatus(const PlannerStatus& message);
   void onGoalDone(const actionlib::SimpleClientGoalState& state);
   void onTimer();
+  [[nodiscard]] Status limitSpeed();
   void sendGoal();
   // Time may go on: the first plan stands, or there will be none.
   void openGate();

@@ -82,6 +82,7 @@ PlannerNode::PlannerNode(const Setup& setup)
 }
 
 void PlannerNode::onMap(const nav_msgs::OccupancyGrid& message) {
+  diagnostics_.received("map");
   if (const Status status = map_.take(message); !status) {
     diagnostics_.refuse("map", status.error().message);
   }
@@ -89,6 +90,7 @@ void PlannerNode::onMap(const nav_msgs::OccupancyGrid& message) {
 }
 
 void PlannerNode::onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message) {
+  diagnostics_.received("map_updates");
   if (setup_.node.lockstep) {
     updates_.push_back(message);
     decideInTurn();
@@ -101,6 +103,7 @@ void PlannerNode::onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message)
 }
 
 void PlannerNode::onOdometry(const nav_msgs::Odometry& message) {
+  diagnostics_.received("odom");
   const Result<ros_bridge::OdometrySample> sample =
       ros_bridge::odometrySample(message, setup_.node.odometry_frame, kBaseFrame);
   if (!sample) {
@@ -112,6 +115,7 @@ void PlannerNode::onOdometry(const nav_msgs::Odometry& message) {
 }
 
 void PlannerNode::onTrackerStatus(const TrackerStatus& message) {
+  diagnostics_.received("tracker_status");
   tracker_.take(message);
   settle();
   decideInTurn();
@@ -208,6 +212,8 @@ Result<mission::Orders> PlannerNode::stop() {
 void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner::Plan& plan,
                              double wall_ms) {
   publisher_.publishPlan(plan, wall_ms);
+  diagnostics_.setValue("last plan", planner::toString(plan.outcome));
+  diagnostics_.setValue("last plan, ms", wall_ms);
   if (plan.outcome != planner::Outcome::kSolved) {
     ROS_INFO_STREAM("No plan at clearance " << request.query.limits.clearance_m
                                             << " m: " << plan.reason);
@@ -265,6 +271,10 @@ void PlannerNode::settle() {
   diagnostics_.setState(phase == Phase::kFailed ? Level::kError : Level::kOk,
                         std::string(mission::name(phase)) +
                             (supervisor_.reason().empty() ? "" : ": " + supervisor_.reason()));
+  diagnostics_.setValue("replans", supervisor_.replans());
+  diagnostics_.setValue("stops", supervisor_.stops());
+  diagnostics_.setValue("speed limit, m/s", supervisor_.speedMax());
+  diagnostics_.setValue("tracking error, m", situation().tracking_error_m);
   if (unacknowledged_) {
     acknowledged_ = std::max(acknowledged_, *unacknowledged_);
     unacknowledged_.reset();
@@ -287,6 +297,23 @@ void PlannerNode::checkInputs() {
                         : odometry_.empty() ? "there is no odometry"
                                             : "there are no map updates");
   }
+}
+
+std::vector<config::NumberField> PlannerNode::live() const {
+  const std::string prefix = "supervisor/";
+  std::vector<config::NumberField> fields = config::numbersOf(setup_.supervisor, prefix);
+  const auto fixed = [&](const config::NumberField& field) {
+    return field.path == prefix + "planning_latency_s" ||
+           field.path == prefix + "rounds_from_rest" || field.path == prefix + "stops_max";
+  };
+  fields.erase(std::remove_if(fields.begin(), fields.end(), fixed), fields.end());
+  return fields;
+}
+
+Status PlannerNode::change(config::Section section) {
+  return readSetup(std::move(section)).map([this](const Setup& setup) {
+    supervisor_.setOptions(setup.supervisor);
+  });
 }
 
 mission::Situation PlannerNode::situation() const {

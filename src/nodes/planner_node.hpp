@@ -18,6 +18,7 @@
 
 #include "goal_server.hpp"
 #include "odometry_history.hpp"
+#include "otter_nav/config/field_list.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
@@ -33,6 +34,9 @@ class PlannerNode {
  public:
   [[nodiscard]] static Result<std::unique_ptr<PlannerNode>> create(config::Section section);
   [[nodiscard]] static int exitCode() { return 0; }
+  // What may change while it runs.
+  [[nodiscard]] std::vector<config::NumberField> live() const;
+  [[nodiscard]] Status change(config::Section section);
 
  private:
   struct Setup {

@@ -100,7 +100,22 @@ void TrackerNode::begin() {
   begun_ = true;
 }
 
+std::vector<config::NumberField> TrackerNode::live() const {
+  return config::numbersOf(tracker_.options().flatness, "tracker/flatness/");
+}
+
+Status TrackerNode::change(config::Section section) {
+  const Result<TrackerNodeOptions> options = readNodeOptions(section);
+  const Result<tracker::Options> tracker = config::read<tracker::Options>(section.child("tracker"));
+  if (const Status status = firstFailure(section.finish(), options, tracker); !status) {
+    return status;
+  }
+  tracker_.setWeights(tracker->flatness);
+  return {};
+}
+
 void TrackerNode::onTrajectory(const Trajectory& message) {
+  diagnostics_.received("trajectory");
   const double start_s = message.header.stamp.toSec();
   Status taken = ros_bridge::toTrajectory(message, kMapFrame)
                      .and_then([&](const trajectory::TimedTrajectory& timed) -> Status {
@@ -133,6 +148,7 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
   if (!begun_) {
     return;
   }
+  diagnostics_.received("odom");
   const Result<ros_bridge::OdometrySample> sample =
       ros_bridge::odometrySample(message, options_.odometry_frame, kBaseFrame);
   const ros::Time stamp = message.header.stamp;
@@ -256,8 +272,15 @@ void TrackerNode::publishStatus() {
   diagnostics_.setState(levelOf(last_command_), message.reason.empty()
                                                     ? message.state
                                                     : message.state + ": " + message.reason);
-  diagnostics_.setValue("cycles on time", std::to_string(message.cycles_on_time));
-  diagnostics_.setValue("solver p99 ms", std::to_string(message.solver_ms_p99));
+  diagnostics_.setValue("cycles on time, share", message.cycles_on_time);
+  diagnostics_.setValue("solver", std::string(tracker::name(last_command_.solver)));
+  diagnostics_.setValue("solver iterations", last_command_.solver_iterations);
+  diagnostics_.setValue("solver median, ms", message.solver_ms_median);
+  diagnostics_.setValue("solver p99, ms", message.solver_ms_p99);
+  diagnostics_.setValue("position error, m", message.position_error);
+  diagnostics_.setValue("cross error, m", message.cross_error);
+  diagnostics_.setValue("heading error, rad", message.heading_error);
+  diagnostics_.setValue("time left, s", message.time_left);
 }
 
 TrackerStatus TrackerNode::status() const {

@@ -14,9 +14,11 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "control_loop.hpp"
 #include "cycle_statistics.hpp"
+#include "otter_nav/config/field_list.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
@@ -28,6 +30,10 @@ class TrackerNode {
  public:
   [[nodiscard]] static Result<std::unique_ptr<TrackerNode>> create(config::Section section);
   [[nodiscard]] static int exitCode() { return 0; }
+
+  // What may change while it runs.
+  [[nodiscard]] std::vector<config::NumberField> live() const;
+  [[nodiscard]] Status change(config::Section section);
 
  private:
   TrackerNode(TrackerNodeOptions options, const tracker::Options& tracker,

@@ -299,7 +299,7 @@ class GlobalOptimizer::Solver {
     constexpr double kMoreN = 0.01;  // of a thruster's force
     const double most_n = vessel_.thrusters.ahead_max_n;
     const AtPoints excess_n =
-        excessAlong(assemble(chosen_, spline_), chosen_.start.manoeuvre.pieces.size(),
+        excessAlong(assembled(), chosen_.start.manoeuvre.pieces.size(),
                     spline_.spans.size(), vessel_, limits_, start_->psi_rad);
     AtPoints& kept_n = problem_.targets.kept_n;
     kept_n.resize(excess_n.size());

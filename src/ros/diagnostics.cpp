@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace otter_nav::ros_bridge {
@@ -41,6 +43,18 @@ void Diagnostics::setValue(const std::string& key, std::string value) {
   values_[key] = std::move(value);
 }
 
+void Diagnostics::setValue(const std::string& key, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  values_[key] = text;
+}
+
+void Diagnostics::received(const std::string& topic) {
+  Stream& stream = streams_[topic];
+  ++stream.count;
+  stream.last = ros::WallTime::now();
+}
+
 void Diagnostics::refuse(const std::string& topic, const std::string& reason) {
   Refusals& refusals = refusals_[topic];
   ++refusals.count;
@@ -60,6 +74,14 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   }
   for (const auto& [key, value] : values_) {
     status.add(key, value);
+  }
+  const ros::WallTime now = ros::WallTime::now();
+  const double since_s = std::max(1e-3, (now - reported_).toSec());
+  reported_ = now;
+  for (auto& [topic, stream] : streams_) {
+    status.addf("rate of " + topic + ", Hz", "%.1f", static_cast<double>(stream.count) / since_s);
+    status.addf("age of " + topic + ", s", "%.3f", (now - stream.last).toSec());
+    stream.count = 0;
   }
   for (const auto& [topic, refusals] : refusals_) {
     status.add("refused of " + topic,

@@ -25,16 +25,21 @@ Weights plainWeights() {
   return w;
 }
 
+OcpWeights weightsOf(const Weights& w, double step_s) {
+  vessel::State q;
+  q << w.position, w.position, w.heading, w.surge, w.sway, w.yaw_rate;
+  OcpWeights weights;
+  weights.state = q * step_s;
+  weights.terminal = q * kTerminalGainS;
+  weights.thrusts = vessel::Thrusts::Constant(w.thrust * step_s);
+  return weights;
+}
+
 OcpOptions problemOf(const Options& o, const vessel::Parameters& vessel) {
-  const Weights w = o.method == Method::kPlain ? plainWeights() : o.flatness;
   OcpOptions ocp;
   ocp.stages = o.stages;
   ocp.step_s = o.horizon_s / o.stages;
-  vessel::State q;
-  q << w.position, w.position, w.heading, w.surge, w.sway, w.yaw_rate;
-  ocp.weights.state = q * ocp.step_s;
-  ocp.weights.terminal = q * kTerminalGainS;
-  ocp.weights.thrusts = vessel::Thrusts::Constant(w.thrust * ocp.step_s);
+  ocp.weights = weightsOf(o.method == Method::kPlain ? plainWeights() : o.flatness, ocp.step_s);
   ocp.lower_n.setConstant(-vessel.thrusters.astern_max_n);
   ocp.upper_n.setConstant(vessel.thrusters.ahead_max_n);
   ocp.far_m = kFarLengths * vessel.hull.length_m;
@@ -51,12 +56,20 @@ RtiOptions iterationOf() {
 }  // namespace
 
 PredictiveController::PredictiveController(const Options& options, const vessel::Parameters& vessel)
-    : stages_(options.stages),
+    : flatness_(options.method == Method::kFlatness),
+      stages_(options.stages),
       period_s_(options.period_s),
       thrust_rate_nps_(options.thrust_rate_nps),
       lag_s_(vessel.thrusters.lag_s),
       solver_(problemOf(options, vessel), iterationOf(), vessel.manoeuvring, vessel.thrusters) {
   prediction_.step_s = options.horizon_s / options.stages;
+}
+
+void PredictiveController::setWeights(const Weights& weights) {
+  if (flatness_) {
+    solver_.setWeights(weightsOf(weights, prediction_.step_s));
+    prepared_ = false;
+  }
 }
 
 void PredictiveController::start(bool keep_plan) {

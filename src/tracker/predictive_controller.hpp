@@ -18,6 +18,8 @@ class PredictiveController {
   // Before the first step on a new trajectory. The plan in force is the best start for the next one
   // unless it leads somewhere else.
   void start(bool keep_plan);
+  // Of the method `flatness`; the other keeps its own.
+  void setWeights(const Weights& weights);
   void dropPlan() { plan_valid_ = false; }
 
   // Linearises and factors for the step at `next_s`, the thrusters being at `last`.
@@ -36,6 +38,7 @@ class PredictiveController {
                   const Navigator& navigator, ReferenceSource& source);
   [[nodiscard]] std::optional<vessel::Thrusts> fromLastPlan(double now_s) const;
 
+  bool flatness_;
   int stages_;
   double period_s_;
   double thrust_rate_nps_;

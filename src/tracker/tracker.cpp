@@ -69,6 +69,7 @@ class Tracker::Core {
                        double speed_max_mps);
   void addOdometry(double stamp_s, const vessel::State& state);
   void requestStop(std::string_view reason, double start_s, std::uint32_t order);
+  void setWeights(const Weights& weights);
   Command step(double now_s);
   void replaceCommand(const vessel::Thrusts& sent);
   void prepare(double next_s);
@@ -109,6 +110,8 @@ class Tracker::Core {
   Options options_;
   vessel::Parameters vessel_;
   Handover<Assignment> incoming_;
+  Handover<Weights> new_weights_;
+  std::unique_ptr<Weights> weights_;
   Ring<Measurement, 256> odometry_;
   std::atomic<double> last_now_s_{0.0};
 
@@ -142,7 +145,7 @@ Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
 
 Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double start_s,
                                     std::uint32_t order, double speed_max_mps) {
-  if (Status status = checkTrajectory(trajectory); !status) {
+  if (Status status = checkTrajectory(trajectory, vessel_.top_speed_mps); !status) {
     return status;
   }
   if (!std::isfinite(start_s)) {
@@ -170,6 +173,10 @@ void Tracker::Core::requestStop(std::string_view reason, double start_s, std::ui
   assignment->order = order;
   assignment->reason = reason;
   incoming_.give(std::move(assignment));
+}
+
+void Tracker::Core::setWeights(const Weights& weights) {
+  new_weights_.give(std::make_unique<Weights>(weights));
 }
 
 void Tracker::Core::addOdometry(double stamp_s, const vessel::State& state) {
@@ -331,6 +338,9 @@ Command Tracker::Core::step(double now_s) {
   Command command;
   command.stamp_s = now_s;
   takeOdometry();
+  if (new_weights_.take(weights_)) {
+    controller_.setWeights(*weights_);
+  }
   const Fix fix = navigator_.fix(now_s);
   const vessel::State state = navigator_.predict(now_s);
   if (fix != Fix::kNone) {
@@ -417,6 +427,10 @@ void Tracker::addOdometry(double stamp_s, const vessel::State& state) {
 
 void Tracker::requestStop(std::string_view reason, double start_s, std::uint32_t order) {
   core_->requestStop(reason, start_s, order);
+}
+
+void Tracker::setWeights(const Weights& weights) {
+  core_->setWeights(weights);
 }
 
 Command Tracker::step(double now_s) {

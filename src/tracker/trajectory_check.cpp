@@ -1,5 +1,6 @@
 #include "tracker/trajectory_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -8,6 +9,8 @@ namespace {
 
 constexpr double kJointGapM = 0.05;
 constexpr double kJointGapMps = 0.1;
+constexpr double kTooFast = 1.25;  // times the top speed, over ground: a current may help
+constexpr double kStepS = 0.05;
 
 std::string piece(std::size_t i) {
   return "trajectory piece " + std::to_string(i);
@@ -30,9 +33,24 @@ Status checkJoint(const trajectory::Piece& before, const trajectory::Piece& afte
   return {};
 }
 
+Status checkSpeed(const trajectory::Piece& p, std::size_t i, double top_speed_mps) {
+  const double most = kTooFast * top_speed_mps;
+  const int steps = static_cast<int>(std::ceil(p.duration_s / kStepS));
+  for (int k = 0; k <= steps; ++k) {
+    const double t = p.duration_s * k / std::max(steps, 1);
+    const double speed = p.flat(t).velocity.norm();
+    if (speed > most) {
+      return failure(piece(i) + ": " + std::to_string(speed) + " m/s at " + std::to_string(t) +
+                     " s, the vessel can " + std::to_string(top_speed_mps) + " m/s (at most " +
+                     std::to_string(most) + ")");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
-Status checkTrajectory(const trajectory::Trajectory& trajectory) {
+Status checkTrajectory(const trajectory::Trajectory& trajectory, double top_speed_mps) {
   if (trajectory.empty()) {
     return failure("trajectory has no pieces");
   }
@@ -45,6 +63,9 @@ Status checkTrajectory(const trajectory::Trajectory& trajectory) {
     }
     if (!p.position.allFinite() || !p.heading.allFinite()) {
       return failure(piece(i) + ": a coefficient is not finite");
+    }
+    if (Status status = checkSpeed(p, i, top_speed_mps); !status) {
+      return status;
     }
     if (i > 0) {
       if (Status status = checkJoint(pieces[i - 1], p, i); !status) {

@@ -166,6 +166,9 @@ class Supervisor {
   // Of all plans from now on; what is sailed is planned anew. 0: the vessel's alone. An error if it
   // is less than a vessel can steer by.
   [[nodiscard]] Status setSpeedMax(double speed_mps);
+  // What of the options rules decisions and plans from now on; the counts of retries and the
+  // latency stay as they were.
+  void setOptions(const SupervisorOptions& options);
   [[nodiscard]] double speedMax() const;
 
   [[nodiscard]] Phase phase() const;

@@ -19,6 +19,9 @@ class Diagnostics {
 
   void setState(Level level, std::string message);
   void setValue(const std::string& key, std::string value);
+  void setValue(const std::string& key, double value);
+  // Counts a message of `topic`: its rate and the last one's age, of wall time, are told.
+  void received(const std::string& topic);
   // Counts a refused message of `topic`, and logs the first and then at most one each 5 s.
   void refuse(const std::string& topic, const std::string& reason);
 
@@ -30,11 +33,17 @@ class Diagnostics {
     std::string last_reason;
     ros::WallTime last_logged;
   };
+  struct Stream {
+    std::uint64_t count = 0;
+    ros::WallTime last;
+  };
   diagnostic_updater::Updater updater_;
   ros::WallTimer timer_;
   Level level_ = Level::kOk;
   std::string message_ = "starting";
   std::map<std::string, std::string> values_;
+  std::map<std::string, Stream> streams_;
+  ros::WallTime reported_ = ros::WallTime::now();
   std::map<std::string, Refusals> refusals_;
 };
 

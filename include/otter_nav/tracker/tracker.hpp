@@ -84,6 +84,9 @@ class Tracker {
   // static text.
   void requestStop(std::string_view reason, double start_s = 0.0, std::uint32_t order = 0);
 
+  // Any thread: from the next step on, for the method `flatness`.
+  void setWeights(const Weights& weights);
+
   // The control loop's thread, once a period.
   Command step(double now_s);
   // The last step's command was not sent, this was (a replay of other commands): what moves the

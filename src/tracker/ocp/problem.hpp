@@ -62,6 +62,7 @@ class ControlProblem {
   explicit ControlProblem(const OcpOptions& options);
 
   [[nodiscard]] const OcpOptions& options() const { return options_; }
+  void setWeights(const OcpWeights& weights) { options_.weights = weights; }
   // Narrows each stage's bounds to what the thrusts can reach by its middle from `acting` at
   // `rate_nps`. The differences between later stages stay free: the tube holds all plans that keep
   // the rate, and the first stage, the one that is commanded, keeps it. A box, so the problem keeps

@@ -33,6 +33,7 @@ class RtiSolver {
             const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters);
 
   void setDisturbance(const vessel::Disturbance& disturbance);
+  void setWeights(const OcpWeights& weights) { problem_.setWeights(weights); }
   void limitRates(const vessel::Thrusts& acting, double rate_nps);  // see ControlProblem
   // Start from the reference (clamped to the bounds).
   void initialize(const OcpReference& reference);
