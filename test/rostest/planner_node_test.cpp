@@ -122,11 +122,12 @@ TEST_F(PlannerNode, AbortsBadGoalsWithTheirReason) {
 TEST_F(PlannerNode, PlansFromTheVesselToTheGoal) {
   client_.sendGoal(goal(22.0, 8.0));
   ASSERT_TRUE(trajectories_.waitFor([](const auto& message) { return !message.pieces.empty(); }));
-  const auto trajectory =
+  const auto timed =
       ros_bridge::toTrajectory(trajectories_.messages.back(), ros_bridge::kMapFrame);
-  ASSERT_TRUE(trajectory.has_value()) << trajectory.error().message;
-  EXPECT_LT((trajectory->flat(0.0).position - kStart).norm(), 0.1);
-  const Eigen::Vector2d end = trajectory->flat(trajectory->duration()).position;
+  ASSERT_TRUE(timed.has_value()) << timed.error().message;
+  const trajectory::Trajectory& trajectory = timed->trajectory;
+  EXPECT_LT((trajectory.flat(0.0).position - kStart).norm(), 0.1);
+  const Eigen::Vector2d end = trajectory.flat(trajectory.duration()).position;
   EXPECT_LT((end - Eigen::Vector2d(22.0, 8.0)).norm(), 0.1);
   EXPECT_TRUE(statuses_.waitFor([](const auto& status) {
     return status.outcome == "solved" && status.length > 40.0 && status.planning_ms > 0.0;

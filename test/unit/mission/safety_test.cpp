@@ -58,6 +58,21 @@ TEST(Safety, ClearancesGrowWithTheBeam) {
   EXPECT_LT(limits.speed_max_mps, 0.95 * wam_v.top_speed_mps);
 }
 
+// The least of what thrust, the vessel's file and the mission allow.
+TEST(Safety, LimitsTheSpeed) {
+  vessel::Parameters vessel;
+  const SupervisorOptions options;
+  EXPECT_NEAR(Safety(options, vessel).limits(0.95, kWideWater).speed_max_mps, 0.98 * 0.95 * 5.0,
+              1e-12);
+  vessel.speed_max_mps = 3.0;
+  Safety safety(options, vessel);
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).speed_max_mps, 0.98 * 3.0, 1e-12);
+  safety.setSpeedMax(4.0);
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).speed_max_mps, 0.98 * 3.0, 1e-12);
+  safety.setSpeedMax(1.0);
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).speed_max_mps, 0.98, 1e-12);
+}
+
 TEST(Safety, TakesTheFirstLevelThatStartAndGoalHaveRoomFor) {
   const SupervisorOptions options;
   Safety safety(options, vessel::Parameters{});

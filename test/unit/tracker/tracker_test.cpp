@@ -112,6 +112,50 @@ TEST_F(TrackerTest, DropsOdometryThatIsNotFiniteOrJumps) {
   EXPECT_TRUE(sail(0.1).reason.empty());
 }
 
+// Behind its trajectory a vessel catches up, but not beyond the speed limit.
+TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
+  vessel::FlatPoint from;
+  from.velocity.x() = 1.0;
+  vessel::FlatPoint to = from;
+  to.position.x() = 60.0;
+  const trajectory::Trajectory steady({trajectory::hermitePiece(from, to, 60.0)});
+  for (const double limit : {1.0, 1.2}) {
+    state_.setZero();
+    state_[vessel::kX] = -1.5;
+    state_[vessel::kSurge] = 0.9;
+    now_s_ += 1000.0;
+    Tracker tracker(load(), vessel_);
+    std::swap(tracker, tracker_);
+    sail(0.02);
+    ASSERT_TRUE(tracker_.setTrajectory(steady, now_s_, limit));
+    double fastest = 0.0;
+    for (int i = 0; i < 300; ++i) {
+      sail(0.1);
+      fastest = std::max(fastest, state_[vessel::kSurge]);
+    }
+    EXPECT_LT(fastest, 1.03 * limit);
+    EXPECT_GT(fastest, 0.97 * limit);
+  }
+}
+
+// Weights come in from the next step on.
+TEST_F(TrackerTest, TakesNewWeights) {
+  const auto offset = [&](double position) {
+    Tracker tracker(load(), vessel_);
+    std::swap(tracker, tracker_);
+    Weights weights = tracker_.options().flatness;
+    weights.position = position;
+    tracker_.setWeights(weights);
+    state_.setZero();
+    now_s_ += 1000.0;
+    sail(0.02);
+    EXPECT_TRUE(tracker_.setTrajectory(line(40.0, 25.0), now_s_));
+    state_[vessel::kX] = -0.3;
+    return sail(0.3).thrusts.sum();
+  };
+  EXPECT_GT(offset(1000.0), 1.2 * offset(1.0));
+}
+
 TEST_F(TrackerTest, RefusesTrajectoriesThatCannotBeSailed) {
   sail(0.1);
   const auto refused = [&](trajectory::Trajectory t, double start_s, const std::string& why) {
@@ -121,6 +165,7 @@ TEST_F(TrackerTest, RefusesTrajectoriesThatCannotBeSailed) {
   };
   refused(trajectory::Trajectory(), now_s_, "no pieces");
   refused(line(10.0, 5.0), now_s_ - 6.0, "ended");
+  refused(line(100.0, 20.0), now_s_, "m/s");  // up to 11 m/s
   refused(line(10.0, 5.0), std::numeric_limits<double>::quiet_NaN(), "start time");
   trajectory::Piece piece = line(10.0, 5.0).pieces()[0];
   trajectory::Piece broken = piece;
