@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct RecordedOrder {
   double start_s = 0.0;
   std::size_t position = 0;
   trajectory::Trajectory trajectory;
+  double speed_max_mps = std::numeric_limits<double>::infinity();
 };
 
 // One control step (TrackerCycle.msg).

@@ -90,7 +90,8 @@ class OrderFeed {
       tracker.requestStop("asked to stop", lockstep ? order->start_s : 0.0, order->id);
       return {};
     }
-    return tracker.setTrajectory(order->trajectory, order->start_s, order->id);
+    return tracker.setTrajectory(order->trajectory, order->start_s, order->id,
+                                 order->speed_max_mps);
   }
 
  private:

@@ -127,7 +127,7 @@ TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
     Tracker tracker(load(), vessel_);
     std::swap(tracker, tracker_);
     sail(0.02);
-    ASSERT_TRUE(tracker_.setTrajectory(steady, now_s_, limit));
+    ASSERT_TRUE(tracker_.setTrajectory(steady, now_s_, 0, limit));
     double fastest = 0.0;
     for (int i = 0; i < 300; ++i) {
       sail(0.1);
