@@ -26,6 +26,7 @@ using scenario::Outcome;
 
 constexpr int kQueue = 1000;
 constexpr double kTimerPeriodS = 0.1;
+constexpr double kSilenceS = 60.0;  // of wall time without news of the plant: an error
 constexpr double kShowPeriodS = 0.2;  // of wall time
 constexpr double kTrackPeriodS = 0.05;
 // Where no planner_node has tolerances of its own.
@@ -169,7 +170,7 @@ void MissionNode::onTimer() {
     sendGoal();
   }
   const double silent_s = (ros::WallTime::now() - last_sign_).toSec();
-  if (silent_s > options_.silence_s) {
+  if (silent_s > kSilenceS) {
     finish(Outcome::kError, goal_sent_  ? "the plant fell silent while " + planner_.state
                             : recorded_ ? "the plant or the planner did not come up"
                                         : "the recorder did not come up");

@@ -13,7 +13,6 @@ struct MissionNodeOptions {
   int seed = 1;
   std::string result;
   double timeout_s = 900.0;
-  double silence_s = 60.0;
   bool recorded = false;
 
   template <typename Self, typename Fields>
@@ -25,8 +24,6 @@ struct MissionNodeOptions {
     fields("seed", o.seed, {0.0, 2147483647.0}, "labels the result");
     fields("result", o.result, "JSON file, with the track beside it as CSV; empty: none");
     fields("timeout_s", o.timeout_s, {1.0, 1e6}, "of simulated time, then the mission is over");
-    fields("silence_s", o.silence_s, {1.0, 3600.0},
-           "of wall time without news of the plant: an error");
     fields("recorded", o.recorded, "send the goal when a recorder listens");
   }
 };

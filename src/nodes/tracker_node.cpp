@@ -20,7 +20,8 @@ using Level = ros_bridge::Diagnostics::Level;
 
 constexpr int kQueue = 100;
 constexpr int kPredictionInterval = 10;  // steps
-constexpr double kLockstepStatusPeriodS = 0.1;
+constexpr double kStatusRateHz = 10.0;  // of simulated time
+constexpr double kLockstepStatusPeriodS = 1.0 / kStatusRateHz;
 
 Level levelOf(const tracker::Command& command) {
   if (command.mode == tracker::Mode::kFault) {
@@ -80,7 +81,7 @@ TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tra
       node_.subscribe("trajectory", kQueue, &TrackerNode::onTrajectory, this, no_delay);
   odometry_subscriber_ = node_.subscribe("odom", kQueue, &TrackerNode::onOdometry, this, no_delay);
   status_timer_ = node_.createWallTimer(
-      ros::WallDuration(1.0 / (options_.status_rate_hz * std::max(1.0, options_.speed))),
+      ros::WallDuration(1.0 / (kStatusRateHz * std::max(1.0, options_.speed))),
       [this](const ros::WallTimerEvent&) { publishStatus(); });
   if (options_.recorded) {
     recording_subscriber_ = node_.subscribe<std_msgs::Header>(

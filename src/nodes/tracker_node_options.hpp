@@ -12,7 +12,6 @@ struct TrackerNodeOptions {
   std::string odometry_frame = "odom";  // both coincide (docs/frames.md)
   bool lockstep = true;
   double speed = 1.0;
-  double status_rate_hz = 10.0;
   bool recorded = false;
 
   template <typename Self, typename Fields>
@@ -25,7 +24,6 @@ struct TrackerNodeOptions {
            "each odometry is one control step; false: a loop with a clock of its own");
     fields("speed", o.speed, {0.0, 1000.0},
            "simulated over real time; 0 (in lockstep only): unknown");
-    fields("status_rate_hz", o.status_rate_hz, {0.1, 100.0}, "of simulated time; 10 in lockstep");
     fields("recorded", o.recorded, "begin when a recorder listens, so that it has the first step");
   }
 };
