@@ -187,6 +187,15 @@ double turnAtRest(double turn_rad, const Placed& placed, const Eigen::Vector2d& 
   return turn.end();
 }
 
+// The surge force that holds a speed along a heading, all in the manoeuvre's frame.
+double steadyForce(const vessel::Parameters& vessel, const vessel::Disturbance& disturbance,
+                   double heading_rad, double speed_mps) {
+  const Eigen::Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad));
+  return vessel::InverseDynamics(vessel, disturbance)
+      .held(ahead, 0.0, 0.0, speed_mps * ahead, Eigen::Vector2d::Zero())
+      .tau.surge_n;
+}
+
 }  // namespace
 
 Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_rad,
@@ -196,10 +205,11 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
   std::optional<TurnProfile> turn;
   const bool turns = std::abs(turn_rad) > kLeastTurnRad;
   const double share = turns && !vessel::paperHolds(vessel) ? kLaunchShareTurning : kLaunchShare;
-  const vessel::PaperModel& m = vessel.paper;
+  const vessel::Disturbance disturbance = placed.seen(limits.disturbance);
   const double speed = kLaunchSpeedShare * limits.speed_max_mps;
-  const double most =
-      std::min(share * thrust.ahead_n, speed * (m.d1_kgps + m.m1_kg / kGentleLaunchS));
+  const double steady_n = steadyForce(vessel, disturbance, std::abs(turn_rad), speed);
+  const double most = std::min(share * thrust.ahead_n,
+                               steady_n + vessel.paper.m1_kg * speed / kGentleLaunchS);
   const bool gentle = most < share * thrust.ahead_n;
   std::vector<SurgeRamp> ramps = {{kLongAgoS, kLongAgoS, most, most}};
   double turning_n = 0.0;
@@ -209,7 +219,8 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
     // gets under way meanwhile.
     const bool even = limits.settle || vessel::paperHolds(vessel);
     if (!even) {
-      turning_n = 0.5 * (thrust.ahead_n - thrust.astern_n);
+      turning_n = std::min(0.5 * (thrust.ahead_n - thrust.astern_n),
+                           0.5 * speed * vessel.paper.d1_kgps);
     }
     const auto [lag_s, r_full] = thrust.turning(turning_n);
     double ahead_s = 0.0;
@@ -233,9 +244,9 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
   if (gentle) {
     const double full_s = end + kGentleLaunchS - kGentleRampS;
     end = full_s + kGentleRampS;
-    ramps.push_back({full_s, end, most, speed * m.d1_kgps});
+    ramps.push_back({full_s, end, most, std::min(most, steady_n)});
   }
-  const ForcedMotion forced(vessel, placed.seen(limits.disturbance), turn ? &*turn : nullptr,
+  const ForcedMotion forced(vessel, disturbance, turn ? &*turn : nullptr,
                             std::move(ramps));
   Manoeuvre manoeuvre;
   manoeuvre.duration_s = end;
@@ -295,9 +306,9 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   if (!turn && !turns_at_rest) {
     forced.clearRamps();
   }
-  const double ahead_n =
-      std::min(kAheadShare * thrust.ahead_n,
-               kBrakeSpeedShare * limits.speed_max_mps * vessel.paper.d1_kgps);
+  const double ahead_n = std::min(
+      kAheadShare * thrust.ahead_n,
+      steadyForce(vessel, disturbance, 0.0, kBrakeSpeedShare * limits.speed_max_mps));
   forced.addFirst({ramp_s, ramp_s + limits.brake_ramp_s, ahead_n, -brake_n});
   back.reach(ramp_s);
   const double begin_s = vessel::paperHolds(vessel) ? ramp_s : ramp_s - kRunInS;

@@ -88,6 +88,7 @@ EndOptions endsOf(const Care& care, const vessel::Parameters& vessel,
       kArrivalSpeedShare * (1.0 - (1.0 - care.arrival_factor) * slow) * top;
   ends.arrival_speed_max_mps = kArrivalSpeedMaxShare * top;
   if (slow < 1.0) {
+    ends.limits.speed_max_mps = kSpeedShare * safety.speed_max_mps;
     // What the vessel loses while the thrust turns round comes on top.
     const double lost = 0.5 * ends.limits.brake_ramp_s *
                         (1.0 / kGentleBrakeS + vessel.paper.d1_kgps / vessel.paper.m1_kg);
@@ -100,7 +101,6 @@ EndOptions endsOf(const Care& care, const vessel::Parameters& vessel,
                  vessel.paper.m1_kg * safety.speed_max_mps / (kGentleBrakeS * astern_n));
     ends.limits.drift_mps = std::min(ends.limits.drift_mps, kDriftShare * safety.speed_max_mps);
   }
-  ends.limits.speed_max_mps = kSpeedShare * safety.speed_max_mps;
   return ends;
 }
 
