@@ -111,5 +111,10 @@ trap - INT TERM
 /usr/bin/python3 - "$result" <<'PY'
 import json, sys
 missions = json.load(open(sys.argv[1]))["missions"]
+# Once more, below what roslaunch says when it ends.
+for m in missions:
+    print("%s mission %d: %s%s, %.1f s, %.1f m, %.2f m clear, tracking error %.3f m mean" % (
+        m["scenario"], m["mission"], m["outcome"], ": " + m["reason"] if m.get("reason") else "", m["duration_s"],
+        m["distance_m"], m["min_clearance_m"], m["tracking_error_mean_m"]))
 sys.exit(0 if missions and all(m["outcome"] == "arrived" for m in missions) else 1)
 PY
