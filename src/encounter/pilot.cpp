@@ -290,12 +290,28 @@ class Pilot::Impl {
     memory.motion.velocity = *steady;
   }
 
+  // The line's falls with the time it has been kept.
+  static double velocityDeviation(const Memory& memory) {
+    constexpr double kLineS = 4.0;
+    constexpr double kLineMaxS = 20.0;
+    const Eigen::Matrix4d& covariance = memory.track.covariance;
+    return std::sqrt(0.5 * (covariance(2, 2) + covariance(3, 3))) * kLineS /
+           std::clamp(memory.line.span(), kLineS, kLineMaxS);
+  }
+
   void follow(double now_s, Memory& memory) const {
     Record& record = memory.record;
     const Approach approach = nearestApproach(own_, memory.motion);
     const double range = (memory.motion.position - own_.position).norm();
     if (record.role == Role::kNone) {
-      if (own_.velocity.norm() > 0.3 && riskOfCollision(approach)) {
+      // Whoever may have to stand on does so before it is certain: acting early can't be undone.
+      constexpr double kUnsureMaxM = 15.0;
+      const double unsure =
+          std::min(kUnsureMaxM, velocityDeviation(memory) * std::max(0.0, approach.time_s));
+      const bool may_stand_on = approach.time_s > 0.0 && approach.time_s < kRiskS &&
+                                approach.distance_m < kRiskM + unsure &&
+                                standsOn(classify(own_, memory.motion));
+      if (own_.velocity.norm() > 0.3 && (riskOfCollision(approach) || may_stand_on)) {
         record = Record();
         record.role = classify(own_, memory.motion);
         record.kept_velocity = own_.velocity;
@@ -382,11 +398,7 @@ class Pilot::Impl {
       other.heading_rad = track.heading_rad;
       other.position_deviation_m =
           std::sqrt(0.5 * (track.covariance(0, 0) + track.covariance(1, 1)));
-      // The line's falls with the time it has been kept.
-      constexpr double kLineS = 4.0;
-      other.velocity_deviation_mps =
-          std::sqrt(0.5 * (track.covariance(2, 2) + track.covariance(3, 3))) * kLineS /
-          std::max(kLineS, std::min(20.0, memory.line.span()));
+      other.velocity_deviation_mps = velocityDeviation(memory);
       other.known_s = knownFor(memory, field);
       other.record = memory.record;
       other.record.since_s = memory.began_s - now_s_;
