@@ -7,6 +7,7 @@
 
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/parameters.hpp"
+#include "otter_nav/ros/tracks.hpp"
 #include "otter_nav/stopping/splice.hpp"
 
 namespace otter_nav::nodes {
@@ -69,6 +70,7 @@ PlannerNode::PlannerNode(const Setup& setup)
   odometry_subscriber_ = node_.subscribe("odom", kQueue, &PlannerNode::onOdometry, this, no_delay);
   tracker_subscriber_ =
       node_.subscribe("tracker_status", kQueue, &PlannerNode::onTrackerStatus, this, no_delay);
+  tracks_subscriber_ = node_.subscribe("tracks", 1, &PlannerNode::onTracks, this);
   serve("pause", &PlannerNode::pause);
   serve("hold", &PlannerNode::hold);
   serve("resume", &PlannerNode::resume);
@@ -119,6 +121,16 @@ void PlannerNode::onTrackerStatus(const TrackerStatus& message) {
   tracker_.take(message);
   settle();
   decideInTurn();
+}
+
+void PlannerNode::onTracks(const Tracks& message) {
+  Result<std::vector<traffic::Track>> tracks = ros_bridge::toTracks(message);
+  if (!tracks) {
+    diagnostics_.refuse("tracks", tracks.error().message);
+    return;
+  }
+  tracks_ = std::move(*tracks);
+  tracks_stamp_s_ = message.header.stamp.toSec();
 }
 
 void PlannerNode::decideInTurn() {
@@ -329,6 +341,10 @@ mission::Situation PlannerNode::situation() const {
   situation.disturbance = tracker_.estimate();
   situation.tracker_fault = tracker_.gaveUp();
   situation.tracker_reason = tracker_.reason();
+  constexpr double kTracksS = 5.0;  // older ones tell nothing of where others are
+  if (now_s_ - tracks_stamp_s_ < kTracksS) {
+    situation.tracks = tracks_;
+  }
   return situation;
 }
 

@@ -7,6 +7,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <otter_nav/TrackerStatus.h>
+#include <otter_nav/Tracks.h>
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
 
@@ -52,6 +53,7 @@ class PlannerNode {
   void onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message);
   void onOdometry(const nav_msgs::Odometry& message);
   void onTrackerStatus(const TrackerStatus& message);
+  void onTracks(const Tracks& message);
   [[nodiscard]] Status onGoal(const vessel::Pose& goal);
   void onCancel();
   // The operator's wishes (docs/nodes.md). The answer says why one can't be followed.
@@ -79,6 +81,8 @@ class PlannerNode {
   ros_bridge::MapMirror map_;
   OdometryHistory odometry_;
   TrackerWatch tracker_;
+  std::vector<traffic::Track> tracks_;  // other vessels, as last told
+  double tracks_stamp_s_ = 0.0;
   mission::Supervisor supervisor_;
   PlannerPublisher publisher_;
   mission::Phase shown_ = mission::Phase::kIdle;  // by its markers
@@ -98,6 +102,7 @@ class PlannerNode {
   ros::Subscriber update_subscriber_;
   ros::Subscriber odometry_subscriber_;
   ros::Subscriber tracker_subscriber_;
+  ros::Subscriber tracks_subscriber_;
   std::vector<ros::ServiceServer> wishes_;
   ros::WallTimer decision_timer_;
   ros::WallTimer input_timer_;
