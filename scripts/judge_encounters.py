@@ -415,7 +415,7 @@ def main():
     parser.add_argument("--scenarios", required=True)
     parser.add_argument("--json", nargs="+", required=True)
     parser.add_argument("--hull", default="2.0,1.08", help="ours: length,beam in m")
-    parser.add_argument("--sheet", help="a picture of the tracks of the first file's missions")
+    parser.add_argument("--sheet", help="a picture of the tracks, of each mission the first")
     parser.add_argument("--verbose", action="store_true")
     arguments = parser.parse_args()
     hull = tuple(float(v) for v in arguments.hull.split(","))
@@ -439,8 +439,9 @@ def main():
             faults += [f"{name} {entry['mission']}: {w}" for w in wrong]
             if arrived:
                 lost.append(late)
-            if path == arguments.json[0]:
-                judged.append((f"{name} {entry['mission']}", run))
+            label = f"{name} {entry['mission']}"
+            if label not in (other for other, _ in judged):
+                judged.append((label, run))
             for e in run.encounters:
                 contacts += e.r == 0.0
                 near_misses += 0.0 < e.r < CLEAR_M
