@@ -330,6 +330,7 @@ class Supervisor::Impl {
     plans_.drop();
     ++replans_;
     sailed_ = stopping::splice(sailed_, m.now_s, path);
+    sailed_.speed_max_mps = planned_limits_.speed_max_mps;
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
   }

@@ -1,0 +1,2 @@
+otter_nav_test(loop_encounter
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/encounter/encounters_test.cpp ROOMS simulation)
