@@ -784,9 +784,9 @@ class Supervisor::Impl {
   bool planned_in_known_weather_ = false;
   double planned_overtaxed_s_ = 0.0;
   double felt_s_ = -std::numeric_limits<double>::infinity();
-  bool holds_ = false;              // the tracker was told to keep the place
-  double calm_by_s_ = 0.0;          // or the mission fails
-  double planned_for_mps_ = 0.0;    // the mission's speed limit then
+  bool holds_ = false;            // the tracker was told to keep the place
+  double calm_by_s_ = 0.0;        // or the mission fails
+  double planned_for_mps_ = 0.0;  // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
   stopping::Conflict conflict_;     // what the last condition found on the way
   double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for
