@@ -132,7 +132,7 @@ TEST_F(PlannerNode, PlansFromTheVesselToTheGoal) {
   EXPECT_TRUE(statuses_.waitFor([](const auto& status) {
     return status.outcome == "solved" && status.length > 40.0 && status.planning_ms > 0.0;
   }));
-  expectRibbon(*trajectory);
+  expectRibbon(trajectory);
   client_.cancelGoal();
   ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
   EXPECT_EQ(client_.getState().toString(), "PREEMPTED");
