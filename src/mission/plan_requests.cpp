@@ -22,8 +22,7 @@ std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, doub
   for (int k = 0; k < steps; ++k) {
     const double t = at_s + k * kStepS;
     const trajectory::Piece& piece = sailed.pieces()[sailed.pieceAt(t)];
-    if (piece.kind != trajectory::PieceKind::kSpin &&
-        sailed.flat(t).velocity.norm() >= least) {
+    if (piece.kind != trajectory::PieceKind::kSpin && sailed.flat(t).velocity.norm() >= least) {
       return t;
     }
   }

@@ -56,7 +56,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   const double clearance = planClearance(options_, levels_.level(), weather_.gustReach(),
                                          weather_.driftReach(), vessel_.hull, room_m);
   auto limits = feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
-  if (!plansBlind()) {
+  if (options_.plan_with_weather && !plansBlind()) {
     limits.disturbance = weather_.mean();
   }
   limits.limitSpeed(options_.speed_max_mps);
@@ -77,7 +77,7 @@ double Safety::nextThrustShare() const {
 }
 
 bool Safety::plansBlind() const {
-  return times_refused_ >= kRefusedMost;
+  return options_.plan_with_weather && times_refused_ >= kRefusedMost;
 }
 
 double Safety::restHeading(double psi_rad) const {

@@ -4,8 +4,8 @@
 #include <std_msgs/Header.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <iostream>
 
@@ -26,7 +26,7 @@ using scenario::Outcome;
 
 constexpr int kQueue = 1000;
 constexpr double kTimerPeriodS = 0.1;
-constexpr double kSilenceS = 60.0;  // of wall time without news of the plant: an error
+constexpr double kSilenceS = 60.0;    // of wall time without news of the plant: an error
 constexpr double kShowPeriodS = 0.2;  // of wall time
 constexpr double kTrackPeriodS = 0.05;
 // Where no planner_node has tolerances of its own.

@@ -20,7 +20,7 @@ using Level = ros_bridge::Diagnostics::Level;
 
 constexpr int kQueue = 100;
 constexpr int kPredictionInterval = 10;  // steps
-constexpr double kStatusRateHz = 10.0;  // of simulated time
+constexpr double kStatusRateHz = 10.0;   // of simulated time
 constexpr double kLockstepStatusPeriodS = 1.0 / kStatusRateHz;
 
 Level levelOf(const tracker::Command& command) {
@@ -118,17 +118,17 @@ Status TrackerNode::change(config::Section section) {
 void TrackerNode::onTrajectory(const Trajectory& message) {
   diagnostics_.received("trajectory");
   const double start_s = message.header.stamp.toSec();
-  Status taken = ros_bridge::toTrajectory(message, kMapFrame)
-                     .and_then([&](const trajectory::TimedTrajectory& timed) -> Status {
-                       if (timed.trajectory.empty()) {
-                         // In lockstep no step may depend on when the message came.
-                         tracker_.requestStop("asked to stop", options_.lockstep ? start_s : 0.0,
-                                              message.id);
-                         return {};
-                       }
-                       return tracker_.setTrajectory(timed.trajectory, timed.start_time_s,
-                                                     message.id, timed.speed_max_mps);
-                     });
+  Status taken =
+      ros_bridge::toTrajectory(message, kMapFrame)
+          .and_then([&](const trajectory::TimedTrajectory& timed) -> Status {
+            if (timed.trajectory.empty()) {
+              // In lockstep no step may depend on when the message came.
+              tracker_.requestStop("asked to stop", options_.lockstep ? start_s : 0.0, message.id);
+              return {};
+            }
+            return tracker_.setTrajectory(timed.trajectory, timed.start_time_s, message.id,
+                                          timed.speed_max_mps);
+          });
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (taken) {

@@ -298,9 +298,8 @@ class GlobalOptimizer::Solver {
   void keepThrustWhereItLacks() {
     constexpr double kMoreN = 0.01;  // of a thruster's force
     const double most_n = vessel_.thrusters.ahead_max_n;
-    const AtPoints excess_n =
-        excessAlong(assembled(), chosen_.start.manoeuvre.pieces.size(),
-                    spline_.spans.size(), vessel_, limits_, start_->psi_rad);
+    const AtPoints excess_n = excessAlong(assembled(), chosen_.start.manoeuvre.pieces.size(),
+                                          spline_.spans.size(), vessel_, limits_, start_->psi_rad);
     AtPoints& kept_n = problem_.targets.kept_n;
     kept_n.resize(excess_n.size());
     for (std::size_t i = 0; i < excess_n.size(); ++i) {

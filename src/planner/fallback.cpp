@@ -140,8 +140,7 @@ Launch launchFrom(const Eigen::Vector2d& position, const Eigen::Vector2d& direct
   return launch;
 }
 
-Launch stopAt(const Eigen::Vector2d& position, const Eigen::Vector2d& direction,
-              double speed_mps) {
+Launch stopAt(const Eigen::Vector2d& position, const Eigen::Vector2d& direction, double speed_mps) {
   Launch stop = launchFrom(position, -direction, speed_mps);
   FlatPoint rest;
   rest.position = position;

@@ -37,8 +37,7 @@ void GuideLine::build(const std::vector<Eigen::Vector2d>& points, const map::Dis
       [&](double speed) {
         return share * std::max(0.0, options.force_ahead_n - model.d1_kgps * speed);
       },
-      [&](double /*speed*/) { return share * astern; },
-      options.speed_start_mps, 0.0);
+      [&](double /*speed*/) { return share * astern; }, options.speed_start_mps, 0.0);
   half_width_m_.clear();
   for (const trajectory::PathLine::Point& point : line_.points()) {
     half_width_m_.push_back(

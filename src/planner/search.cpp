@@ -119,8 +119,7 @@ int Search::steerNeighbours(const Tree& tree, const KinoState& sample, int found
   for (int i = 0; i < found; ++i) {
     Candidate candidate = candidates_[static_cast<std::size_t>(i)];
     const Node& node = tree.node(candidate.node);
-    const auto best =
-        steer(tree.from(node.state, sample), tree.to(node.state, sample), sigma_);
+    const auto best = steer(tree.from(node.state, sample), tree.to(node.state, sample), sigma_);
     if (best) {
       candidate.steer = *best;
       candidate.bound = node.cost + best->cost;

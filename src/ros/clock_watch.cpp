@@ -22,8 +22,9 @@ void ClockWatch::onClock(const rosgraph_msgs::Clock& message) {
     ros::param::get("/use_sim_time", simulated);
     if (!simulated) {
       if (!told_) {
-        ROS_WARN("Somebody publishes /clock, but /use_sim_time is not true: this node stays on the "
-                 "computer's clock");
+        ROS_WARN(
+            "Somebody publishes /clock, but /use_sim_time is not true: this node stays on the "
+            "computer's clock");
       }
       told_ = true;
       return;

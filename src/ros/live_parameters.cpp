@@ -108,7 +108,8 @@ void LiveParameters::advertise() {
     add(description.dflt, field.value);
   }
   description.groups.push_back(group);
-  for (dynamic_reconfigure::Config* config : {&description.min, &description.max, &description.dflt}) {
+  for (dynamic_reconfigure::Config* config :
+       {&description.min, &description.max, &description.dflt}) {
     config->groups.resize(1);
     config->groups[0].name = group.name;
     config->groups[0].state = 1;
@@ -141,9 +142,8 @@ bool LiveParameters::onRequest(dynamic_reconfigure::ReconfigureRequest& request,
                                dynamic_reconfigure::ReconfigureResponse& response) {
   std::vector<Change> changes;
   const auto take = [&](const std::string& name, double value) {
-    const auto field = std::find_if(live_.begin(), live_.end(), [&](const auto& one) {
-      return nameOf(one.path) == name;
-    });
+    const auto field = std::find_if(live_.begin(), live_.end(),
+                                    [&](const auto& one) { return nameOf(one.path) == name; });
     if (field != live_.end()) {
       changes.push_back({field->path, value});
     } else {
@@ -202,10 +202,8 @@ void LiveParameters::change(const std::vector<Change>& changes) {
   if (told.empty()) {
     return;
   }
-  const Status status =
-      toYaml(wanted).and_then([&](const YAML::Node& node) {
-        return apply_(config::Section(node, node_.getNamespace()));
-      });
+  const Status status = toYaml(wanted).and_then(
+      [&](const YAML::Node& node) { return apply_(config::Section(node, node_.getNamespace())); });
   if (status) {
     current_ = wanted;
     ROS_INFO_STREAM("Changed while running: " << told);
@@ -231,10 +229,10 @@ void LiveParameters::warnOf(const std::string& path) const {
   for (const config::NumberField& field : live_) {
     names += (names.empty() ? "" : ", ") + nameOf(field.path);
   }
-  ROS_WARN_STREAM("Parameter '" << path << "' was set: that has no effect while the node runs, only "
-                                << "when it starts."
-                                << (names.empty() ? std::string()
-                                                  : " What can be changed now: " + names));
+  ROS_WARN_STREAM(
+      "Parameter '" << path << "' was set: that has no effect while the node runs, only "
+                    << "when it starts."
+                    << (names.empty() ? std::string() : " What can be changed now: " + names));
 }
 
 }  // namespace otter_nav::ros_bridge

@@ -85,7 +85,8 @@ Trajectory toMessage(const trajectory::TimedTrajectory& timed, std::uint32_t id,
   return message;
 }
 
-Result<trajectory::TimedTrajectory> toTrajectory(const Trajectory& message, const std::string& frame) {
+Result<trajectory::TimedTrajectory> toTrajectory(const Trajectory& message,
+                                                 const std::string& frame) {
   if (message.header.frame_id != frame) {
     return failure("frame_id is '" + message.header.frame_id + "', expected '" + frame + "'");
   }

@@ -153,9 +153,8 @@ void ClosedLoop::carryOut(const mission::Orders& orders) {
   }
   if (orders.sail) {
     stop_ordered_ = false;
-    const Status status =
-        tracker_.setTrajectory(orders.sail->trajectory, orders.sail->start_time_s, 0,
-                               orders.sail->speed_max_mps);
+    const Status status = tracker_.setTrajectory(orders.sail->trajectory, orders.sail->start_time_s,
+                                                 0, orders.sail->speed_max_mps);
     if (!status) {
       finish(scenario::Outcome::kError,
              "the tracker refused a trajectory: " + status.error().message);

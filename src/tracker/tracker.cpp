@@ -31,7 +31,7 @@ constexpr double kBrakingShare = 0.6;  // of the thrust astern: how far ahead a 
 // shrinks at this mean speed.
 constexpr double kJoinLengths = 1.5;
 constexpr double kJoinSpeedMps = 0.7;
-constexpr double kJoinSpeedShare = 0.3;  // of the speed limit, where that is less
+constexpr double kJoinSpeedShare = 0.3;    // of the speed limit, where that is less
 constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts the next one
 constexpr double kBrakeBlindS = 5.0;  // braking by the model alone without odometry; then no thrust
 
@@ -219,10 +219,10 @@ void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
   const Vector2d offset = state.head<2>() - z.position;
   if (offset.norm() > kJoinLengths * vessel_.hull.length_m) {
     const Vector2d velocity_offset = velocityOverGround(state) - z.velocity;
-    reference_source_.join(now_s, offset, velocity_offset,
-                           std::max(4.0, offset.norm() / std::min(kJoinSpeedMps,
-                                                                  kJoinSpeedShare *
-                                                                      sailing_->speed_max_mps)));
+    reference_source_.join(
+        now_s, offset, velocity_offset,
+        std::max(4.0, offset.norm() /
+                          std::min(kJoinSpeedMps, kJoinSpeedShare * sailing_->speed_max_mps)));
   }
   controller_.start(under_way && offset.norm() < kSamePathLengths * vessel_.hull.length_m);
 }

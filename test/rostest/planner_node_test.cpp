@@ -122,8 +122,7 @@ TEST_F(PlannerNode, AbortsBadGoalsWithTheirReason) {
 TEST_F(PlannerNode, PlansFromTheVesselToTheGoal) {
   client_.sendGoal(goal(22.0, 8.0));
   ASSERT_TRUE(trajectories_.waitFor([](const auto& message) { return !message.pieces.empty(); }));
-  const auto timed =
-      ros_bridge::toTrajectory(trajectories_.messages.back(), ros_bridge::kMapFrame);
+  const auto timed = ros_bridge::toTrajectory(trajectories_.messages.back(), ros_bridge::kMapFrame);
   ASSERT_TRUE(timed.has_value()) << timed.error().message;
   const trajectory::Trajectory& trajectory = timed->trajectory;
   EXPECT_LT((trajectory.flat(0.0).position - kStart).norm(), 0.1);

@@ -129,8 +129,8 @@ class Vessel {
     const double start_s = message.header.stamp.toSec();
     const auto trajectory = ros_bridge::toTrajectory(message, message.header.frame_id);
     if (trajectory) {
-      run().orders.push_back({message.id, start_s, position, trajectory->trajectory,
-                              trajectory->speed_max_mps});
+      run().orders.push_back(
+          {message.id, start_s, position, trajectory->trajectory, trajectory->speed_max_mps});
     }
     return {};  // the node refuses what is none
   }

@@ -1,4 +1,5 @@
-// The numbers of a struct with describe() (fields.hpp) as a list, for those that set them one by one.
+// The numbers of a struct with describe() (fields.hpp) as a list, for those that set them one by
+// one.
 #pragma once
 
 #include <string>

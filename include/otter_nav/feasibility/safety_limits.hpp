@@ -45,7 +45,8 @@ struct SafetyLimits {
   [[nodiscard]] static SafetyLimits of(const vessel::Parameters& vessel);
   // No faster than `speed_mps`, less what control needs; 0: as before.
   void limitSpeed(double speed_mps);
-  // For a plan that starts at `speed_mps`: above the limit it falls as the drag alone could make it.
+  // For a plan that starts at `speed_mps`: above the limit it falls as the drag alone could make
+  // it.
   [[nodiscard]] SafetyLimits startingAt(double speed_mps, const vessel::Parameters& vessel) const;
 };
 

@@ -60,6 +60,7 @@ struct SupervisorOptions {
   double arrival_distance_m = 0.9;
   double arrival_heading_rad = 0.15;
   double improve_period_s = 0.0;
+  bool plan_with_weather = false;
   encounter::Options encounter;
 
   template <typename Self, typename Fields>
@@ -87,6 +88,9 @@ struct SupervisorOptions {
     fields("arrival_heading_rad", o.arrival_heading_rad, {0.01, 3.2}, "this heading, and slow");
     fields("improve_period_s", o.improve_period_s, {0.0, 600.0},
            "of plans asked for only to be faster; 0: none");
+    fields("plan_with_weather", o.plan_with_weather,
+           "plans are made with the estimate of wind and current; without, for still water with "
+           "thrust and room left for gusts");
     fields.group("encounter", o.encounter, "other vessels, and the rules of the road");
   }
 };

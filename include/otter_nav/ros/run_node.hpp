@@ -52,7 +52,8 @@ int runNode(int argc, char** argv, const char* name) {
         return (*node)->change(std::move(section));
       });
     } else {
-      live.emplace(std::vector<config::NumberField>(), [](const config::Section&) { return Status(); });
+      live.emplace(std::vector<config::NumberField>(),
+                   [](const config::Section&) { return Status(); });
     }
     bool changed = false;
     while (ros::ok() && !changed) {

@@ -19,8 +19,8 @@ namespace otter_nav::ros_bridge {
                                    const vessel::Parameters& vessel);
 
 // An empty trajectory is valid: it asks for a controlled stop. An error names the field and piece:
-// frame, stamp, speed limit, number of pieces, kind, duration, coefficients that are not finite or pieces that
-// do not join.
+// frame, stamp, speed limit, number of pieces, kind, duration, coefficients that are not finite or
+// pieces that do not join.
 [[nodiscard]] Result<trajectory::TimedTrajectory> toTrajectory(const Trajectory& message,
                                                                const std::string& frame);
 

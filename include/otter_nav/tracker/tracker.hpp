@@ -73,8 +73,8 @@ class Tracker {
   // Any thread, at any time. The trajectory takes over at `start_s`, or at the next step when that
   // has passed. Errors: empty or malformed (piece and fault named), not finite, over already.
   // `order` is the caller's number for it. `speed_max_mps`: over ground, to keep to also when the
-  // vessel is behind; what the trajectory itself sails counts where it is more, and the vessel's own
-  // limit where it is less.
+  // vessel is behind; what the trajectory itself sails counts where it is more, and the vessel's
+  // own limit where it is less.
   [[nodiscard]] Status setTrajectory(
       trajectory::Trajectory trajectory, double start_s, std::uint32_t order = 0,
       double speed_max_mps = std::numeric_limits<double>::infinity());

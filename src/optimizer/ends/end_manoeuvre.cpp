@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeastTurnRad = 1e-3;
 constexpr double kStraightLaunchS = 0.4;
-constexpr double kLaunchShare = 0.95;     // of the full force, so that the way may turn at once
+constexpr double kLaunchShare = 0.95;  // of the full force, so that the way may turn at once
 // Under a low speed limit: with steady thrust at this share of it where the launch ends, after so
 // long, and where the arrival begins.
 constexpr double kLaunchSpeedShare = 0.8;
@@ -208,8 +208,8 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
   const vessel::Disturbance disturbance = placed.seen(limits.disturbance);
   const double speed = kLaunchSpeedShare * limits.speed_max_mps;
   const double steady_n = steadyForce(vessel, disturbance, std::abs(turn_rad), speed);
-  const double most = std::min(share * thrust.ahead_n,
-                               steady_n + vessel.paper.m1_kg * speed / kGentleLaunchS);
+  const double most =
+      std::min(share * thrust.ahead_n, steady_n + vessel.paper.m1_kg * speed / kGentleLaunchS);
   const bool gentle = most < share * thrust.ahead_n;
   std::vector<SurgeRamp> ramps = {{kLongAgoS, kLongAgoS, most, most}};
   double turning_n = 0.0;
@@ -219,8 +219,8 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
     // gets under way meanwhile.
     const bool even = limits.settle || vessel::paperHolds(vessel);
     if (!even) {
-      turning_n = std::min(0.5 * (thrust.ahead_n - thrust.astern_n),
-                           0.5 * speed * vessel.paper.d1_kgps);
+      turning_n =
+          std::min(0.5 * (thrust.ahead_n - thrust.astern_n), 0.5 * speed * vessel.paper.d1_kgps);
     }
     const auto [lag_s, r_full] = thrust.turning(turning_n);
     double ahead_s = 0.0;
@@ -246,8 +246,7 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
     end = full_s + kGentleRampS;
     ramps.push_back({full_s, end, most, std::min(most, steady_n)});
   }
-  const ForcedMotion forced(vessel, disturbance, turn ? &*turn : nullptr,
-                            std::move(ramps));
+  const ForcedMotion forced(vessel, disturbance, turn ? &*turn : nullptr, std::move(ramps));
   Manoeuvre manoeuvre;
   manoeuvre.duration_s = end;
   ForcedMotion::Motion motion;
@@ -306,9 +305,9 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   if (!turn && !turns_at_rest) {
     forced.clearRamps();
   }
-  const double ahead_n = std::min(
-      kAheadShare * thrust.ahead_n,
-      steadyForce(vessel, disturbance, 0.0, kBrakeSpeedShare * limits.speed_max_mps));
+  const double ahead_n =
+      std::min(kAheadShare * thrust.ahead_n,
+               steadyForce(vessel, disturbance, 0.0, kBrakeSpeedShare * limits.speed_max_mps));
   forced.addFirst({ramp_s, ramp_s + limits.brake_ramp_s, ahead_n, -brake_n});
   back.reach(ramp_s);
   const double begin_s = vessel::paperHolds(vessel) ? ramp_s : ramp_s - kRunInS;

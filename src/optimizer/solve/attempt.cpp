@@ -62,9 +62,8 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   limits.slowing_per_s = safety.slowing_per_s;
   limits.slowing_from_s = safety.slowing_from_s;
   limits.yaw_rate_radps = kYawRateShare * safety.yaw_rate_max_radps / slow;
-  limits.heading_force_n =
-      std::min(kHeadingForceShare * 2.0 * vessel.thrusters.ahead_max_n,
-               kSwayDragShare * vessel.paper.d2_kgps * safety.speed_max_mps);
+  limits.heading_force_n = std::min(kHeadingForceShare * 2.0 * vessel.thrusters.ahead_max_n,
+                                    kSwayDragShare * vessel.paper.d2_kgps * safety.speed_max_mps);
   return limits;
 }
 
@@ -84,8 +83,7 @@ EndOptions endsOf(const Care& care, const vessel::Parameters& vessel,
   // Under a low speed limit there is little force to steer by at less: it is left late, and so
   // gently that it isn't exceeded before.
   const double slow = feasibility::speedShare(vessel, safety);
-  ends.arrival_speed_mps =
-      kArrivalSpeedShare * (1.0 - (1.0 - care.arrival_factor) * slow) * top;
+  ends.arrival_speed_mps = kArrivalSpeedShare * (1.0 - (1.0 - care.arrival_factor) * slow) * top;
   ends.arrival_speed_max_mps = kArrivalSpeedMaxShare * top;
   if (slow < 1.0) {
     ends.limits.speed_max_mps = kSpeedShare * safety.speed_max_mps;

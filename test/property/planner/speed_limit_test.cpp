@@ -10,7 +10,8 @@
 namespace otter_nav::planner {
 namespace {
 
-const std::filesystem::path kVessels = std::filesystem::path(OTTER_NAV_SOURCE_DIR) / "config/vessels";
+const std::filesystem::path kVessels =
+    std::filesystem::path(OTTER_NAV_SOURCE_DIR) / "config/vessels";
 
 Termination byIterations() {
   Termination termination;
@@ -60,7 +61,8 @@ struct Case {
 
 class SpeedLimit : public ::testing::TestWithParam<Case> {
  protected:
-  SpeedLimit() : vessel_(*vessel::loadParameters(kVessels / (std::string(GetParam().vessel) + ".yaml"))) {}
+  SpeedLimit()
+      : vessel_(*vessel::loadParameters(kVessels / (std::string(GetParam().vessel) + ".yaml"))) {}
 
   void expectNearTheLimit(const map::DistanceField& field, Query query, double share) {
     query.limits = feasibility::SafetyLimits::of(vessel_);

@@ -88,7 +88,7 @@ class ScriptedMission {
   Supervisor supervisor;
   vessel::State rest = vessel::State::Zero();
   vessel::Disturbance disturbance;  // as the tracker estimates it
-  double now_s = 98.5;  // 100 s once the weather is known
+  double now_s = 98.5;              // 100 s once the weather is known
 };
 
 }  // namespace otter_nav::mission::test

@@ -13,7 +13,14 @@ namespace otter_nav::mission {
 namespace {
 
 using Eigen::Vector2d;
+using test::openWater;
 using test::ScriptedMission;
+
+SupervisorOptions knowing() {
+  SupervisorOptions options;
+  options.plan_with_weather = true;
+  return options;
+}
 
 // Estimates of a force by time, ten a second; the orders that come of them.
 using Force = std::function<Vector2d(double)>;
@@ -47,7 +54,7 @@ TEST(SupervisorInWind, KeepsThrustAndDistanceForGustsThatItSaw) {
   ASSERT_TRUE(still && still->plan);
   EXPECT_DOUBLE_EQ(still->plan->thrust_share, calm.options.thrust_share);
 
-  ScriptedMission mission;
+  ScriptedMission mission(openWater(), knowing());
   blow(mission, 60.0, gusty);
   const auto orders = mission.goTo({20.0, 0.0});
   ASSERT_TRUE(orders && orders->plan);
@@ -84,7 +91,7 @@ TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
 
 // 4 m/s take 80 N of 100 N.
 TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
-  ScriptedMission mission;
+  ScriptedMission mission(openWater(), knowing());
   mission.setOut(6.0);
   EXPECT_TRUE(blow(mission, 2.0, steady).plans.empty());
   const Blown blown = blow(mission, 6.0, [](double) { return Vector2d(-60.0, 0.0); });
@@ -92,6 +99,18 @@ TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
   EXPECT_TRUE(blown.plans.front().moving);
   EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.x(), -10.0);
+}
+
+// As shipped: for still water, with the same left for gusts.
+TEST(SupervisorInWind, PlansForStillWaterUnlessAsked) {
+  ScriptedMission mission, asked(openWater(), knowing());
+  blow(mission, 60.0, gusty);
+  blow(asked, 60.0, gusty);
+  const auto orders = mission.goTo({20.0, 0.0});
+  const auto others = asked.goTo({20.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan && others && others->plan);
+  EXPECT_EQ(orders->plan->query.limits.disturbance.force_n.x(), 0.0);
+  EXPECT_DOUBLE_EQ(orders->plan->thrust_share, others->plan->thrust_share);
 }
 
 // The estimate begins at nothing and overshoots: the first plan waits for what it comes to.
@@ -117,7 +136,7 @@ TEST(SupervisorInWind, SteadyWeatherIsNoGroundForAnotherPlan) {
 }
 
 TEST(SupervisorInWind, AllowsMoreThrustWhereThereIsNoPlanWithLess) {
-  ScriptedMission mission;
+  ScriptedMission mission(openWater(), knowing());
   blow(mission, 60.0, gusty);
   mission.setOut(6.0);
   std::vector<PlanRequest> asked;
