@@ -45,7 +45,7 @@ TEST(LoadParameters, EveryNumberRoundTrips) {
   Parameters written;
   Numbers set;
   Parameters::describe(written, set);
-  ASSERT_EQ(set.seen.size(), 1U + 5U + 17U + 4U + 2U);
+  ASSERT_EQ(set.seen.size(), 2U + 5U + 17U + 4U + 2U);
   auto read = readParameters({YAML::Load(toYaml(written)), "text"});
   ASSERT_TRUE(read) << read.error().message;
   Numbers again;
