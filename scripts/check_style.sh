@@ -23,7 +23,7 @@ mapfile -t known < <(/usr/bin/python3 - "$build/compile_commands.json" "$command
 import json, os, re, sys
 entries = json.load(open(sys.argv[1]))
 for entry in entries:
-    entry["command"] = re.sub(r"-W(no-error=)?invalid-pch|-include \S*cmake_pch\.hxx", "", entry["command"])
+    entry["command"] = re.sub(r"-W(no-error=)?invalid-pch|-Wno-maybe-uninitialized|-include \S*cmake_pch\.hxx", "", entry["command"])
 json.dump(entries, open(os.path.join(sys.argv[2], "compile_commands.json"), "w"))
 compiled = {os.path.realpath(entry["file"]) for entry in entries}
 print("\n".join(s for s in sys.argv[3:] if os.path.realpath(s) in compiled))

@@ -133,7 +133,7 @@ class Rviz(unittest.TestCase):
                 rviz.wait()
 
     def watch(self, screen, rviz):
-        wanted = {"land": 1500, "charted": 20000, "seen": 20000, "sensed": 200, "port": 800,
+        wanted = {"land": 1500, "charted": 20000, "seen": 20000, "sensed": 60, "port": 800,
                   "sailing": 1500}
         end = time.monotonic() + PATIENCE_S
         seen = {}
