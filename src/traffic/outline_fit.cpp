@@ -69,7 +69,7 @@ double rectangleDeviation(const std::vector<Eigen::Vector2d>& points, double dir
 Circle circleThrough(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  const Eigen::Vector2d near = points.front();
+  const Eigen::Vector2d& near = points.front();
   for (const Eigen::Vector2d& point : points) {
     const Eigen::Vector2d p = point - near;
     const Eigen::Vector3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
