@@ -6,7 +6,7 @@ _otter_nav() {
   programs=$(dirname "$(dirname "$(readlink -f "$(command -v otter_nav)")")")/lib/otter_nav
   if [ "$cword" -eq 1 ]; then
     local names
-    names=$(find "$programs/" -maxdepth 1 -perm -u+x \( -type f -o -type l \) ! -name '*_node' -printf '%f ')
+    names=$(find "$programs/" -maxdepth 1 -perm -u+x \( -type f -o -type l \) ! -name '*_node' ! -name '*.py' -printf '%f ')
     mapfile -t COMPREPLY < <(compgen -W "--help $names" -- "$cur")
   elif [[ $cur == -* && -x $programs/${words[1]} ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$(_parse_help "$programs/${words[1]}" --help)" -- "$cur")

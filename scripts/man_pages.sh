@@ -18,7 +18,7 @@ page() { # name, command, what it is
 
 for program in "$programs"/*; do
   name=${program##*/}
-  case $name in *_node) continue ;; esac
+  case $name in *_node | *.py) continue ;; esac
   [ -f "$program" ] && [ -x "$program" ] || continue
   # CLI11 begins with the sentence about the program, argparse has it after the usage.
   what=$("$program" --help | awk '/^[A-Z]/ && !/^[Uu]sage/ {print; exit}')
