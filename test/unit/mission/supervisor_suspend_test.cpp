@@ -110,7 +110,7 @@ TEST(Pause, EndsWithTheMission) {
   EXPECT_FALSE(resume(mission));
 }
 
-TEST(Hold, KeepsThePlaceOfAVesselWithoutAMission) {
+TEST(Hold, KeepsAVesselThatHasNoMission) {
   ScriptedMission mission;
   EXPECT_TRUE(hold(mission).stop);
   EXPECT_EQ(mission.supervisor.phase(), Phase::kHolding);

@@ -41,7 +41,7 @@ TEST(CylinderField, IsTheSameForTheSameSeed) {
 }
 
 // A wall across with a gap 1 m wide: a place in it keeps half of that.
-TEST(WidestWay, IsTheNarrowestPlaceOfTheBestWay) {
+TEST(WidestWay, IsWhereTheBestWayIsNarrowest) {
   map::OccupancyGrid grid;
   grid.geometry = {100, 100, 0.1, {0.0, 0.0}};
   grid.cells.assign(10000, Cell::kFree);
