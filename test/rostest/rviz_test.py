@@ -116,9 +116,9 @@ class Rviz(unittest.TestCase):
         self.map.publish(grid())
         with open(os.path.join(PACKAGE, "config", "vessels", "otter_gazebo.yaml")) as file:
             self.vessel.publish(file.read())
-        update = OccupancyGridUpdate(x=140, y=112, width=8, height=16, data=[100] * 128)
-        update.header.frame_id = "map"
-        self.updates.publish(update)
+        # Sent again and again: the first may come before the map that it changes.
+        self.update = OccupancyGridUpdate(x=140, y=112, width=8, height=16, data=[100] * 128)
+        self.update.header.frame_id = "map"
         environment = dict(os.environ, LIBGL_ALWAYS_SOFTWARE="1")
         environment.pop("QT_QPA_PLATFORM", None)
         with Screen() as screen:
@@ -133,12 +133,13 @@ class Rviz(unittest.TestCase):
                 rviz.wait()
 
     def watch(self, screen, rviz):
-        wanted = {"land": 1500, "charted": 20000, "seen": 20000, "sensed": 60, "port": 800,
+        wanted = {"land": 1500, "charted": 20000, "seen": 20000, "sensed": 200, "port": 800,
                   "sailing": 1500}
         end = time.monotonic() + PATIENCE_S
         seen = {}
         while time.monotonic() < end:
             self.assertIsNone(rviz.poll(), "rviz ended")
+            self.updates.publish(self.update)
             for _ in range(10):
                 self.publish_state()
                 time.sleep(0.05)

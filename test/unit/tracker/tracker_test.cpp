@@ -133,7 +133,7 @@ TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
       sail(0.1);
       fastest = std::max(fastest, state_[vessel::kSurge]);
     }
-    EXPECT_LT(fastest, 1.08 * limit);
+    EXPECT_LT(fastest, 1.03 * limit);
     EXPECT_GT(fastest, 0.97 * limit);
   }
 }
