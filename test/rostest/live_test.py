@@ -44,8 +44,9 @@ class Live(unittest.TestCase):
 
     def test_live(self):
         time.sleep(3.0)  # on the computer's clock
-        scenario = rospkg.RosPack().get_path("otter_nav") + "/maps/demo/demo.yaml"
-        self.plant = subprocess.Popen(["roslaunch", "otter_nav", "plant.launch", "disturbance:=none",
+        package = rospkg.RosPack().get_path("otter_nav")
+        scenario = package + "/maps/demo/demo.yaml"
+        self.plant = subprocess.Popen(["roslaunch", package + "/launch/plant.launch", "disturbance:=none",
                                        "scenario:=" + scenario])
         self.assertTrue(self.until(lambda: self.truth), "no plant")
         self.assertTrue(self.until(lambda: sum("starts anew" in line for line in self.log) >= 2), self.log)
