@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "otter_nav/config/share.hpp"
@@ -129,15 +130,28 @@ Result<YAML::Node> optionsOf(const RecordedRun& run, bool partial,
   return both;
 }
 
-Result<tracker::Options> optionsWith(const YAML::Node& recorded,
-                                     const std::vector<std::string>& changes) {
+const std::map<std::string, double tracker::Weights::*> kWeights = {
+    {"position", &tracker::Weights::position}, {"heading", &tracker::Weights::heading},
+    {"surge", &tracker::Weights::surge},       {"sway", &tracker::Weights::sway},
+    {"yaw_rate", &tracker::Weights::yaw_rate}, {"thrust", &tracker::Weights::thrust}};
+
+Result<Settings> settingsWith(const YAML::Node& recorded, const std::vector<std::string>& changes) {
+  const std::string weights = "tracker.flatness.";
   YAML::Node node = YAML::Clone(recorded);
+  std::vector<double tracker::Weights::*> pinned;
   for (const std::string& change : changes) {
     if (const Status status = assign(node, change); !status) {
       return failure(status.error().message);
     }
+    if (change.rfind(weights, 0) == 0) {
+      pinned.push_back(
+          kWeights.at(change.substr(weights.size(), change.find('=') - weights.size())));
+    }
   }
-  return config::read<tracker::Options>(config::Section(node, "the tracker's options"));
+  return config::read<tracker::Options>(config::Section(node, "the tracker's options"))
+      .map([&](const tracker::Options& options) {
+        return Settings{options, pinned};
+      });
 }
 
 Result<vessel::Parameters> vesselOf(const RecordedRun& run, const std::string& given) {
@@ -221,9 +235,9 @@ void printEstimate(const std::vector<Step>& steps) {
 }
 
 Status compare(const Arguments& a, const RecordedRun& run, const vessel::Parameters& vessel,
-               const tracker::Options& options, std::vector<std::string>& notes) {
+               const Settings& settings, std::vector<std::string>& notes) {
   const bool as_it_was = a.set.empty() && a.vessel.empty() && !a.read.partial;
-  const auto steps = retrack(run, options, vessel, a.window,
+  const auto steps = retrack(run, settings, vessel, a.window,
                              as_it_was ? Sent::kOwn : Sent::kRecorded, a.read.partial, notes);
   if (!steps) {
     return failure(a.bag + ": " + steps.error().message);
@@ -286,11 +300,11 @@ Status sail(const Arguments& a, const RecordedRun& run, const vessel::Parameters
               "thrust N/s", "saturated", "yaw rad/s", "setting");
   nlohmann::json json = {{"simulated", true}, {"hull", a.hull}, {"notes", notes}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto options = optionsWith(recorded, rows[i].changes);
-    if (!options) {
-      return failure(options.error().message);
+    const auto settings = settingsWith(recorded, rows[i].changes);
+    if (!settings) {
+      return failure(settings.error().message);
     }
-    const auto steps = sailAgain(run, *options, vessel, hull, a.window);
+    const auto steps = sailAgain(run, *settings, vessel, hull, a.window);
     if (!steps) {
       return failure(a.bag + ": " + steps.error().message);
     }
@@ -325,9 +339,9 @@ Status run(const Arguments& a) {
   if (!vessel || !told) {
     return failure(a.bag + ": " + (vessel ? told.error() : vessel.error()).message);
   }
-  const Result<tracker::Options> options = optionsWith(*told, a.set);
-  if (!options) {
-    return failure(options.error().message);
+  const Result<Settings> settings = settingsWith(*told, a.set);
+  if (!settings) {
+    return failure(settings.error().message);
   }
   std::error_code error;
   std::filesystem::create_directories(a.out, error);
@@ -335,7 +349,7 @@ Status run(const Arguments& a) {
     return failure(a.out + ": " + error.message());
   }
   const Status status = a.closed_loop ? sail(a, *recorded, *vessel, *told, notes)
-                                      : compare(a, *recorded, *vessel, *options, notes);
+                                      : compare(a, *recorded, *vessel, *settings, notes);
   for (const std::string& note : notes) {
     std::printf("Note: %s\n", note.c_str());
   }

@@ -198,6 +198,8 @@ def _read(bag, path, vessel, namespace, partial):
                 stamps[topic] = stamp
             if kind in ("parameters", "vessel"):
                 node = topic.rsplit("/", 2)[-2] if kind == "parameters" else "vessel"
+                if kind == "parameters":
+                    readers[-1].take_parameters(node, texts.get(node), message.data, t)
                 texts[node] = message.data
                 readers[-1].texts = dict(texts)
             else:
@@ -260,6 +262,7 @@ class _RunReader:
         self.chart_kind = ""
         self.cycles = []
         self.texts = {}
+        self.changed = []
 
     def moved(self):
         return any(len(self.rows[kind]) > 1 for kind in ("truth", "odometry", "ground_truth"))
@@ -290,6 +293,14 @@ class _RunReader:
             rows = self.rows[kind]
             if not rows or kind == "contact" or t > rows[-1][0]:
                 rows.append(_ROWS[kind](t, m))
+
+    def take_parameters(self, node, before, now, t):
+        """What was set while the node ran: the same keys with other values."""
+        old, new = (_leaves(yaml.safe_load(text)) if text else {} for text in (before, now))
+        if not self.moved() or old.keys() != new.keys():
+            return
+        self.changed += [Event(t, node, f"{key}: {old[key]} → {new[key]}") for key in new
+                              if new[key] != old[key]]
 
     def _take_trajectory(self, m, received):
         start = m.header.stamp.to_sec()
@@ -323,7 +334,8 @@ class _RunReader:
         run.planner_states = _changes(self.status["planner"])
         run.tracker_states = _changes(self.status["tracker"])
         run.plans = _plans(self.status["planner"])
-        run.events = _events(run, self.status["tracker"])
+        run.events = sorted(_events(run, self.status["tracker"]) + self.changed,
+                            key=lambda event: event.t)
         run.cycles = table_of(_CYCLE, self.cycles)
         run.label = _label(self.texts)
         run.vessel_is_recorded = "vessel" in self.texts
@@ -390,6 +402,13 @@ def _numbers(messages):
         for k, name in enumerate(("force_x", "force_y", "moment")):
             columns[name] = [m.disturbance[k] for m in messages]
     return Table(**columns)
+
+
+def _leaves(tree, path=""):
+    if not isinstance(tree, dict):
+        return {path: tree}
+    return {key: value for name, inner in tree.items()
+            for key, value in _leaves(inner, f"{path}.{name}" if path else str(name)).items()}
 
 
 def _changes(messages):

@@ -13,6 +13,7 @@ import numpy
 
 from .bag import open_bag, raw_messages, vessel_topics
 from .errors import RecordingError
+from .vessel import share_folder
 
 # A vessel, its tracker or its planner that runs meanwhile shall not take these for its own.
 _ORDERS = {"thruster_command", "trajectory", "goal", "cancel", "initialpose", "lockstep_ack",
@@ -300,6 +301,20 @@ def _raw_class(pytype):
                  "_full_text": pytype._full_text, "_has_header": False})
 
 
+def hull(path, namespace, partial):
+    """The recorded robot_description; the Otter's where the recording has none."""
+    try:
+        with open_bag(path, partial) as bag:
+            _, prefix = vessel_topics(list(bag._get_connections()), namespace, path)
+            for topic in (prefix + "/robot_description", "/robot_description"):
+                for _, message, _ in bag.read_messages(topics=[topic]):
+                    return message.data
+    except RecordingError:
+        pass  # who plays the bag says so
+    with open(share_folder() / "rviz" / "otter.urdf") as file:
+        return file.read()
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(
         prog="replay_bag", description="Publishes a recorded run for rviz, with /clock. Orders and "
@@ -312,8 +327,13 @@ def main(arguments=None):
     parser.add_argument("--namespace", help="of the vessel, where the bag holds several")
     parser.add_argument("--partial", nargs="?", const="true", default="false",
                         choices=("true", "false"), help="read what is there of a bag cut off")
+    parser.add_argument("--hull", action="store_true", help="only print the hull (URDF) that was recorded, "
+                        "or the Otter's")
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     options = parser.parse_args([a for a in arguments if not a.startswith("__") and ":=" not in a])
+    if options.hull:
+        print(hull(options.bag, options.namespace or None, options.partial == "true"))
+        return 0
     try:
         if not options.rate > 0.0 or not options.start >= 0.0:
             raise RecordingError("--rate has to be above 0, --start not below")

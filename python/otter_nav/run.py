@@ -14,7 +14,7 @@ CONTACTS = ("t", "in_contact", "x", "y", "speed")
 @dataclass
 class Event:
     t: float      # s
-    source: str   # planner, tracker, plant
+    source: str   # planner, tracker, plant; a node whose parameters were set
     text: str
 
 

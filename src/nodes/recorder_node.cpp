@@ -64,15 +64,18 @@ void RecorderNode::onMessage(const std::string& topic, const Recording::Event& e
   if (failed_) {
     return;
   }
-  std::optional<Recording::Stamp> stamp;
   try {
-    stamp = recording_.write(node_.resolveName(topic), event, ros::Time::now());
+    take(topic, event);
   } catch (const std::exception& error) {
     failed_ = true;
     ROS_FATAL_STREAM("Recording: " << options_.file << ": " << error.what());
     ros::requestShutdown();
-    return;
   }
+}
+
+void RecorderNode::take(const std::string& topic, const Recording::Event& event) {
+  const std::optional<Recording::Stamp> stamp =
+      recording_.write(node_.resolveName(topic), event, ros::Time::now());
   if (!stamp) {
     return;
   }
@@ -92,6 +95,13 @@ void RecorderNode::announce() {
     return;
   }
   announced_ = true;
+  // The hull in rviz is a parameter, no topic.
+  const std::string hull = "robot_description";
+  std::string key;
+  std::string text;
+  if (node_.searchParam(hull, key) && node_.getParam(key, text)) {
+    recording_.note(node_.resolveName(hull), text);
+  }
   std_msgs::Header message;
   message.frame_id = ros_bridge::nodeName();
   recording_publisher_.publish(message);

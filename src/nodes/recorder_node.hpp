@@ -35,6 +35,7 @@ class RecorderNode {
   [[nodiscard]] Status open() { return recording_.open(options_.file); }
   void listen();
   void onMessage(const std::string& topic, const Recording::Event& event);
+  void take(const std::string& topic, const Recording::Event& event);
   // Says that it listens, once everything paced has come.
   void announce();
   // In lockstep: time may go on past the scans up to which everything is here.

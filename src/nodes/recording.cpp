@@ -102,6 +102,18 @@ std::optional<Recording::Stamp> Recording::write(const std::string& topic, const
   return stamp;
 }
 
+void Recording::note(const std::string& topic, const std::string& text) {
+  namespace traits = ros::message_traits;
+  std_msgs::String message;
+  message.data = text;
+  const auto header = boost::make_shared<ros::M_string>();
+  *header = {{"latching", "1"},
+             {"type", traits::datatype(message)},
+             {"md5sum", traits::md5sum(message)},
+             {"message_definition", traits::definition(message)}};
+  bag_.write(topic, std::max(last_time_, ros::TIME_MIN), message, header);
+}
+
 std::string Recording::lost() const {
   std::ostringstream out;
   for (const auto& [key, line] : lines_) {

@@ -29,6 +29,8 @@ class Recording {
   // The message's stamp, if its type has one. What comes before there is a time (a simulator's
   // clock stands still yet) waits for it. Throws rosbag::BagException where the disk refuses.
   std::optional<Stamp> write(const std::string& topic, const Event& event, const ros::Time& now);
+  // A latched text that nobody publishes. Throws as write().
+  void note(const std::string& topic, const std::string& text);
   // Writes the index; what was lost is a last message on `recording_gaps`.
   [[nodiscard]] Status close(const std::string& gaps_topic);
 

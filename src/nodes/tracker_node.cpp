@@ -233,6 +233,8 @@ void TrackerNode::publishCycle(const tracker::Command& command) {
   message.odometry_taken = command.odometry_taken;
   message.odometry_time = command.odometry_stamp_s;
   message.trajectory_taken = command.order_taken;
+  const tracker::Weights& w = command.weights;
+  message.weights = {w.position, w.heading, w.surge, w.sway, w.yaw_rate, w.thrust};
   message.state = tracker::name(command.mode);
   message.left = command_message_.left;
   message.right = command_message_.right;

@@ -1,5 +1,7 @@
 #include "otter_nav/ros/live_parameters.hpp"
 
+#include <std_msgs/String.h>
+
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -77,9 +79,12 @@ void leaves(XmlRpcValue& tree, const std::string& path, std::map<std::string, Xm
 
 }  // namespace
 
-LiveParameters::LiveParameters(std::vector<config::NumberField> live, Apply apply)
-    : live_(std::move(live)), apply_(std::move(apply)) {
+LiveParameters::LiveParameters(std::vector<config::NumberField> live, Apply apply,
+                               ros::Publisher in_force)
+    : live_(std::move(live)), apply_(std::move(apply)), told_(std::move(in_force)) {
   node_.getParam(node_.getNamespace(), current_);
+  in_force_ = current_;
+  tell();
   if (!live_.empty()) {
     advertise();
   }
@@ -206,6 +211,12 @@ void LiveParameters::change(const std::vector<Change>& changes) {
       [&](const YAML::Node& node) { return apply_(config::Section(node, node_.getNamespace())); });
   if (status) {
     current_ = wanted;
+    for (const Change& one : changes) {
+      if (XmlRpcValue* value = find(in_force_, one.path)) {
+        *value = XmlRpcValue(one.value);
+      }
+    }
+    tell();
     ROS_INFO_STREAM("Changed while running: " << told);
   } else {
     ROS_WARN_STREAM("Not changed (" << told << "): " << status.error().message);
@@ -222,6 +233,14 @@ void LiveParameters::change(const std::vector<Change>& changes) {
     }
   }
   update_publisher_.publish(values());
+}
+
+void LiveParameters::tell() {
+  std_msgs::String text;
+  if (const Result<YAML::Node> node = toYaml(in_force_)) {
+    text.data = YAML::Dump(*node) + '\n';
+  }
+  told_.publish(text);
 }
 
 void LiveParameters::warnOf(const std::string& path) const {

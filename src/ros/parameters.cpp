@@ -59,32 +59,18 @@ Result<YAML::Node> toYaml(XmlRpc::XmlRpcValue& value) {
   }
 }
 
-namespace {
-
-Result<YAML::Node> readAll(const ros::NodeHandle& handle) {
+Result<config::Section> readSection(const ros::NodeHandle& handle) {
   XmlRpc::XmlRpcValue value;
   if (!handle.getParam(handle.getNamespace(), value) ||
       value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     return failure(handle.getNamespace() +
                    ": no parameters; load the node's file of config/ with rosparam or roslaunch");
   }
-  Result<YAML::Node> node = toYaml(value);
+  const Result<YAML::Node> node = toYaml(value);
   if (!node) {
     return failure(handle.getNamespace() + ": parameter " + node.error().message);
   }
-  return node;
-}
-
-}  // namespace
-
-Result<config::Section> readSection(const ros::NodeHandle& handle) {
-  return readAll(handle).map(
-      [&](const YAML::Node& node) { return config::Section(node, handle.getNamespace()); });
-}
-
-std::string parametersText(const ros::NodeHandle& handle) {
-  const Result<YAML::Node> node = readAll(handle);
-  return node ? YAML::Dump(*node) + '\n' : std::string();
+  return config::Section(*node, handle.getNamespace());
 }
 
 std::string nodeName() {

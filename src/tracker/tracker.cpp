@@ -387,6 +387,7 @@ void Tracker::Core::finish(double now_s, const vessel::State& state, Command& co
   command.odometry_taken = odometry_taken_;
   command.odometry_stamp_s = odometry_stamp_s_;
   command.order_taken = order_taken_;
+  command.weights = weights_ ? *weights_ : options_.flatness;
   command.mode = mode_;
   command.estimate = state;
   command.disturbance = navigator_.disturbanceEstimate();

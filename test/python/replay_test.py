@@ -97,3 +97,30 @@ def test_a_recording_says_whose_it_is_and_what_the_tracker_thought(tmp_path):
     numpy.testing.assert_array_equal(run.cycles.left, [1.0, 2.0])
     numpy.testing.assert_array_equal(run.cycles.wind_y, [2.0, 2.0])
     numpy.testing.assert_array_equal(run.cycles.force_y, [4.0, 4.0])
+
+
+def test_parameters_set_under_way_are_events(tmp_path):
+    path = tmp_path / "tuned.bag"
+    told = "tracker:\n  flatness: {position: %g, heading: 50}\nspeed: 1\n"
+    with rosbag.Bag(path, "w") as bag:
+        latched(bag, "/tracker_node/parameters", String(told % 100), 100.0)
+        for name, message, t in messages():
+            bag.write(f"/{name}", message, stamp(t))
+            if name == "contact":
+                latched(bag, "/tracker_node/parameters", String(told % 20), t)
+    run, = read_bag(path)
+    changed = [event for event in run.events if event.source == "tracker_node"]
+    assert [event.text for event in changed] == ["tracker.flatness.position: 100 → 20"]
+    assert abs(changed[0].t - 117.5) < 1e-6
+
+
+def test_the_hull_is_the_recorded_one(tmp_path):
+    path = str(tmp_path / "hull.bag")
+    with rosbag.Bag(path, "w") as bag:
+        for name, message, t in messages():
+            bag.write(f"/otter1/{name}", message, stamp(t))
+    assert 'robot name="otter"' in replay.hull(path, None, False)
+    with rosbag.Bag(path, "a") as bag:
+        latched(bag, "/otter1/robot_description", String("<robot name='barge'/>"), 118.0)
+    assert replay.hull(path, None, False) == "<robot name='barge'/>"
+    assert 'robot name="otter"' in replay.hull(str(tmp_path / "none.bag"), None, False)

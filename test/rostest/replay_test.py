@@ -12,6 +12,7 @@ import unittest
 import rosbag
 import rospkg
 import rostest
+import yaml
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from mission_test import POND, Mission, free_port, processes_of, wait_until  # noqa: E402
@@ -20,6 +21,11 @@ PACKAGE = rospkg.RosPack().get_path("otter_nav")
 SAME_N = 1e-9
 COLUMNS = ["t", "left_recorded_n", "right_recorded_n", "left_recomputed_n", "right_recomputed_n"]
 
+REWEIGH = """
+import dynamic_reconfigure.client, rospy
+rospy.init_node("reweigh")
+dynamic_reconfigure.client.Client("/tracker_node", timeout=30).update_configuration({"position": 20.0})
+"""
 
 # Prints how many messages came on each topic, and the topics that are published.
 WATCH = """
@@ -46,9 +52,11 @@ class Replay(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def record(self, name, **arguments):
+    def record(self, name, under_way=None, **arguments):
         bag = self.path(name)
         launch, port = self.start(scenario=POND, record=bag, result=bag + ".json", **arguments)
+        if under_way:
+            under_way({**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}"})
         output, _ = launch.communicate(timeout=300)
         self.assertTrue(os.path.exists(bag), output)
         self.assertTrue(wait_until(lambda: not processes_of(port), 20), processes_of(port))
@@ -185,9 +193,29 @@ class Replay(unittest.TestCase):
         self.assertIn("1 holes", done.stdout)
 
     def test_real_time(self):
-        bag = self.record("free.bag", speed=1, lockstep="false")
+        """The weights changed under way as well: the steps after that are made with the new ones."""
+        bag = self.record("free.bag", self.reweigh, speed=1, lockstep="false")
         self.assert_whole_in_real_time(bag)
         self.assert_same(bag)
+        with rosbag.Bag(bag) as recorded:
+            told = [yaml.safe_load(m.data)["tracker"]["flatness"]["position"] for _, m, _ in
+                    recorded.read_messages(topics=["/tracker_node/parameters"])]
+            used = [m.weights[0] for _, m, _ in recorded.read_messages(topics=["/tracker_cycle"])
+                    if m.cycle > 0]
+        self.assertEqual(told, [100.0, 20.0])
+        self.assertEqual((used[0], used[-1]), (100.0, 20.0))
+        done, figures, rows = self.replay(bag, "--set", "tracker.flatness.position=100")
+        self.assertGreater(figures["difference_max_n"], 0.01, done.stdout)
+        first = next(row["t"] for row, weight in zip(rows, used) if weight != 100.0)
+        done, figures, _ = self.replay(bag, "--set", "tracker.flatness.position=100", "--to",
+                                       str(float(first) - 0.02))
+        self.assertLess(figures["difference_max_n"], SAME_N, done.stdout)
+
+    @staticmethod
+    def reweigh(environment):
+        wait_until(lambda: subprocess.run(["rostopic", "echo", "-n", "1", "/trajectory/id"], env=environment,
+                                          timeout=60, capture_output=True).returncode == 0, 60)
+        subprocess.run([sys.executable, "-c", REWEIGH], env=environment, timeout=60, check=True)
 
     def assert_whole_in_real_time(self, bag):
         with rosbag.Bag(bag) as recorded:

@@ -145,6 +145,8 @@ class Vessel {
     cycle.odometry_taken = message.odometry_taken;
     cycle.odometry_stamp_s = message.odometry_time;
     cycle.order_taken = message.trajectory_taken;
+    const auto& w = message.weights;
+    cycle.weights = {w[0], w[1], w[2], w[3], w[4], w[5]};
     cycle.position = position;
     cycle.thrusts_n = {message.left, message.right};
     cycle.reference = Eigen::Map<const vessel::State>(message.reference.data());

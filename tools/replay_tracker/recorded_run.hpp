@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/tracker/options.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/types.hpp"
@@ -34,6 +35,7 @@ struct RecordedCycle {
   std::uint64_t odometry_taken = 0;
   double odometry_stamp_s = 0.0;
   std::uint32_t order_taken = 0;
+  tracker::Weights weights;  // in force
   std::size_t position = 0;
   vessel::Thrusts thrusts_n = vessel::Thrusts::Zero();
   vessel::State reference = vessel::State::Zero();

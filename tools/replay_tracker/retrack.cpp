@@ -111,6 +111,27 @@ class OrderFeed {
   std::uint32_t taken_ = 0;
 };
 
+// Sets the weights that each step had.
+class WeightsFeed {
+ public:
+  explicit WeightsFeed(const Settings& settings) : settings_(settings) {}
+
+  void give(const tracker::Weights& recorded, Tracker& tracker) {
+    tracker::Weights weights = recorded;
+    for (const auto one : settings_.pinned) {
+      weights.*one = settings_.options.flatness.*one;
+    }
+    if (!(weights == given_)) {
+      given_ = weights;
+      tracker.setWeights(weights);
+    }
+  }
+
+ private:
+  const Settings& settings_;
+  tracker::Weights given_ = settings_.options.flatness;
+};
+
 bool tracks(const tracker::Command& command) {
   return command.mode == tracker::Mode::kTracking || command.mode == tracker::Mode::kHolding;
 }
@@ -161,10 +182,11 @@ Figures figures(const std::vector<Step>& steps, const vessel::Thrusters& limits)
   return f;
 }
 
-Result<std::vector<Step>> retrack(const RecordedRun& run, const tracker::Options& options,
+Result<std::vector<Step>> retrack(const RecordedRun& run, const Settings& settings,
                                   const vessel::Parameters& vessel, const Window& window, Sent sent,
                                   bool partial, std::vector<std::string>& notes) {
-  Tracker tracker(options, vessel);
+  Tracker tracker(settings.options, vessel);
+  WeightsFeed weights(settings);
   OdometryFeed odometry(run.odometry);
   OrderFeed orders(run.orders);
   std::vector<Step> steps;
@@ -194,11 +216,14 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const tracker::Options
     }
     Step step;
     step.recorded = cycle;
+    if (!run.from_commands) {
+      weights.give(cycle.weights, tracker);
+    }
     step.command = tracker.step(cycle.time_s);
     if (sent == Sent::kRecorded) {
       tracker.replaceCommand(cycle.thrusts_n);
     }
-    tracker.prepare(step.command.stamp_s + options.period_s);
+    tracker.prepare(step.command.stamp_s + settings.options.period_s);
     if (window.has(cycle.time_s)) {
       steps.push_back(std::move(step));
     }
@@ -213,7 +238,7 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const tracker::Options
   return steps;
 }
 
-Result<std::vector<Step>> sailAgain(const RecordedRun& run, const tracker::Options& options,
+Result<std::vector<Step>> sailAgain(const RecordedRun& run, const Settings& settings,
                                     const vessel::Parameters& vessel, Hull hull,
                                     const Window& window) {
   const auto first = std::find_if(
@@ -229,7 +254,9 @@ Result<std::vector<Step>> sailAgain(const RecordedRun& run, const tracker::Optio
   }
   SimulatedHull& simulated = **vessel_model;
   simulated.place(first->estimate, first->thrusts_n);
+  const tracker::Options& options = settings.options;
   Tracker tracker(options, vessel);
+  WeightsFeed weights(settings);
   OrderFeed orders(run.orders);
   std::vector<Step> steps;
   for (auto cycle = first; cycle != run.cycles.end(); ++cycle) {
@@ -243,6 +270,7 @@ Result<std::vector<Step>> sailAgain(const RecordedRun& run, const tracker::Optio
     Step step;
     step.recorded = *cycle;
     step.truth = simulated.state();
+    weights.give(cycle->weights, tracker);
     step.command = tracker.step(cycle->time_s);
     tracker.prepare(cycle->time_s + options.period_s);
     if (tracks(step.command)) {

@@ -22,6 +22,13 @@ struct Step {
   vessel::State truth = vessel::State::Zero();  // in closed loop
 };
 
+// What the tracker is told. Its weights may have been set anew while the run was recorded; those
+// `pinned` stay as in `options` nevertheless.
+struct Settings {
+  tracker::Options options;
+  std::vector<double tracker::Weights::*> pinned;
+};
+
 struct Figures {
   double difference_max_n = 0.0;  // of either thruster, to the recorded
   double difference_max_time_s = 0.0;
@@ -51,8 +58,7 @@ enum class Sent {
 // Every step of the run up to the window's end is made again, since each rests on those before; the
 // result has those in the window. An error names the first hole in the recording; with `partial` it
 // is a note, and the steps after it go by what is there.
-[[nodiscard]] Result<std::vector<Step>> retrack(const RecordedRun& run,
-                                                const tracker::Options& options,
+[[nodiscard]] Result<std::vector<Step>> retrack(const RecordedRun& run, const Settings& settings,
                                                 const vessel::Parameters& vessel,
                                                 const Window& window, Sent sent, bool partial,
                                                 std::vector<std::string>& notes);
@@ -63,8 +69,7 @@ enum class Hull {
   kPlant,  // its plant (docs/plant.md)
 };
 // From the first step of the window on that tracks, with the estimate then as the vessel's state.
-[[nodiscard]] Result<std::vector<Step>> sailAgain(const RecordedRun& run,
-                                                  const tracker::Options& options,
+[[nodiscard]] Result<std::vector<Step>> sailAgain(const RecordedRun& run, const Settings& settings,
                                                   const vessel::Parameters& vessel, Hull hull,
                                                   const Window& window);
 

@@ -25,8 +25,9 @@ class LiveParameters {
   using Apply = std::function<Status(config::Section)>;
 
   // `live`: what may change, by its path below the node's name. It is known by its last key (and
-  // index), which has to be its own.
-  LiveParameters(std::vector<config::NumberField> live, Apply apply);
+  // index), which has to be its own. `in_force`, a latched std_msgs/String, is told all parameters
+  // as YAML, now and after each change.
+  LiveParameters(std::vector<config::NumberField> live, Apply apply, ros::Publisher in_force);
 
  private:
   struct Change {
@@ -41,12 +42,15 @@ class LiveParameters {
   void poll();
   void change(const std::vector<Change>& changes);
   void warnOf(const std::string& path) const;
+  void tell();
   [[nodiscard]] dynamic_reconfigure::Config values() const;
 
   ros::NodeHandle node_{"~"};
   std::vector<config::NumberField> live_;
   Apply apply_;
-  XmlRpc::XmlRpcValue current_;  // as the node has them, but for what has no effect
+  XmlRpc::XmlRpcValue current_;   // as the node has them, but for what has no effect
+  XmlRpc::XmlRpcValue in_force_;  // as the node has them
+  ros::Publisher told_;
   ros::Publisher description_publisher_;
   ros::Publisher update_publisher_;
   ros::ServiceServer service_;

@@ -18,9 +18,6 @@ namespace otter_nav::ros_bridge {
 // All parameters below `handle`'s namespace; an error if there are none.
 [[nodiscard]] Result<config::Section> readSection(const ros::NodeHandle& handle);
 
-// The same as YAML text, for whoever wants to know what a node was told; empty if there are none.
-[[nodiscard]] std::string parametersText(const ros::NodeHandle& handle);
-
 // This node's name without its namespace.
 [[nodiscard]] std::string nodeName();
 

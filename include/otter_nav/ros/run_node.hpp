@@ -32,7 +32,7 @@ int runNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
   ros::NodeHandle keep_alive;
   ros::NodeHandle own("~");
-  // What it was told is part of a recording.
+  // What it was told, and what of it changes, is part of a recording.
   const ros::Publisher parameters = own.advertise<std_msgs::String>("parameters", 1, true);
   ClockWatch clock;
   while (true) {
@@ -43,17 +43,15 @@ int runNode(int argc, char** argv, const char* name) {
       ros::shutdown();
       return 1;
     }
-    std_msgs::String text;
-    text.data = parametersText(own);
-    parameters.publish(text);
     std::optional<LiveParameters> live;
     if constexpr (HasLiveParameters<NodeClass>::value) {
-      live.emplace((*node)->live(), [&node](config::Section section) {
-        return (*node)->change(std::move(section));
-      });
+      live.emplace((*node)->live(),
+                   [&node](config::Section section) { return (*node)->change(std::move(section)); },
+                   parameters);
     } else {
-      live.emplace(std::vector<config::NumberField>(),
-                   [](const config::Section&) { return Status(); });
+      live.emplace(
+          std::vector<config::NumberField>(), [](const config::Section&) { return Status(); },
+          parameters);
     }
     bool changed = false;
     while (ros::ok() && !changed) {

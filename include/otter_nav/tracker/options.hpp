@@ -19,6 +19,11 @@ struct Weights {
   double yaw_rate = 0.1;
   double thrust = 3e-4;
 
+  friend bool operator==(const Weights& a, const Weights& b) {
+    return a.position == b.position && a.heading == b.heading && a.surge == b.surge &&
+           a.sway == b.sway && a.yaw_rate == b.yaw_rate && a.thrust == b.thrust;
+  }
+
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
     constexpr config::Range kWeight{0.0, 1e9};

@@ -53,6 +53,7 @@ struct Command {
   std::uint64_t odometry_taken = 0;  // states taken over so far
   double odometry_stamp_s = 0.0;     // of the last of them
   std::uint32_t order_taken = 0;     // the caller's number of the last order taken over
+  Weights weights;                   // in force
 };
 
 // The plan behind the last command: states at equal steps from `start_s`.
