@@ -82,6 +82,10 @@ void ReferenceSource::join(double now_s, const Vector2d& offset, const Vector2d&
   joins_ = true;
 }
 
+bool ReferenceSource::joining(double time_s) const {
+  return joins_ && time_s - joining_start_s_ < joining_.duration_s;
+}
+
 void ReferenceSource::rest(const Vector2d& position, double psi_rad) {
   rests_ = true;
   joins_ = false;
@@ -106,9 +110,8 @@ vessel::FlatPoint ReferenceSource::flat(double time_s) const {
     z.jerk.setZero();
     z.snap.setZero();
   }
-  const double t = time_s - joining_start_s_;
-  if (joins_ && t < joining_.duration_s) {
-    const vessel::FlatPoint offset = joining_.flat(std::max(t, 0.0));
+  if (joining(time_s)) {
+    const vessel::FlatPoint offset = joining_.flat(std::max(time_s - joining_start_s_, 0.0));
     z.position += offset.position;
     z.velocity += offset.velocity;
     z.acceleration += offset.acceleration;
@@ -136,8 +139,7 @@ ReferenceSource::Course ReferenceSource::course(double time_s) const {
   c.psi_rad = sample.state[kPsi];
   c.yaw_rate = sample.state[kYawRate];
   c.spins = std::isinf(sample.heading_force_n);
-  const bool joining = joins_ && time_s - joining_start_s_ < joining_.duration_s;
-  if (joining && c.flat.velocity.norm() > kSlowMps) {
+  if (joining(time_s) && c.flat.velocity.norm() > kSlowMps) {
     const vessel::FlatState state = inverse_.state(c.flat, c.flat.velocity);
     c.psi_rad = state.state[kPsi];
     c.yaw_rate = state.state[kYawRate];
@@ -228,8 +230,12 @@ void ReferenceSource::fill(double start_s, double step_s, int stages, double psi
       unwrapNear(reference.states[0][kPsi], psi_near_rad) - reference.states[0][kPsi];
   for (int k = 0; k <= stages; ++k) {
     reference.states[k][kPsi] += turns;
-    const double sailed = reference.states[k].segment<2>(kSurge).norm();
-    reference.speed_max_mps[k] = std::max(speed_max_mps_, kOverReference * sailed);
+    // A trajectory may begin above the limit; the way to it may not go beyond what either allows.
+    const double time_s = start_s + k * step_s;
+    const double planned = joining(time_s)
+                               ? trajectory_->flat(time_s - start_s_ - lag_s_).velocity.norm()
+                               : reference.states[k].segment<2>(kSurge).norm();
+    reference.speed_max_mps[k] = std::max(speed_max_mps_, kOverReference * planned);
   }
 }
 

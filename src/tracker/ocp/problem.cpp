@@ -40,12 +40,20 @@ void ControlProblem::expand(const Plan& plan, const OcpReference& reference, qp:
     qp::StateCost& cost = qp.state_costs[k];
     cost.weight_q = Pack{w[2], w[3], w[4], w[5]};
     cost.gradient_q = Pack{g[2], g[3], g[4], g[5]};
-    // A square beyond the limit: its curvature counts where it is exceeded.
-    const double over = plan.states[k][vessel::kSurge] - reference.speed_max_mps[k];
+    // A square of the speed over ground beyond the limit: a limit of surge alone would be worth a
+    // slalom, which gains way by sliding. Its curvature counts where it is exceeded; the diagonal
+    // that bounds it stands for the coupling of surge and sway.
+    const Eigen::Vector2d velocity = plan.states[k].segment<2>(vessel::kSurge);
+    const double speed = velocity.norm();
+    const double over = speed - reference.speed_max_mps[k];
     if (over > 0.0) {
       const double weight = options_.overspeed * options_.step_s;
-      cost.weight_q[1] += weight;
-      cost.gradient_q[1] += weight * over;
+      const Eigen::Vector2d along = velocity / speed;
+      const Eigen::Vector2d curvature = weight * along.cwiseAbs() * along.lpNorm<1>();
+      cost.weight_q[1] += curvature.x();
+      cost.weight_q[2] += curvature.y();
+      cost.gradient_q[1] += weight * over * along.x();
+      cost.gradient_q[2] += weight * over * along.y();
     }
     for (int i = 0; i < 2; ++i) {
       cost.weight_p[i] = w[i];

@@ -31,7 +31,7 @@ struct OcpOptions {
   vessel::Thrusts lower_n = vessel::Thrusts::Constant(-50.0);
   vessel::Thrusts upper_n = vessel::Thrusts::Constant(50.0);
   double far_m = 1e3;
-  double overspeed = 1e4;  // per (m/s)^2 and second, as the weights before their step
+  double overspeed = 3e4;  // per (m/s)^2 and second, as the weights before their step
 };
 
 // psi of all states is continuous along the horizon and near the measured one. `attitude` in [0, 1]
@@ -44,7 +44,7 @@ struct OcpReference {
 
   std::array<vessel::State, kMaxStages + 1> states;
   std::array<double, kMaxStages + 1> attitude;
-  std::array<double, kMaxStages + 1> speed_max_mps;  // surge ahead beyond it costs
+  std::array<double, kMaxStages + 1> speed_max_mps;  // over ground; beyond it costs
   std::array<vessel::Thrusts, kMaxStages> thrusts;
 };
 
