@@ -39,7 +39,7 @@ pre{white-space:pre-wrap;font-size:12.5px}
 @media (max-width:480px){.pair{grid-template-columns:1fr}}
 @media print{:root{color-scheme:light;LIGHT}@page{margin:14mm}body{font-size:11pt}
 main{max-width:none;padding:0}h2,h2+.note{break-after:avoid}h2{margin-top:14px}
-.scroll{overflow:visible}figure svg{max-height:150mm}
+.scroll{overflow:visible}figure svg{max-height:125mm}pre{columns:2;font-size:8pt}
 *{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 """
 

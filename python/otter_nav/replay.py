@@ -16,7 +16,7 @@ from .errors import RecordingError
 from .vessel import share_folder
 
 # A vessel, its tracker or its planner that runs meanwhile shall not take these for its own.
-_ORDERS = {"thruster_command", "trajectory", "goal", "cancel", "initialpose", "lockstep_ack",
+_ORDERS = {"trajectory", "goal", "cancel", "initialpose", "lockstep_ack",
            "recording", "clock"}
 _CLOCK_S = 0.01      # between two messages of /clock, of the recording's time
 _TRAIL_M = 0.3       # between two points of a trail made here
@@ -33,9 +33,12 @@ class Topic:
 
 
 def target(topic, prefix):
-    """The name without the vessel's namespace; None for what is an order."""
+    """The name without the vessel's namespace; None for what is an order. Thrusts are shown by rviz,
+    but under a name that no vessel takes them from."""
     inside = topic[len(prefix):] if prefix and topic.startswith(prefix + "/") else topic
     last = inside.rsplit("/", 1)[-1]
+    if last == "thruster_command":
+        return "/replayed" + inside
     return None if last in _ORDERS or inside.startswith("/move_base") else inside
 
 

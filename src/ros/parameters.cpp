@@ -2,16 +2,17 @@
 
 #include <ros/this_node.h>
 
-#include <sstream>
+#include <array>
+#include <charconv>
 
 namespace otter_nav::ros_bridge {
 namespace {
 
+// As few digits as say the same number.
 std::string allDigits(double value) {
-  std::ostringstream out;
-  out.precision(17);
-  out << value;
-  return out.str();
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.begin(), text.end(), value).ptr;
+  return {text.begin(), end};
 }
 
 Result<YAML::Node> listToYaml(XmlRpc::XmlRpcValue& value) {

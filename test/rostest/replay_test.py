@@ -2,6 +2,7 @@
 """Missions are recorded whole, and the tracker makes the same commands of what was recorded."""
 import csv
 import json
+import math
 import os
 import signal
 import subprocess
@@ -120,6 +121,7 @@ class Replay(unittest.TestCase):
         bag = self.record("lockstep.bag", speed=0)
         self.assert_whole(bag, 0.01)
         rows = self.assert_same(bag)
+        self.assert_report(bag)
 
         done, figures, part = self.replay(bag, "--from", rows[500]["t"], "--to", rows[600]["t"])
         self.assertEqual(len(part), 101, done.stderr)
@@ -144,6 +146,51 @@ class Replay(unittest.TestCase):
         self.damaged(bag)
         self.plays(bag)
 
+    def assert_report(self, bag):
+        """The report's figures, and the mission's own, are what the messages say."""
+        out = self.path("report.html")
+        subprocess.run([sys.executable, os.path.join(PACKAGE, "python", "programs", "report"), "--bag", bag,
+                        "--out", out], check=True, timeout=120, stdout=subprocess.DEVNULL)
+        with open(self.path("report.json")) as file:
+            report = json.load(file)
+        with open(bag + ".json") as file:
+            mission = json.load(file)["missions"][0]
+        states, orders, commands, arrived = [], [], {}, None
+        with rosbag.Bag(bag) as recorded:
+            for topic, m, _ in recorded.read_messages(
+                    topics=["/plant_state", "/trajectory", "/thruster_command", "/planner_status"]):
+                t = m.header.stamp.to_sec()
+                if topic == "/plant_state":
+                    states.append((t, m.x, m.y))
+                elif topic == "/trajectory":
+                    orders.append((t, m))
+                elif topic == "/thruster_command":
+                    commands[t] = (m.left**2 + m.right**2) / 2
+                elif m.state == "arrived":
+                    arrived = min(t, arrived or t)
+        begin = min(t for t, _ in orders)
+        errors = [math.dist((x, y), self.place(orders, t)) for t, x, y in sorted(set(states))
+                  if begin - 1e-6 <= t <= arrived + 1e-6]
+        squares = [n for t, n in commands.items() if begin - 1e-6 <= t <= arrived + 1e-6]
+        for key, value in (("tracking_error_mean_m", sum(errors) / len(errors)),
+                           ("tracking_error_max_m", max(errors)), ("duration_s", arrived - begin),
+                           ("thrust_rms_n", math.sqrt(sum(squares) / len(squares)))):
+            self.assertAlmostEqual(report[key], value, delta=0.005 * value, msg=key)
+            if key.startswith("tracking"):
+                self.assertAlmostEqual(mission[key], value, delta=0.005 * value, msg=key)
+
+    @staticmethod
+    def place(orders, t):
+        """Where the last trajectory that has begun is at t."""
+        start, order = max(((s, o) for s, o in orders if s <= t + 1e-9), key=lambda one: (one[0], one[1].id))
+        left = t - start
+        for piece in order.pieces:
+            if left <= piece.duration:
+                break
+            left -= piece.duration
+        left = min(max(left, 0.0), piece.duration)
+        return [sum(c * left**k for k, c in enumerate(axis)) for axis in (piece.x, piece.y)]
+
     def plays(self, bag):
         """Everything rviz shows is there, also from the middle; nothing is commanded."""
         port = free_port()
@@ -154,7 +201,9 @@ class Replay(unittest.TestCase):
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
         self.addCleanup(self.kill, launch, port)
         shown = ["/clock", "/tf", "/tf_static", "/chart", "/map", "/map_updates", "/scan", "/trail",
-                 "/guide_path_markers", "/tree_markers", "/trajectory_markers", "/predicted_path"]
+                 "/guide_path_markers", "/tree_markers", "/trajectory_markers", "/predicted_path",
+                 "/replayed/thruster_command", "/planner_status", "/tracker_status", "/vessel", "/odom",
+                 "/track_markers", "/wind"]
         watch = subprocess.run([sys.executable, "-c", WATCH, *shown], env=environment, timeout=120,
                                capture_output=True, text=True)
         launch.send_signal(signal.SIGINT)
