@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "otter_nav/base/planar.hpp"
-#include "otter_nav/feasibility/clearance_walk.hpp"
-#include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 
 namespace otter_nav::feasibility {
 namespace {
@@ -23,13 +21,13 @@ constexpr double kLeastForceShare = 0.02;  // |w| while turning, of both thruste
 }  // namespace
 
 EdgeCheck::EdgeCheck(const vessel::Parameters& vessel)
-    : vessel_(vessel), inverse_(vessel), hull_(vessel.hull) {}
+    : vessel_(vessel), inverse_(vessel), walk_(limits_) {}
 
 void EdgeCheck::begin(const Obstacles& obstacles, const SafetyLimits& limits) {
   obstacles_ = obstacles;
   limits_ = limits;
   inverse_ = vessel::InverseDynamics(vessel_, limits.disturbance);
-  hull_ = HullCover(limits.hull);
+  walk_ = PieceWalk(limits);
   least_force_n_ = leastHeadingForce(vessel_, limits, kLeastForceShare);
   force_ahead_n_ = 2.0 * limits.thrust_share * vessel_.thrusters.ahead_max_n;
   force_astern_n_ = 2.0 * limits.thrust_share * vessel_.thrusters.astern_max_n;
@@ -115,20 +113,13 @@ EdgeFault EdgeCheck::checkBent(const trajectory::Piece& piece, double start_s) c
 }
 
 bool EdgeCheck::isClear(const trajectory::Piece& piece, double start_s) const {
-  const double approach =
-      trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
-      obstacles_->rateBound();
-  double centre = 0.0;
-  const auto slack = [&](double t) {
+  const auto bow = [&](double t) -> Eigen::Vector2d {
     const Motion m = motionAt(piece, t);
-    const auto bow = [&]() -> Eigen::Vector2d {
-      const Eigen::Vector2d w = inverse_.headingForce(m.velocity, m.acceleration);
-      const Eigen::Vector2d along = w.squaredNorm() > 1e-6 ? w : inverse_.throughWater(m.velocity);
-      return along / std::max(along.norm(), 1e-6);
-    };
-    return hull_.slack(*obstacles_, m.position, start_s + t, limits_.clearance_m, bow, centre);
+    const Eigen::Vector2d w = inverse_.headingForce(m.velocity, m.acceleration);
+    const Eigen::Vector2d along = w.squaredNorm() > 1e-6 ? w : inverse_.throughWater(m.velocity);
+    return along / std::max(along.norm(), 1e-6);
   };
-  return !firstConflict(0.0, piece.duration_s, approach, slack);
+  return !walk_.along(piece, 0.0, *obstacles_, start_s, 0.0, bow).conflict_s;
 }
 
 bool EdgeCheck::isFree(const Eigen::Vector2d& position, double time_s) const {

@@ -7,7 +7,6 @@
 
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
-#include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -16,7 +15,6 @@ namespace otter_nav::feasibility {
 namespace {
 
 using trajectory::evaluate;
-using trajectory::speedBound;
 
 constexpr double kSlowMps = 1e-3;  // below it a course says nothing of the heading
 constexpr double kSwayN = 0.1;     // what pieces of degree 7 leave, next to the model
@@ -285,11 +283,11 @@ void PieceCheck::checkDynamics(double start_s, PieceReport& report) const {
   }
 }
 
-// Turning moves the ends besides; 1.1 and 0.01 for what the yaw rate's samples may have missed.
+// 1.1 and 0.01 for what the yaw rate's samples may have missed.
 void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s, PieceReport& report,
                                 const trajectory::MotionAlong* motion) const {
-  const HullCover hull(limits_.hull);
-  const double wanted = limits_.clearance_m + report.slide_m;
+  SafetyLimits limits = limits_;
+  limits.clearance_m += report.slide_m;
   const auto bow = [&](double t) -> Eigen::Vector2d {
     if (motion == nullptr) {
       return bowAt(t);
@@ -297,24 +295,14 @@ void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s, Piec
     const double psi = motion->psi(start_s + t);
     return {std::cos(psi), std::sin(psi)};
   };
-  const bool whole = tolerances_.keep_hull_clear;
-  const double turning = hull.offset_m * (1.1 * report.yaw_rate_radps + 0.01);
-  const double approach =
-      speedBound(velocity_, piece_.duration_s) + (whole ? turning : 0.0) + obstacles.rateBound();
-  report.clearance_m = std::numeric_limits<double>::infinity();
-  double centre = 0.0;
-  const auto slack = [&](double t) {
-    const Eigen::Vector2d p = evaluate<8>(piece_.position, t);
-    const double now = start_s + t;
-    const double left = whole ? hull.slack(
-                                    obstacles, p, now, wanted, [&] { return bow(t); }, centre)
-                              : (centre = obstacles.clearance(p, now)) - wanted;
-    report.clearance_m = std::min(report.clearance_m, centre);
-    return left;
-  };
-  if (const auto conflict = firstConflict(0.0, piece_.duration_s, approach, slack)) {
-    report.time_s = *conflict;
-    report.fault = centre - wanted < kLeastSlackM ? Fault::kClearance : Fault::kHull;
+  const PieceWalk walk(limits, tolerances_.keep_hull_clear);
+  const Walked walked =
+      walk.along(piece_, 0.0, obstacles, start_s, 1.1 * report.yaw_rate_radps + 0.01, bow);
+  report.clearance_m = walked.least_m;
+  if (walked.conflict_s) {
+    report.time_s = *walked.conflict_s;
+    report.fault =
+        walked.centre_m - limits.clearance_m < kLeastSlackM ? Fault::kClearance : Fault::kHull;
   }
 }
 

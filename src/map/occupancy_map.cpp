@@ -59,9 +59,19 @@ struct OccupancyMap::Sensed {
       : hull(own_hull),
         hull_margin_m(the_options.hull_margin_m),
         chart(std::move(the_chart)),
+        trust_chart(the_options.trust_chart),
         projection(chart),
-        layers(chart.geometry, the_options) {}
+        layers(chart.geometry, the_options) {
+    for (std::size_t i = 0; i < projection.cells.size(); ++i) {
+      projection.cells[i] = unseen(i);
+    }
+  }
 
+  // What a column is before any beam met it.
+  [[nodiscard]] Cell unseen(std::size_t index) const {
+    const Cell charted = chart.cells[index];
+    return charted == Cell::kFree && !trust_chart ? Cell::kUnknown : charted;
+  }
   // A column that changed: what it is now.
   void project(std::size_t index, CellRectangle& changed);
   [[nodiscard]] bool onOwnHull(const HullPose& own, const Eigen::Vector2d& p) const;
@@ -72,12 +82,13 @@ struct OccupancyMap::Sensed {
   vessel::Hull hull;
   double hull_margin_m;
   OccupancyGrid chart;
+  bool trust_chart;
   OccupancyGrid projection;
   SensedLayers layers;
 };
 
 void OccupancyMap::Sensed::project(std::size_t index, CellRectangle& changed) {
-  Cell cell = chart.cells[index];
+  Cell cell = unseen(index);
   if (layers.occupied(index)) {
     cell = Cell::kOccupied;
   } else if (cell == Cell::kUnknown && layers.seen(index)) {

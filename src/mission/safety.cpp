@@ -16,6 +16,10 @@ constexpr double kLessThrust = 0.1;    // each time the vessel couldn't follow
 constexpr double kBlindReserve = 2.0;  // of the mean's share, for a plan that knows nothing of it
 constexpr int kRefusedMost = 2;
 constexpr double kMoreThrust = 0.2;  // each time there was no plan at any clearance
+// Around the discs that cover the hull. A plan keeps a little more than a stop, so that what the
+// map adds by cells on the way leaves the stops clear.
+constexpr double kPlanMarginM = 0.05;
+constexpr double kOffTrajectoryM = 0.02;
 
 }  // namespace
 
@@ -44,8 +48,9 @@ double Safety::narrowest() const {
   return centreClearance(vessel_.hull, options_.side_clearances_m.back());
 }
 
-double Safety::critical() const {
-  return centreClearance(vessel_.hull, options_.critical_side_clearance_m);
+stopping::StopLimits Safety::stop(const vessel::Disturbance& planned) const {
+  return {centreClearance(vessel_.hull, options_.critical_side_clearance_m), kOffTrajectoryM,
+          planned};
 }
 
 feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
@@ -59,6 +64,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   if (options_.plan_with_weather && !plansBlind()) {
     limits.disturbance = weather_.mean();
   }
+  limits.hull_margin_m = kPlanMarginM;
   limits.limitSpeed(options_.speed_max_mps);
   return limits;
 }

@@ -7,6 +7,7 @@
 
 #include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/mission/supervisor.hpp"
+#include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "weather.hpp"
 
@@ -54,10 +55,12 @@ class Safety {
  public:
   Safety(const SupervisorOptions& options, const vessel::Parameters& vessel);
 
-  // Clearances of the hull's centre, m: no plan is made with less than the narrowest, and the
-  // vessel brakes for less than the critical one.
+  // Of the hull's centre, m: no plan is made with less.
   [[nodiscard]] double narrowest() const;
-  [[nodiscard]] double critical() const;
+  // Of the hull's outline in its planned attitude, m: with less the vessel looks for another way.
+  [[nodiscard]] double critical() const { return options_.critical_side_clearance_m; }
+  // What every stop keeps, from a trajectory planned with this disturbance.
+  [[nodiscard]] stopping::StopLimits stop(const vessel::Disturbance& planned) const;
 
   // The next request's limits: of the first level from the present one on that start and goal have
   // room for, and with `thrust_share`.

@@ -11,6 +11,7 @@
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
+#include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "plan_requests.hpp"
@@ -208,21 +209,35 @@ class Supervisor::Impl {
             atRest(m.situation.state));
   }
 
-  // Less than what the plan was made with. Sensed outlines wander by about a cell: less than that
-  // is no ground for another plan.
+  // Less than what the plan was made with, or the hull's outline comes too near. Sensed outlines
+  // wander by about a cell: less than that is no ground for another plan.
   bool isNarrow(const Moment& m) {
     constexpr double kSlackM = 0.3;
-    conflict_ = firstBelow(m, std::max(safety().critical(), planned_clearance_m_ - kSlackM));
+    const double at = sailed_.elapsed(m.now_s);
+    conflict_ = stopping::firstConflict(sailed_.trajectory, at, alongSailed(m),
+                                        planned_clearance_m_ - kSlackM);
+    const double until = conflict_.found ? conflict_.time_s : sailed_.trajectory.duration();
+    const stopping::Conflict hull =
+        stopping::outlineConflict(sailed_.trajectory, at, until, alongSailed(m), vessel_,
+                                  safety().critical(), true, planned_limits_.disturbance);
+    conflict_ = hull.found ? hull : conflict_;
     return conflict_.found;
   }
   bool isClearAgain(const Moment& m) { return for_clearance_ && !isNarrow(m); }
-  // Waiting a little longer would leave no room to brake for what comes up soon.
-  bool mustBrake(const Moment& m) {
-    constexpr double kHorizonS = 8.0;
-    constexpr double kReserveS = 0.3;
-    conflict_ = firstBelow(m, safety().critical());
+  // Of what is sailed; if there is one it is kept until the next is found.
+  bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_.disturbance); }
+  // The way to rest itself is not clear any more.
+  bool isStopBlocked(const Moment& m) {
     const double at = sailed_.elapsed(m.now_s);
-    return conflict_.found && conflict_.time_s - at < kHorizonS && !stop(m, at + kReserveS).clear;
+    return sailed_.left(m.now_s) > 0.0 &&
+           stopping::outlineConflict(sailed_.trajectory, at, sailed_.trajectory.duration(),
+                                     alongSailed(m), vessel_, 0.0)
+               .found;
+  }
+  // From a way to rest a plan may lead on.
+  bool mayGoOn(const Moment& m) {
+    return !cancelled_ && !suspended_ && !mustWait(m) && !hasFault(m) && !isFarOff(m) &&
+           sailed_.left(m.now_s) > 0.0;
   }
   // Other vessels ask for another way than the one being sailed.
   bool shouldMakeWay(const Moment& m) {
@@ -274,8 +289,10 @@ class Supervisor::Impl {
     }
     return m.now_s - too_fast_since_s_ > kPatienceS;
   }
+  // A plan with rests on its way was the last resort, and may do with a better one soon.
   bool mayImprove(const Moment& m) {
-    const double period = options_.improve_period_s;
+    constexpr double kLastResortS = 1.0;
+    const double period = rests_on_the_way_ ? kLastResortS : options_.improve_period_s;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
   }
 
@@ -398,10 +415,45 @@ class Supervisor::Impl {
     return enter(Phase::kSailing);
   }
 
-  Orders brake(const Moment& m) { return brakeFor(m, conflictText(conflict_)); }
   Orders brakeForSpeed(const Moment& m) {
     return brakeFor(m, text("no plan keeps to %.2f m/s from here", safety().speedMax()));
   }
+  // The last one that was found; it may be under way already when this is decided late.
+  Orders takeLastStop(const Moment& m) {
+    std::string why = phase_ == Phase::kReplanning && conflict_.found
+                          ? conflictText(conflict_)
+                          : "no later stop in water known to be free";
+    constexpr double kApartM = 0.2;
+    const auto place = [&](const TimedTrajectory& way) {
+      return way.trajectory.flat(way.elapsed(m.now_s)).position;
+    };
+    if (!fallback_ || (place(*fallback_) - place(sailed_)).norm() > kApartM) {
+      return brakeFor(m, std::move(why));
+    }
+    plans_.drop();
+    stop_time_s_ = m.now_s;
+    enter(Phase::kStopping, std::move(why));
+    sailed_ = *std::exchange(fallback_, std::nullopt);
+    return {std::nullopt, sailed_, false};
+  }
+  Orders changeTheStop(const Moment& m) {
+    stopping::Braking other =
+        stop(m, sailed_, sailed_.elapsed(m.now_s), planned_limits_.disturbance);
+    const Obstacles later = m.obstacles.startingAt(m.now_s);
+    const auto touches = [&](const Trajectory& path, double from_s, const Obstacles& obstacles) {
+      const stopping::Conflict conflict =
+          stopping::outlineConflict(path, from_s, path.duration(), obstacles, vessel_, 0.0);
+      return conflict.found ? conflict.time_s - from_s : std::numeric_limits<double>::infinity();
+    };
+    const double at = sailed_.elapsed(m.now_s);
+    if (!other.clear &&
+        touches(other.trajectory, 0.0, later) <= touches(sailed_.trajectory, at, alongSailed(m))) {
+      return {};
+    }
+    sailed_ = {std::move(other.trajectory), m.now_s};
+    return {std::nullopt, sailed_, false};
+  }
+  Orders goOn(const Moment& m) { return planFromSailed(m); }
   Orders brakeCancelled(const Moment& m) {
     cancelled_ = true;
     return brakeFor(m, end_reason_);
@@ -524,7 +576,7 @@ class Supervisor::Impl {
       {kUnderWay, &Impl::hasLostItsHeading, &Impl::stopHeadingLost},
       {kUnderWay, &Impl::isBeyondThrust, &Impl::stopBeyondThrust},
       {kSailing, &Impl::isNarrow, &Impl::lookForAnother, kGoesOn},
-      {kReplanning, &Impl::mustBrake, &Impl::brake},
+      {kUnderWay, &Impl::hasNoStop, &Impl::takeLastStop},
       {kUnderWay, &Impl::isTooFastForLong, &Impl::brakeForSpeed},
       {kReplanning, &Impl::isClearAgain, &Impl::keepThePlan, kGoesOn},
       {kUnderWay, &Impl::mustWait, &Impl::keepOn},
@@ -538,6 +590,8 @@ class Supervisor::Impl {
 
       {kManoeuvring, &Impl::hasFault, &Impl::stopForFault},
       {kManoeuvring, &Impl::isBlocked, &Impl::stopBlocked},
+      {in(Phase::kStopping), &Impl::isStopBlocked, &Impl::changeTheStop},
+      {in(Phase::kStopping), &Impl::mayGoOn, &Impl::goOn},
       {kComingToRest, &Impl::isStillMoving, &Impl::keepOn},
       {kComingToRest, &Impl::isSuspended, &Impl::restSuspended},
       {kComingToRest, &Impl::isCancelled, &Impl::idleAfterStop},
@@ -642,13 +696,40 @@ class Supervisor::Impl {
     return limit > 0.0 && (planned_for_mps_ == 0.0 || limit < planned_for_mps_);
   }
   Obstacles alongSailed(const Moment& m) { return m.obstacles.startingAt(sailed_.start_time_s); }
-  stopping::Conflict firstBelow(const Moment& m, double clearance_m) {
-    return stopping::firstConflict(sailed_.trajectory, sailed_.elapsed(m.now_s), alongSailed(m),
-                                   clearance_m);
+  // What is known ahead of a trajectory, on its clock: what nobody saw to be free stops there.
+  stopping::Braking stop(const Moment& m, const TimedTrajectory& way, double at_s,
+                         const vessel::Disturbance& disturbance) {
+    return stopping::brakingTrajectory(way.trajectory, at_s,
+                                       m.obstacles.inKnownWater().startingAt(way.start_time_s),
+                                       vessel_, safety().stop(disturbance));
   }
-  stopping::Braking stop(const Moment& m, double at_s) {
-    return stopping::brakingTrajectory(sailed_.trajectory, at_s, alongSailed(m), vessel_,
-                                       safety().narrowest());
+  // A stop that begins a little later than now: when the next decision is due, there is time to
+  // take it. Kept if there is one.
+  bool findStop(const Moment& m, const TimedTrajectory& way,
+                const vessel::Disturbance& disturbance) {
+    constexpr double kReserveS = 0.25;
+    const double at = way.elapsed(m.now_s) + kReserveS;
+    if (at >= way.trajectory.duration()) {
+      fallback_ = way;
+      return true;
+    }
+    stopping::Braking found = stop(m, way, at, disturbance);
+    if (found.clear) {
+      fallback_ =
+          stopping::splice(way, m.now_s, {std::move(found.trajectory), way.start_time_s + at});
+    }
+    return found.clear || isClearInKnownWater(m, way, disturbance);
+  }
+  // For long enough to rest later. A launch, or sailing crabwise, may leave no stop that keeps to
+  // the thrusters' limits at the moment; that alone is no ground to rest.
+  bool isClearInKnownWater(const Moment& m, const TimedTrajectory& way,
+                           const vessel::Disturbance& disturbance) {
+    constexpr double kHorizonS = 8.0;
+    const double at = way.elapsed(m.now_s);
+    return !stopping::outlineConflict(way.trajectory, at, at + kHorizonS,
+                                      m.obstacles.inKnownWater().startingAt(way.start_time_s),
+                                      vessel_, safety().critical(), true, disturbance)
+                .found;
   }
 
   Orders enter(Phase phase, std::string reason = {}) {
@@ -656,8 +737,14 @@ class Supervisor::Impl {
     reason_ = std::move(reason);
     return {};
   }
+  // Only if a stop exists on it; else it is asked for again, or the vessel stops.
   Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequests::Asked& asked) {
+    if (!findStop(m, plan, asked.request.query.limits.disturbance)) {
+      return asked.improves ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
+    }
+    replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;
     sailed_ = std::move(plan);
+    rests_on_the_way_ = stopping::restsOnTheWay(sailed_.trajectory);
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
     planned_limits_ = asked.request.query.limits;
     planned_thrust_share_ = asked.request.thrust_share;
@@ -679,6 +766,7 @@ class Supervisor::Impl {
     plans_.drop();
     stop_time_s_ = m.now_s;
     planned_clearance_m_ = 0.0;
+    fallback_.reset();
     enter(phase, std::move(reason));
     if (path.empty()) {
       sailed_ = {};
@@ -692,8 +780,10 @@ class Supervisor::Impl {
     return manoeuvre(m, Phase::kStopping, {}, std::move(reason));
   }
   Orders brakeFor(const Moment& m, std::string reason) {
-    return manoeuvre(m, Phase::kStopping, stop(m, sailed_.elapsed(m.now_s)).trajectory,
-                     std::move(reason));
+    return manoeuvre(
+        m, Phase::kStopping,
+        stop(m, sailed_, sailed_.elapsed(m.now_s), planned_limits_.disturbance).trajectory,
+        std::move(reason));
   }
   // Plans from rest come next, unless there were too many stops.
   Orders rest(const Moment& m, const std::string& reason, const std::string& last) {
@@ -716,7 +806,6 @@ class Supervisor::Impl {
     if ((m.situation.state.head<2>() - start).norm() > kDriftM) {
       return planFromRest(m);
     }
-    replans_ += phase_ == Phase::kStopped ? 1 : 0;
     return sail(m, {plan.trajectory, m.now_s}, asked);
   }
   Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
@@ -739,7 +828,6 @@ class Supervisor::Impl {
         late + next.trajectory.duration() > (1.0 - kImproveShare) * sailed_.left(m.now_s)) {
       return {};
     }
-    ++replans_;
     plans_.latency.onTime();
     if (asked.from == From::kVessel) {
       return sail(m, std::move(next), asked);
@@ -776,6 +864,9 @@ class Supervisor::Impl {
   std::string reason_;
   vessel::Pose goal_;
   TimedTrajectory sailed_;
+  // From it to rest in known water, as last verified.
+  std::optional<TimedTrajectory> fallback_;
+  bool rests_on_the_way_ = false;
   double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;         // and with
   feasibility::SafetyLimits planned_limits_;  // all of it

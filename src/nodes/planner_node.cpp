@@ -150,7 +150,7 @@ void PlannerNode::decideInTurn() {
     if (stamp > acknowledged_) {
       vessel_ = *vessel;
       now_s_ = stamp.toSec() + setup_.node.lockstep_lag_s;
-      execute(supervisor_.update(now_s_, situation(), map_.field()));
+      execute(supervisor_.update(now_s_, situation(), obstacles()));
     }
     goals_.setReady(true);
     goals_.retryWaiting();
@@ -165,14 +165,14 @@ void PlannerNode::decide() {
   vessel_ = odometry_.latest();
   now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
   tracker_.countUntil(std::numeric_limits<double>::infinity());
-  execute(supervisor_.update(now_s_, situation(), map_.field()));
+  execute(supervisor_.update(now_s_, situation(), obstacles()));
   goals_.setReady(true);
   goals_.retryWaiting();
   settle();
 }
 
 Status PlannerNode::onGoal(const vessel::Pose& goal) {
-  Result<mission::Orders> orders = supervisor_.setGoal(now_s_, goal, situation(), map_.field());
+  Result<mission::Orders> orders = supervisor_.setGoal(now_s_, goal, situation(), obstacles());
   if (!orders) {
     return failure(orders.error().message);
   }
@@ -182,7 +182,7 @@ Status PlannerNode::onGoal(const vessel::Pose& goal) {
 }
 
 void PlannerNode::onCancel() {
-  execute(supervisor_.cancel(now_s_, situation(), map_.field()));
+  execute(supervisor_.cancel(now_s_, situation(), obstacles()));
   settle();
 }
 
@@ -208,17 +208,17 @@ void PlannerNode::serve(const std::string& name, Result<mission::Orders> (Planne
 }
 
 Result<mission::Orders> PlannerNode::pause() {
-  return supervisor_.pause(now_s_, situation(), map_.field());
+  return supervisor_.pause(now_s_, situation(), obstacles());
 }
 Result<mission::Orders> PlannerNode::hold() {
-  return supervisor_.hold(now_s_, situation(), map_.field());
+  return supervisor_.hold(now_s_, situation(), obstacles());
 }
 Result<mission::Orders> PlannerNode::resume() {
-  return supervisor_.resume(now_s_, situation(), map_.field());
+  return supervisor_.resume(now_s_, situation(), obstacles());
 }
 Result<mission::Orders> PlannerNode::stop() {
   goals_.abort(kStopped);
-  return supervisor_.cancel(now_s_, situation(), map_.field(), kStopped);
+  return supervisor_.cancel(now_s_, situation(), obstacles(), kStopped);
 }
 
 void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner::Plan& plan,
@@ -237,7 +237,7 @@ void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner:
     vessel_ = odometry_.latest();
     now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
   }
-  execute(supervisor_.planFinished(now_s_, request.id, plan, situation(), map_.field()));
+  execute(supervisor_.planFinished(now_s_, request.id, plan, situation(), obstacles()));
   settle();
   decideInTurn();
 }
@@ -326,6 +326,12 @@ Status PlannerNode::change(config::Section section) {
   return readSetup(std::move(section)).map([this](const Setup& setup) {
     supervisor_.setOptions(setup.supervisor);
   });
+}
+
+feasibility::Obstacles PlannerNode::obstacles() const {
+  feasibility::Obstacles obstacles(map_.field());
+  obstacles.setKnownWater(map_.knownWater());
+  return obstacles;
 }
 
 mission::Situation PlannerNode::situation() const {

@@ -73,6 +73,7 @@ class PlannerNode {
   void settle();
   void checkInputs();
   [[nodiscard]] mission::Situation situation() const;
+  [[nodiscard]] feasibility::Obstacles obstacles() const;
 
   Setup setup_;
   ros::NodeHandle node_;

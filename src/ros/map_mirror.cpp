@@ -19,6 +19,7 @@ Status MapMirror::take(const nav_msgs::OccupancyGrid& message) {
   if (!same) {
     grid_ = std::move(*grid);
     field_ = map::DistanceField(grid_, options_);
+    known_ = map::DistanceField(grid_, {map::kKnownWaterDistanceM, true});
     load_time_ = message.info.map_load_time;
   }
   return {};
@@ -33,6 +34,7 @@ Result<map::CellRectangle> MapMirror::take(const map_msgs::OccupancyGridUpdate& 
     stamp_ = std::max(stamp_, update.header.stamp);
     if (!changed->empty()) {
       field_.update(grid_, changed->column, changed->row, changed->width, changed->height);
+      known_.update(grid_, changed->column, changed->row, changed->width, changed->height);
     }
   }
   return changed;

@@ -183,7 +183,7 @@ const std::vector<traffic::Track>& ClosedLoop::tracks() const {
 }
 
 feasibility::Obstacles ClosedLoop::obstacles() const {
-  return sensing_->field();
+  return sensing_->obstacles();
 }
 
 mission::Situation ClosedLoop::situation() const {

@@ -26,6 +26,7 @@ map::SensorPose sensorPose(const plant::Odometry& odometry, const Eigen::Vector3
 Sensing::Sensing(map::OccupancyGrid chart, const LoopOptions& options)
     : map_(std::move(chart), options.vessel.hull, options.map),
       field_(map_.projection(), {options.field_distance_m, false}),
+      known_(map_.projection(), {map::kKnownWaterDistanceM, true}),
       traffic_(options.traffic, map_.chart(), options.vessel.hull),
       lidar_in_base_(options.plant.lidar.position_m) {}
 
@@ -59,6 +60,7 @@ Status Sensing::insert(const plant::Scan& scan, const plant::Odometry& odometry)
 void Sensing::update(const map::CellRectangle& changed) {
   if (!changed.empty()) {
     field_.update(map_.projection(), changed.column, changed.row, changed.width, changed.height);
+    known_.update(map_.projection(), changed.column, changed.row, changed.width, changed.height);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
 #include "otter_nav/plant/signals.hpp"
@@ -27,10 +28,17 @@ class Sensing {
   [[nodiscard]] const map::DistanceField& field() const { return field_; }
   // Of other vessels: confirmed ones, each at the instant it was last measured.
   [[nodiscard]] const std::vector<traffic::Track>& tracks() const { return traffic_.tracks(); }
+  // With what nobody has seen to be free as obstacles for stops.
+  [[nodiscard]] feasibility::Obstacles obstacles() const {
+    feasibility::Obstacles obstacles(field_);
+    obstacles.setKnownWater(known_);
+    return obstacles;
+  }
 
  private:
   map::OccupancyMap map_;
   map::DistanceField field_;
+  map::DistanceField known_;
   traffic::Tracker traffic_;
   Eigen::Vector3d lidar_in_base_;
   map::Scan scan_;

@@ -1,16 +1,15 @@
 #include "otter_nav/stopping/back_off.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
-#include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
+#include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/hull.hpp"
 
 namespace otter_nav::stopping {
@@ -21,7 +20,8 @@ using trajectory::Piece;
 using trajectory::Trajectory;
 
 constexpr double kClearM = 0.1;     // of the outline, when it sets off
-constexpr double kTouchesM = 0.05;  // on the way: half of that
+constexpr double kTightM = 0.04;    // where there is no more than this to begin with
+constexpr double kTouchesM = 0.02;  // on the way: half of that
 
 // Straight along the heading, with a mean speed of a walk and time to gather way: gentle, for the
 // water there is the less known.
@@ -46,52 +46,9 @@ Piece gentleSpin(const Eigen::Vector2d& position, double psi_rad, double turn_ra
                                kGatherS + std::abs(turn_rad) / kRateRadps);
 }
 
-// What stands near a point of the outline; with `edge` the map's edge is an obstacle, and else only
-// what is nearer than it counts.
-double pointClearance(const Eigen::Vector2d& p, double time_s, const Obstacles& obstacles,
-                      bool edge) {
-  const double clearance = obstacles.clearance(p, time_s);
-  if (edge) {
-    return clearance;
-  }
-  constexpr double kTightCells = 0.15;  // of the field's bound
-  const map::GridGeometry& map = obstacles.field().geometry();
-  const bool edge_is_nearest = clearance >= insideMap(map, p) - kTightCells * map.resolution_m;
-  return edge_is_nearest ? std::numeric_limits<double>::infinity() : clearance;
-}
-
-// By the outline: the discs that verification sees are too wide for a place this tight. The hull's
-// corners swing at the yaw rate besides.
 bool outlineKeepsClear(const Trajectory& path, double from_s, const vessel::Parameters& vessel,
                        const Obstacles& obstacles, double least_m, bool edge) {
-  const double reach = vessel::circumscribedRadius(vessel.hull);
-  for (std::size_t i = path.pieceAt(from_s); i < path.pieces().size(); ++i) {
-    const Piece& piece = path.pieces()[i];
-    double turning = 0.0;
-    for (int k = 1; k < trajectory::kCoefficients; ++k) {
-      turning += k * std::abs(piece.heading[k]) * std::pow(piece.duration_s, k - 1);
-    }
-    const double approach =
-        trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
-        reach * turning + obstacles.rateBound();
-    const double start = path.startOf(i);
-    const auto slack = [&](double t) {
-      const vessel::State state = path.sampleIn(i, t, vessel).state;
-      const auto clearance = [&](const Eigen::Vector2d& p) {
-        return pointClearance(p, start + t, obstacles, edge);
-      };
-      const double slack_m = feasibility::outlineClearance(vessel.hull, state.head<2>(),
-                                                           state[vessel::kPsi], clearance) -
-                             least_m + feasibility::kLeastSlackM;
-      // Without the edge the clearance is no bound of what comes next: short steps.
-      return edge ? slack_m : std::min(slack_m, kTouchesM);
-    };
-    const double from = std::clamp(from_s - start, 0.0, piece.duration_s);
-    if (feasibility::firstConflict(from, piece.duration_s, approach, slack)) {
-      return false;
-    }
-  }
-  return true;
+  return !outlineConflict(path, from_s, path.duration(), obstacles, vessel, least_m, edge).found;
 }
 
 bool canFollow(const Trajectory& path, const Obstacles& obstacles,
@@ -144,24 +101,46 @@ double turningRoom(const vessel::Hull& hull) {
 
 std::optional<Trajectory> backOff(const vessel::State& state, const Obstacles& obstacles,
                                   const vessel::Parameters& vessel, double disturbance_n) {
+  constexpr double kBetterM = 0.1;  // than here, or it isn't worth the way
+  constexpr std::array<double, 7> kTurnsRad = {0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0};
   const double drift_mps = disturbance_n / vessel.manoeuvring.sway_drag_kgps;
   const double room = turningRoom(vessel.hull);
-  if (obstacles.clearance(state.head<2>(), 0.0) >= room) {
-    return std::nullopt;
-  }
-  for (const double lengths : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0}) {
+  const Eigen::Vector2d here = state.head<2>();
+  const double psi = state[vessel::kPsi];
+  const auto near = [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, 0.0); };
+  const double keep_m = std::clamp(
+      feasibility::outlineClearance(vessel.hull, here, psi, near) - kTouchesM, kTightM, kClearM);
+  double best_m = obstacles.clearance(here, 0.0) + kBetterM;
+  std::optional<Trajectory> best;
+  for (const double turn : kTurnsRad) {
     for (const double side : {-1.0, 1.0}) {
-      const Trajectory path(
-          {straight(state.head<2>(), state[vessel::kPsi], side * lengths * vessel.hull.length_m)});
-      const double end = path.duration();
-      if (obstacles.clearance(path.flat(end).position, end) >= room &&
-          outlineKeepsClear(path, 0.0, vessel, obstacles, kClearM + drift_mps * end, true) &&
-          canFollow(path, obstacles, vessel)) {
-        return path;
+      for (const double lengths : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0}) {
+        const double ahead = side * lengths * vessel.hull.length_m;
+        std::vector<Piece> pieces;
+        if (turn != 0.0) {
+          pieces.push_back(gentleSpin(here, psi, turn));
+        }
+        pieces.push_back(straight(here, psi + turn, ahead));
+        Trajectory path(std::move(pieces));
+        const double end = path.duration();
+        const double there_m = std::min(room, obstacles.clearance(path.flat(end).position, end));
+        if (there_m <= best_m) {
+          continue;
+        }
+        if (!outlineKeepsClear(path, 0.0, vessel, obstacles, keep_m + drift_mps * end, true)) {
+          break;  // nor does it further on
+        }
+        if (canFollow(path, obstacles, vessel)) {
+          best_m = there_m;
+          best = std::move(path);
+        }
       }
     }
+    if (best_m >= room) {
+      break;
+    }
   }
-  return std::nullopt;
+  return best;
 }
 
 std::optional<Trajectory> turnBack(const vessel::State& state, const Obstacles& obstacles,

@@ -8,8 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/splice.hpp"
+#include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "straight_stop.hpp"
 
@@ -23,8 +26,8 @@ using vessel::FlatPoint;
 
 constexpr double kUnderWayMps = 0.3;
 constexpr double kKnotS = 0.25;
-// The sailed trajectory may be at the thrusters' limits where the stop begins; the tracker shaves
-// off a short peak.
+// The sailed trajectory may be at the thrusters' limits, or over them, where the stop begins; the
+// tracker shaves off a short peak.
 constexpr double kLeastForceShare = 0.01;  // |w| while turning, of both thrusters ahead
 constexpr double kThrustTolerance = 1.1;
 
@@ -93,14 +96,23 @@ bool endsAtRest(const Piece& piece) {
          (piece.kind != PieceKind::kSpin || std::abs(piece.spinHeading(end)[1]) < kRest);
 }
 
-// Where a sailed trajectory comes to rest by itself soon.
+// Where a sailed trajectory comes to rest by itself soon, without gathering way before: the rest of
+// a voyage is no stop.
 std::optional<Trajectory> ownRest(const Trajectory& sailed, double at_s, double within_s) {
+  constexpr double kFasterMps = 0.05;
+  constexpr double kStepS = 0.1;
+  const double fastest = sailed.flat(at_s).velocity.norm() + kFasterMps;
   std::vector<Piece> pieces = remainder(sailed, at_s).pieces();
   double duration = 0.0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     duration += pieces[k].duration_s;
     if (duration > within_s) {
       return std::nullopt;
+    }
+    for (double t = 0.0; t < pieces[k].duration_s; t += kStepS) {
+      if (pieces[k].flat(t).velocity.norm() > fastest) {
+        return std::nullopt;
+      }
     }
     if (endsAtRest(pieces[k])) {
       pieces.resize(k + 1);
@@ -110,93 +122,155 @@ std::optional<Trajectory> ownRest(const Trajectory& sailed, double at_s, double 
   return std::nullopt;
 }
 
-// A turn on the spot brought to an end.
-Trajectory stopTurning(const Piece& spin, double t_s) {
-  constexpr double kTurnsOnS = 0.8;
-  const Eigen::Vector3d psi = spin.spinHeading(t_s);
-  FlatPoint from;
-  from.position.x() = psi[0];
-  from.velocity.x() = psi[1];
-  from.acceleration.x() = psi[2];
+// A vessel that hardly moves, or turns on the spot, is held where it is.
+Trajectory halt(const Trajectory& sailed, double at_s, const vessel::Parameters& vessel,
+                const vessel::Disturbance& disturbance) {
+  constexpr double kHaltS = 1.0;
+  constexpr double kDifferenceS = 1e-3;
+  const trajectory::Sample here = sailed.sample(at_s, vessel, disturbance);
+  const double later =
+      sailed.sample(at_s + kDifferenceS, vessel, disturbance).state[vessel::kYawRate];
+  FlatPoint rest;
+  rest.position = here.flat.position + 0.5 * kHaltS * here.flat.velocity;
+  Piece piece = trajectory::hermitePiece(here.flat, rest, kHaltS);
+  piece.kind = PieceKind::kSpin;
+  FlatPoint from;  // its x the heading
+  from.position.x() = here.state[vessel::kPsi];
+  from.velocity.x() = here.state[vessel::kYawRate];
+  from.acceleration.x() = (later - from.velocity.x()) / kDifferenceS;
   FlatPoint to;
-  to.position.x() = psi[0] + 0.5 * kTurnsOnS * psi[1];
-  Piece stop;
-  stop.kind = PieceKind::kSpin;
-  stop.duration_s = kTurnsOnS;
-  stop.position.col(0) = spin.flat(t_s).position;
-  stop.heading = trajectory::hermitePiece(from, to, kTurnsOnS).position.row(0);
-  return Trajectory({stop});
+  to.position.x() = from.position.x() + 0.5 * kHaltS * from.velocity.x();
+  piece.heading = trajectory::hermitePiece(from, to, kHaltS).position.row(0);
+  return Trajectory({piece});
 }
 
-// From gentle to hard, by the way they need.
-std::vector<Trajectory> candidates(const Trajectory& sailed, double at_s) {
-  constexpr std::array<double, 5> kSlowS = {12.0, 9.0, 7.0, 5.5, 4.0};
-  constexpr std::array<StraightStop, 16> kStraight = {{{3.0, 4.5},
-                                                       {2.0, 4.5},
-                                                       {2.0, 3.2},
-                                                       {2.0, 2.4},
-                                                       {1.3, 3.2},
-                                                       {1.3, 2.4},
-                                                       {0.9, 3.2},
-                                                       {0.6, 3.2},
-                                                       {0.9, 2.4},
-                                                       {0.9, 2.0},
-                                                       {0.3, 3.2},
-                                                       {0.6, 2.4},
-                                                       {0.6, 2.0},
-                                                       {0.3, 2.4},
-                                                       {0.3, 2.0},
-                                                       {0.3, 1.6}}};
-  std::vector<Trajectory> all;
-  if (std::optional<Trajectory> rest = ownRest(sailed, at_s, kSlowS.front())) {
-    all.push_back(std::move(*rest));
+// Stops in the order in which they are tried, each made when it is asked for: the usual ones first,
+// then harder and harder ones, at last those that take more of the way.
+class Candidates {
+ public:
+  Candidates(const Trajectory& sailed, double at_s)
+      : sailed_(sailed),
+        at_s_(at_s),
+        from_(sailed.flat(at_s)),
+        under_way_(from_.velocity.norm() > kUnderWayMps) {}
+
+  [[nodiscard]] std::size_t count() const {
+    return under_way_ ? kSlowS.size() + kStraight.size() + 1 : 1;
   }
-  const FlatPoint from = sailed.flat(at_s);
-  const std::size_t now = sailed.pieceAt(at_s);
-  if (sailed.pieces()[now].kind == PieceKind::kSpin && from.velocity.norm() < kUnderWayMps) {
-    if (all.empty()) {
-      all.push_back(stopTurning(sailed.pieces()[now], at_s - sailed.startOf(now)));
+  // Empty where there is none of that kind.
+  [[nodiscard]] Trajectory make(std::size_t k) const {
+    if (k + 1 == count()) {
+      return ownRest(sailed_, at_s_, kSlowS.back()).value_or(Trajectory{});
     }
-    return all;
+    if (k < kFirstSlow) {
+      return slow(kSlowS[k]);
+    }
+    k -= kFirstSlow;
+    return k < kStraight.size() ? straightStop(from_, kStraight[k])
+                                : slow(kSlowS[kFirstSlow + k - kStraight.size()]);
   }
-  for (const double duration : kSlowS) {
-    if (!ownRest(sailed, at_s, 0.5 * duration)) {
-      all.push_back(slowed(sailed, at_s, duration));
+
+ private:
+  static constexpr std::size_t kFirstSlow = 2;  // before the straight ones
+  static constexpr std::array<double, 5> kSlowS = {5.5, 4.0, 7.0, 9.0, 12.0};
+  static constexpr std::array<StraightStop, 16> kStraight = {{{3.0, 4.5},
+                                                              {2.0, 4.5},
+                                                              {2.0, 3.2},
+                                                              {2.0, 2.4},
+                                                              {1.3, 3.2},
+                                                              {1.3, 2.4},
+                                                              {0.9, 3.2},
+                                                              {0.6, 3.2},
+                                                              {0.9, 2.4},
+                                                              {0.9, 2.0},
+                                                              {0.3, 3.2},
+                                                              {0.6, 2.4},
+                                                              {0.6, 2.0},
+                                                              {0.3, 2.4},
+                                                              {0.3, 2.0},
+                                                              {0.3, 1.6}}};
+
+  // Of a way long enough for it.
+  [[nodiscard]] Trajectory slow(double duration_s) const {
+    return sailed_.duration() - at_s_ > 0.5 * duration_s ? slowed(sailed_, at_s_, duration_s)
+                                                         : Trajectory{};
+  }
+
+  const Trajectory& sailed_;
+  double at_s_;
+  FlatPoint from_;
+  bool under_way_;
+};
+
+// Whether a stop begins in the attitude that the vessel has.
+bool goesOnFrom(const trajectory::Sample& here, const Trajectory& stop,
+                const vessel::Parameters& vessel) {
+  constexpr double kTurnRad = 0.1;
+  const double psi = stop.sampleIn(0, 0.0, vessel).state[vessel::kPsi];
+  return std::abs(wrapAngle(psi - here.state[vessel::kPsi])) < kTurnRad;
+}
+
+// More than what is left of an acceleration as it dies out.
+bool gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
+  constexpr double kFasterMps = 0.5;
+  constexpr double kStepS = 0.1;
+  const double fastest = here.flat.velocity.norm() + kFasterMps;
+  for (double t = 0.0; t < stop.duration(); t += kStepS) {
+    if (stop.flat(t).velocity.norm() > fastest) {
+      return true;
     }
   }
-  if (from.velocity.norm() > kUnderWayMps) {
-    for (const StraightStop& stop : kStraight) {
-      all.push_back(straightStop(from, stop));
-    }
-  }
-  return all;
+  return false;
 }
 
 }  // namespace
 
 Braking brakingTrajectory(const Trajectory& sailed, double at_s,
                           const feasibility::Obstacles& obstacles, const vessel::Parameters& vessel,
-                          double clearance_m) {
-  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, clearance_m);
-  limits.thrust_share = kThrustTolerance;
+                          const StopLimits& stop) {
+  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, stop.clearance_m);
+  limits.hull_margin_m = stop.hull_margin_m;
   limits.speed_max_mps = 2.0 * vessel.top_speed_mps;
   feasibility::Tolerances tolerances;
   tolerances.heading_force_share = kLeastForceShare;
   tolerances.step_s = 0.02;
   const feasibility::Obstacles ahead = obstacles.startingAt(at_s);
+  // Of the path alone: against a steady force the heading would swing as the way comes off.
+  const trajectory::Sample here = sailed.sample(at_s, vessel);
+  limits.thrust_share =
+      kThrustTolerance *
+      std::max({1.0, vessel::shareOfLimit(here.thrusts[vessel::kLeft], vessel.thrusters),
+                vessel::shareOfLimit(here.thrusts[vessel::kRight], vessel.thrusters)});
+  // What the centre keeps in any attitude, to be looked at first.
+  const double centre_m =
+      std::max(stop.clearance_m, feasibility::HullCover(vessel.hull, stop.hull_margin_m).radius_m);
   Braking best;
   best.clearance_m = -1.0;
-  for (Trajectory& candidate : candidates(sailed, at_s)) {
+  double best_way_m = 0.0;
+  if (here.flat.velocity.norm() <= kUnderWayMps) {
+    Trajectory held = halt(sailed, at_s, vessel, stop.disturbance);
+    if (!outlineConflict(held, 0.0, held.duration(), ahead, vessel, stop.hull_margin_m).found) {
+      return {std::move(held), true, stop.clearance_m};
+    }
+    best = {std::move(held), false, 0.0};
+  }
+  const Candidates candidates(sailed, at_s);
+  for (std::size_t k = 0; k < candidates.count(); ++k) {
+    Trajectory candidate = candidates.make(k);
     if (candidate.empty()) {
       continue;
     }
-    if (keepsAsternShare(candidate, vessel) &&
+    if (!firstConflict(candidate, 0.0, ahead, centre_m).found &&
+        goesOnFrom(here, candidate, vessel) && !gathersWay(here, candidate) &&
+        keepsAsternShare(candidate, vessel) &&
         feasibility::verify(candidate, ahead, vessel, limits, tolerances).ok) {
-      return {std::move(candidate), true, clearance_m};
+      return {std::move(candidate), true, stop.clearance_m};
     }
     const double clearance = leastClearance(candidate, ahead);
-    if (clearance >= best.clearance_m) {  // of equals the harder stop
+    const double way = (candidate.flat(candidate.duration()).position - here.flat.position).norm();
+    if (clearance > best.clearance_m || (clearance == best.clearance_m && way < best_way_m)) {
       best = {std::move(candidate), false, clearance};
+      best_way_m = way;
     }
   }
   return best;

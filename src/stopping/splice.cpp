@@ -6,10 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "otter_nav/feasibility/clearance_walk.hpp"
-#include "otter_nav/stopping/braking.hpp"
-#include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
-
 namespace otter_nav::stopping {
 namespace {
 
@@ -30,30 +26,6 @@ void shift(Eigen::Matrix<double, Rows, kCoefficients>& c, double t) {
 }
 
 }  // namespace
-
-Conflict firstConflict(const Trajectory& trajectory, double from_s,
-                       const feasibility::Obstacles& obstacles, double clearance_m) {
-  if (trajectory.empty()) {
-    return {};
-  }
-  for (std::size_t i = trajectory.pieceAt(from_s); i < trajectory.pieces().size(); ++i) {
-    const Piece& piece = trajectory.pieces()[i];
-    const double bound =
-        trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
-        obstacles.rateBound();
-    const double from = std::clamp(from_s - trajectory.startOf(i), 0.0, piece.duration_s);
-    const auto slack = [&](double t) {
-      return obstacles.clearance(piece.flat(t).position, trajectory.startOf(i) + t) - clearance_m +
-             feasibility::kLeastSlackM;
-    };
-    if (const auto t = feasibility::firstConflict(from, piece.duration_s, bound, slack)) {
-      const Eigen::Vector2d position = piece.flat(*t).position;
-      return {true, trajectory.startOf(i) + *t, position,
-              obstacles.clearance(position, trajectory.startOf(i) + *t)};
-    }
-  }
-  return {};
-}
 
 Trajectory remainder(const Trajectory& trajectory, double at_s) {
   if (trajectory.empty()) {
@@ -90,6 +62,25 @@ trajectory::TimedTrajectory splice(const trajectory::TimedTrajectory& sailed, do
   const std::vector<Piece>& later = next.trajectory.pieces();
   pieces.insert(pieces.end(), later.begin(), later.end());
   return {Trajectory(std::move(pieces)), sailed.start_time_s + start};
+}
+
+bool restsOnTheWay(const Trajectory& trajectory) {
+  constexpr double kRestMps = 1e-3;
+  bool under_way = false;
+  for (std::size_t i = 0; i + 1 < trajectory.pieces().size(); ++i) {
+    const Piece& piece = trajectory.pieces()[i];
+    under_way = under_way || piece.flat(0.5 * piece.duration_s).velocity.norm() > kRestMps;
+    if (under_way && piece.flat(piece.duration_s).velocity.norm() < kRestMps) {
+      // Followed by nothing but turns on the spot it is the arrival.
+      for (std::size_t k = i + 1; k < trajectory.pieces().size(); ++k) {
+        const Piece& later = trajectory.pieces()[k];
+        if (later.flat(0.5 * later.duration_s).velocity.norm() > kRestMps) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace otter_nav::stopping

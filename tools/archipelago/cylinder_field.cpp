@@ -240,7 +240,7 @@ Result<CylinderField> generateCylinderField(const CylinderFieldOptions& options,
     field.best_m = widestWay(distances, field.mission.start.position, field.mission.goal.position);
     if (field.best_m >= options.best_min_m && field.best_m <= options.best_max_m) {
       field.chart = empty;
-      std::fill(field.chart.cells.begin(), field.chart.cells.end(), Cell::kFree);
+      std::fill(field.chart.cells.begin(), field.chart.cells.end(), Cell::kUnknown);
       return field;
     }
   }

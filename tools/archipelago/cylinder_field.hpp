@@ -26,7 +26,7 @@ struct CylinderFieldOptions {
 };
 
 struct CylinderField {
-  map::OccupancyGrid chart;  // free water all over: it shows not even the border
+  map::OccupancyGrid chart;  // unknown all over: it shows not even the border
   map::OccupancyGrid world;
   Mission mission;
   double best_m = 0.0;  // the clearance of the best way, by widestWay()

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "otter_nav/feasibility/hull_cover.hpp"
+#include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/trajectory/piece.hpp"
@@ -55,7 +55,7 @@ class EdgeCheck {
   vessel::Parameters vessel_;
   vessel::InverseDynamics inverse_;
   SafetyLimits limits_;
-  HullCover hull_;
+  PieceWalk walk_;
   double least_force_n_ = 0.0;
   double force_ahead_n_ = 0.0;
   double force_astern_n_ = 0.0;

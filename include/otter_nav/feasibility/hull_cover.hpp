@@ -18,9 +18,10 @@ struct HullCover {
   double offset_m = 0.0;
   double radius_m = 0.0;
 
-  explicit HullCover(const vessel::Hull& hull)
+  // `margin_m` wider all round.
+  explicit HullCover(const vessel::Hull& hull, double margin_m = 0.0)
       : offset_m(hull.length_m / 3.0),
-        radius_m(std::hypot(hull.length_m / 6.0, hull.beam_m / 2.0)) {}
+        radius_m(std::hypot(hull.length_m / 6.0, hull.beam_m / 2.0) + margin_m) {}
 
   // Of the circle around all discs.
   [[nodiscard]] double reach() const { return offset_m + radius_m; }

@@ -48,6 +48,16 @@ class Obstacles {
     return later;
   }
 
+  // A field in which what nobody has seen to be free is occupied as well; not owned either. Plans
+  // go there on trust, stops never do.
+  void setKnownWater(const map::DistanceField& known) { known_ = &known; }
+  // The same in known water alone.
+  [[nodiscard]] Obstacles inKnownWater() const {
+    Obstacles known = *this;
+    known.field_ = known_ != nullptr ? known_ : field_;
+    return known;
+  }
+
   // What lies still: for what has no time of its own (guide paths, windows of a search).
   [[nodiscard]] const map::DistanceField& field() const { return *field_; }
   [[nodiscard]] double rateBound() const { return rate_bound_mps_; }
@@ -74,6 +84,7 @@ class Obstacles {
 
  private:
   const map::DistanceField* field_;
+  const map::DistanceField* known_ = nullptr;  // none: all of the water is known
   std::vector<const ObstacleLayer*> layers_;
   double rate_bound_mps_ = 0.0;
   double start_s_ = 0.0;

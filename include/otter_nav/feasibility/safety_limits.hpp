@@ -12,8 +12,10 @@
 namespace otter_nav::feasibility {
 
 struct SafetyLimits {
-  // Of the hull's centre from everything occupied, m. The hull's outline touches nothing besides.
+  // Of the hull's centre from everything occupied, m. The discs that cover the hull keep
+  // `hull_margin_m` besides.
   double clearance_m = 0.8;
+  double hull_margin_m = 0.0;
   vessel::Hull hull;
   // Of each thruster's limits; the rest is for control, wind and current.
   double thrust_share = 0.97;

@@ -25,6 +25,9 @@ struct DistanceFieldOptions {
   bool unknown_is_occupied = false;
 };
 
+// Enough for the field of known water: what stops ask it for are a hull's clearances.
+constexpr double kKnownWaterDistanceM = 3.0;
+
 class DistanceField {
  public:
   DistanceField() = default;

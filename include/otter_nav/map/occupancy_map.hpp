@@ -22,6 +22,7 @@ struct OccupancyMapOptions {
   double miss_probability = 0.4;
   double occupied_probability = 0.7;
   double hull_margin_m = 0.2;
+  bool trust_chart = true;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
@@ -34,6 +35,8 @@ struct OccupancyMapOptions {
            "from here on a voxel counts as an obstacle");
     fields("hull_margin_m", o.hull_margin_m, {0.0, 10.0},
            "echoes this close to the own hull are its own");
+    fields("trust_chart", o.trust_chart,
+           "water that the chart shows free is known to be so; else only once it was seen");
   }
   // Beliefs are clamped, so that what moved away clears in time.
   static constexpr double kMinProbability = 0.12;
@@ -90,7 +93,8 @@ struct CellRectangle {
 
 class OccupancyMap {
  public:
-  // The chart's obstacles stand from the sea up: no beam ever clears them.
+  // The chart's obstacles stand from the sea up: no beam ever clears them. Unless the chart is
+  // trusted, its free water is unknown to the projection until it was seen.
   OccupancyMap(OccupancyGrid chart, const vessel::Hull& own_hull,
                const OccupancyMapOptions& options);
   ~OccupancyMap();

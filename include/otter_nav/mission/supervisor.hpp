@@ -4,9 +4,10 @@
 // ROS run the same one (docs/mission.md has the picture of its states).
 //
 // Rules: a plan is kept while the way ahead stays clear. When something comes up in the way, a new
-// plan is asked for that starts on the sailed trajectory a little ahead of the vessel. If none
-// comes before the vessel must brake, it stops in a controlled way and plans again from rest. Every
-// retry is counted, and the last reason is told.
+// plan is asked for that starts on the sailed trajectory a little ahead of the vessel. At every
+// decision a stop that begins a little later is verified in known water and kept; a plan is taken
+// only with such a stop. Where none is left the last one is sailed, and given up for a plan as soon
+// as there is one. Every retry is counted, and the last reason is told.
 #pragma once
 
 #include <cstdint>
@@ -48,8 +49,8 @@ enum class Phase {
 // What a user can set (config/mission.yaml, mapping `supervisor`); the other figures of the rules
 // stand beside them.
 struct SupervisorOptions {
-  std::vector<double> side_clearances_m = {1.06, 0.66, 0.36, 0.26};
-  double critical_side_clearance_m = 0.11;
+  std::vector<double> side_clearances_m = {1.06, 0.66, 0.26, 0.16};
+  double critical_side_clearance_m = 0.03;
   double thrust_share = 0.95;
   double speed_max_mps = 0.0;
   double planning_latency_s = 0.3;
@@ -69,7 +70,7 @@ struct SupervisorOptions {
                 "beyond half the beam from anything occupied, m: a plan is tried from the widest "
                 "to the narrowest");
     fields("critical_side_clearance_m", o.critical_side_clearance_m, {0.0, 10.0},
-           "likewise, m: the vessel brakes for less than this on the way");
+           "of the hull's outline, m: with less on the way another plan is looked for");
     fields("thrust_share", o.thrust_share, {0.4, 1.0},
            "of the thrusters' limits in plans; in gusts less by what they take");
     fields("speed_max_mps", o.speed_max_mps, {0.0, 100.0},

@@ -24,6 +24,8 @@ class MapMirror {
   [[nodiscard]] bool ready() const { return !grid_.cells.empty(); }
   [[nodiscard]] const map::OccupancyGrid& grid() const { return grid_; }
   [[nodiscard]] const map::DistanceField& field() const { return field_; }
+  // In which the unknown is occupied.
+  [[nodiscard]] const map::DistanceField& knownWater() const { return known_; }
   // Of the last update, zero before.
   [[nodiscard]] const ros::Time& stamp() const { return stamp_; }
 
@@ -31,6 +33,7 @@ class MapMirror {
   map::DistanceFieldOptions options_;
   map::OccupancyGrid grid_;
   map::DistanceField field_;
+  map::DistanceField known_;
   ros::Time load_time_;
   ros::Time stamp_;
 };

@@ -16,10 +16,10 @@ namespace otter_nav::stopping {
 // Room to turn on the spot: the hull's corners, and some more, m from its centre.
 [[nodiscard]] double turningRoom(const vessel::Hull& hull);
 
-// From rest at `state` straight astern, or else ahead, with the heading kept, to the nearest place
-// with room to turn; rest to rest. Verified like a plan, but for the clearance: the hull's
-// outline keeps 0.1 m, and what `disturbance_n` could set it aside meanwhile. None if there is room
-// already, or no such place within a few lengths.
+// From rest at `state` to a place with more room, at best enough to turn on the spot: straight
+// astern or ahead, after a turn on the spot if need be, the least turn first; rest to rest.
+// Verified like a plan, but for the clearance: the hull's exact outline keeps 0.1 m, and what
+// `disturbance_n` could set it aside meanwhile. None where no better place is near.
 [[nodiscard]] std::optional<trajectory::Trajectory> backOff(const vessel::State& state,
                                                             const feasibility::Obstacles& obstacles,
                                                             const vessel::Parameters& vessel,

@@ -6,6 +6,7 @@
 
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::stopping {
@@ -16,25 +17,23 @@ struct Braking {
   double clearance_m = 0.0;           // the least along it, sampled; only if not clear
 };
 
-// The gentlest stop from `at_s` (s from the trajectory's start) that keeps the clearance: along
-// the sailed way, slowed down in time, or straightened out and then ahead in a line. A hull without
-// a side thruster can't brake harder than its drag in a curve (its heading would have to swing
-// across, docs/model.md), so a hard stop straightens first. If nothing keeps `clearance_m` of the
-// hull's centre, the stop that comes nearest to it, with `clear` false.
+// What a stop keeps: the hull's centre `clearance_m`, and the discs that cover the hull
+// `hull_margin_m`, which is what the vessel may be off its trajectory.
+struct StopLimits {
+  double clearance_m = 0.0;
+  double hull_margin_m = 0.0;
+  vessel::Disturbance disturbance = {};  // that the sailed trajectory was planned with
+};
+
+// The quickest stop from `at_s` (s from the trajectory's start) that keeps to its limits and asks
+// for no more than the thrusters give: along the sailed way, slowed down in time, or straightened
+// out and then ahead in a line; where there is no room for these, along more of the way, at last to
+// a rest that the way itself comes to. A hull without a side thruster can't brake harder than its
+// drag in a curve (its heading would have to swing across, docs/model.md), so a hard stop
+// straightens first. No stop gathers way. If none keeps to the limits, the one that comes nearest
+// to it, with `clear` false.
 [[nodiscard]] Braking brakingTrajectory(const trajectory::Trajectory& sailed, double at_s,
                                         const feasibility::Obstacles& obstacles,
-                                        const vessel::Parameters& vessel, double clearance_m);
-
-// The first time from `from_s` on at which the trajectory's clearance is below `clearance_m`.
-// Continuous: it moves on by what the clearance allows at the piece's speed (the control polygon
-// of its velocity bounds it).
-struct Conflict {
-  bool found = false;
-  double time_s = 0.0;  // from the trajectory's start
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double clearance_m = 0.0;  // there
-};
-[[nodiscard]] Conflict firstConflict(const trajectory::Trajectory& trajectory, double from_s,
-                                     const feasibility::Obstacles& obstacles, double clearance_m);
+                                        const vessel::Parameters& vessel, const StopLimits& stop);
 
 }  // namespace otter_nav::stopping

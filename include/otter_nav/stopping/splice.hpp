@@ -14,4 +14,7 @@ namespace otter_nav::stopping {
 [[nodiscard]] trajectory::Trajectory remainder(const trajectory::Trajectory& trajectory,
                                                double at_s);
 
+// Whether it comes to rest between its start and its end: to turn on the spot at a corner.
+[[nodiscard]] bool restsOnTheWay(const trajectory::Trajectory& trajectory);
+
 }  // namespace otter_nav::stopping

@@ -48,7 +48,7 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
                       const feasibility::SafetyLimits& safety, double cell_m) {
   SplineLimits limits;
   limits.clearance_m = safety.clearance_m + kClearanceMarginM + kSquareCells * cell_m;
-  const feasibility::HullCover hull(safety.hull);
+  const feasibility::HullCover hull(safety.hull, safety.hull_margin_m);
   limits.hull_offset_m = hull.offset_m;
   limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
   const double share = kThrustShare * safety.thrust_share * care.thrust_factor;

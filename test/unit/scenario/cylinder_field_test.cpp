@@ -23,7 +23,7 @@ TEST(CylinderField, IsAsNarrowAsAskedForAndCanBePassed) {
     EXPECT_GE(best, options.best_min_m);
     EXPECT_LE(best, options.best_max_m);
     EXPECT_TRUE(std::all_of(field->chart.cells.begin(), field->chart.cells.end(),
-                            [](Cell cell) { return cell == Cell::kFree; }));
+                            [](Cell cell) { return cell == Cell::kUnknown; }));
     const map::GridGeometry& g = field->world.geometry;
     EXPECT_EQ(field->world.at(0, g.height / 2), Cell::kOccupied);
     EXPECT_EQ(field->world.at(g.width - 1, g.height / 2), Cell::kOccupied);

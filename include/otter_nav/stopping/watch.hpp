@@ -1,0 +1,32 @@
+// What comes into the way of a trajectory that is being sailed. Obstacles start where it does.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "otter_nav/feasibility/obstacles.hpp"
+#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/vessel/parameters.hpp"
+
+namespace otter_nav::stopping {
+
+struct Conflict {
+  bool found = false;
+  double time_s = 0.0;                                 // from the trajectory's start
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // of the hull's centre
+  double clearance_m = 0.0;                            // there, of what is watched
+};
+
+// The first time from `from_s` on at which the hull's centre is nearer to anything than
+// `clearance_m`, by the one walk (feasibility/clearance_walk.hpp).
+[[nodiscard]] Conflict firstConflict(const trajectory::Trajectory& trajectory, double from_s,
+                                     const feasibility::Obstacles& obstacles, double clearance_m);
+
+// The same for the hull's exact outline in the attitude planned with `disturbance`, up to `to_s`.
+// Where `edge` is false the map's edge is no obstacle.
+[[nodiscard]] Conflict outlineConflict(const trajectory::Trajectory& trajectory, double from_s,
+                                       double to_s, const feasibility::Obstacles& obstacles,
+                                       const vessel::Parameters& vessel, double clearance_m,
+                                       bool edge = true,
+                                       const vessel::Disturbance& disturbance = {});
+
+}  // namespace otter_nav::stopping

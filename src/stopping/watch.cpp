@@ -1,0 +1,109 @@
+#include "otter_nav/stopping/watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "otter_nav/feasibility/clearance_walk.hpp"
+#include "otter_nav/stopping/back_off.hpp"
+#include "otter_nav/vessel/hull.hpp"
+
+namespace otter_nav::stopping {
+namespace {
+
+using feasibility::Obstacles;
+using trajectory::Piece;
+using trajectory::Trajectory;
+
+// What stands near a point of the outline; without `edge` only what is nearer than the map's edge
+// counts.
+double pointClearance(const Eigen::Vector2d& p, double time_s, const Obstacles& obstacles,
+                      bool edge) {
+  const double clearance = obstacles.clearance(p, time_s);
+  if (edge) {
+    return clearance;
+  }
+  constexpr double kTightCells = 0.15;  // of the field's bound
+  const map::GridGeometry& map = obstacles.field().geometry();
+  const bool edge_is_nearest = clearance >= insideMap(map, p) - kTightCells * map.resolution_m;
+  return edge_is_nearest ? std::numeric_limits<double>::infinity() : clearance;
+}
+
+// Of a spin by its polynomial; under sail by what the thrusters can hold.
+double turningBound(const Piece& piece, const vessel::Parameters& vessel) {
+  if (piece.kind == trajectory::PieceKind::kSail) {
+    return feasibility::SafetyLimits::of(vessel).yaw_rate_max_radps;
+  }
+  double turning = 0.0;
+  for (int k = 1; k < trajectory::kCoefficients; ++k) {
+    turning += k * std::abs(piece.heading[k]) * std::pow(piece.duration_s, k - 1);
+  }
+  return turning;
+}
+
+}  // namespace
+
+Conflict firstConflict(const Trajectory& trajectory, double from_s, const Obstacles& obstacles,
+                       double clearance_m) {
+  if (trajectory.empty()) {
+    return {};
+  }
+  feasibility::SafetyLimits limits;
+  limits.clearance_m = clearance_m - feasibility::kLeastSlackM;
+  const feasibility::PieceWalk walk(limits, false);
+  for (std::size_t i = trajectory.pieceAt(from_s); i < trajectory.pieces().size(); ++i) {
+    const Piece& piece = trajectory.pieces()[i];
+    const double start = trajectory.startOf(i);
+    const double from = std::clamp(from_s - start, 0.0, piece.duration_s);
+    const feasibility::Walked walked = walk.along(piece, from, obstacles, start, 0.0,
+                                                  [](double) { return Eigen::Vector2d::UnitX(); });
+    if (walked.conflict_s) {
+      return {true, start + *walked.conflict_s, piece.flat(*walked.conflict_s).position,
+              walked.centre_m};
+    }
+  }
+  return {};
+}
+
+Conflict outlineConflict(const Trajectory& trajectory, double from_s, double to_s,
+                         const Obstacles& obstacles, const vessel::Parameters& vessel,
+                         double clearance_m, bool edge, const vessel::Disturbance& disturbance) {
+  if (trajectory.empty()) {
+    return {};
+  }
+  const double reach = vessel::circumscribedRadius(vessel.hull);
+  for (std::size_t i = trajectory.pieceAt(from_s);
+       i < trajectory.pieces().size() && trajectory.startOf(i) <= to_s; ++i) {
+    const Piece& piece = trajectory.pieces()[i];
+    const double start = trajectory.startOf(i);
+    const double approach =
+        trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
+        reach * turningBound(piece, vessel) + obstacles.rateBound();
+    double nearest = 0.0;
+    const auto slack = [&](double t) {
+      const Eigen::Vector2d centre = trajectory::evaluate<8>(piece.position, t);
+      if (edge) {
+        nearest = obstacles.clearance(centre, start + t) - reach;
+        if (nearest > clearance_m + 0.5 * reach) {
+          return nearest - clearance_m;
+        }
+      }
+      const double psi = trajectory.sampleIn(i, t, vessel, disturbance).state[vessel::kPsi];
+      nearest = feasibility::outlineClearance(
+          vessel.hull, centre, psi,
+          [&](const Eigen::Vector2d& p) { return pointClearance(p, start + t, obstacles, edge); });
+      const double left = nearest - clearance_m + feasibility::kLeastSlackM;
+      // Without the edge the clearance is no bound of what comes next: short steps.
+      constexpr double kShortM = 0.05;
+      return edge ? left : std::min(left, kShortM);
+    };
+    const double from = std::clamp(from_s - start, 0.0, piece.duration_s);
+    const double to = std::clamp(to_s - start, from, piece.duration_s);
+    if (const auto t = feasibility::firstConflict(from, to, approach, slack)) {
+      return {true, start + *t, piece.flat(*t).position, nearest};
+    }
+  }
+  return {};
+}
+
+}  // namespace otter_nav::stopping
