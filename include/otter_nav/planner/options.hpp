@@ -40,7 +40,6 @@ struct Options {
     fields("improve_attempts", o.improve_attempts, {0, 1000}, "searches after that, in time left");
     fields("local_optimization", o.local_optimization, "bend failing edges, not discard them");
     fields("global_optimization", o.global_optimization, "smooth and speed up the whole");
-    fields("keep_trees", o.keep_trees, "copy guide path and trees into the plan for display");
     fields.group("optimizer", o.optimizer, "what a trajectory is worth beside its seconds");
   }
 };
