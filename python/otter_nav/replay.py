@@ -59,32 +59,35 @@ class Recorded:
         every = sorted(set(self.topics) | set(motion) |
                        {t for t, kind in self.kinds.items() if kind == "trajectory"})
         self.runs = [[]]
-        last = {}
+        last, received = {}, None
         for topic, (_, data, _, _, pytype), t in raw_messages(bag, every):
             self.pytypes[topic] = pytype
-            if topic in motion:
-                stamp = _stamp(data)
-                if stamp < last.get(topic, stamp) - _JUMP_BACK_S:
-                    self.runs.append(_take_latched_tail(self.runs[-1], self.topics))
-                    last = {}
+            t = t.to_sec()
+            stamp = _stamp(data) if topic in motion else None
+            if (received is not None and t < received - _JUMP_BACK_S) or (
+                    stamp is not None and stamp < last.get(topic, stamp) - _JUMP_BACK_S):
+                self.runs.append(self._take_latched_tail(self.runs[-1], motion))
+                last = {}
+            received = t
+            if stamp is not None:
                 last[topic] = stamp
-            self.runs[-1].append((t.to_sec(), topic, data))
+            self.runs[-1].append((t, topic, data))
         self.runs = [run for run in self.runs if any(m[1] in motion for m in run)]
+
+    def _take_latched_tail(self, run, motion):
+        """A new run's nodes may have latched messages before its clock runs: after the old motion."""
+        begin = len(run)
+        while begin > 0 and run[begin - 1][1] not in motion:
+            begin -= 1
+        tail = run[begin:]
+        latched = [m[1] in self.topics and self.topics[m[1]].latched for m in tail]
+        run[begin:] = [m for m, is_latched in zip(tail, latched) if not is_latched]
+        return [m for m, is_latched in zip(tail, latched) if is_latched]
 
     def _mine(self, topic):
         """Below the vessel's namespace, or everybody's at the root."""
         return (not self.prefix or topic in self.kinds or topic.startswith(self.prefix + "/") or
                 topic.count("/") == 1)
-
-
-def _take_latched_tail(run, topics):
-    """A new run's latched messages may come shortly before its motion: they are at the end."""
-    begin = len(run)
-    while begin > 0 and run[begin - 1][1] in topics and topics[run[begin - 1][1]].latched:
-        begin -= 1
-    tail = run[begin:]
-    del run[begin:]
-    return tail
 
 
 def _stamp(data):

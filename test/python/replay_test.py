@@ -46,6 +46,26 @@ def test_runs_are_cut_where_time_jumps_back(tmp_path):
     assert all(abs(run[0][0] - recorded.runs[0][0][0]) < 0.1 for run in recorded.runs)
 
 
+def test_what_comes_before_a_runs_motion_is_its_own(tmp_path):
+    """Latched or not, in a bag put together from two and in one recorded through a restart."""
+    together, restarted = tmp_path / "together.bag", tmp_path / "restarted.bag"
+    for path, early in ((together, 99.0), (restarted, 118.0)):
+        with rosbag.Bag(path, "w") as bag:
+            for run in range(2):
+                begin = early if run else 99.0
+                latched(bag, "/vessel", String(VESSEL), begin)
+                bag.write("/note", String("no motion yet"), stamp(begin))
+                latched(bag, "/chart", OccupancyGrid(), begin)
+                for name, message, t in messages():
+                    bag.write(f"/{name}", message, stamp(t))
+        with open_bag(path) as bag:
+            recorded = replay.Recorded(bag, str(path), None)
+        assert len(recorded.runs) == 2, path
+        for run in recorded.runs:
+            first = [topic for _, topic, _ in run if topic in ("/vessel", "/chart")]
+            assert first == ["/vessel", "/chart"], path
+
+
 def test_one_vessel_of_several(tmp_path):
     path = tmp_path / "two.bag"
     with rosbag.Bag(path, "w") as bag:
