@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 #include "otter_nav/base/angles.hpp"
@@ -131,14 +132,17 @@ Sample sampleOf(const OdometryRecord& record, const std::vector<Sample>& before)
   return sample;
 }
 
-// Samples from `from_s` to `to_s`, cut where the odometry pauses.
-DataSet samplesOf(const std::vector<OdometryRecord>& records, double from_s, double to_s,
+// Samples from `from_s` to `to_s`, cut where the odometry or the commands pause: what was asked of
+// the thrusters meanwhile is not known.
+DataSet samplesOf(const std::vector<OdometryRecord>& records,
+                  const std::vector<CommandRecord>& commands, double from_s, double to_s,
                   const DataOptions& options) {
   const std::size_t stride = strideOf(records, options.sample_interval_s);
   DataSet data;
   std::size_t begin = 0;
   std::size_t count = 0;
   double last_s = from_s;
+  std::size_t next = 1;  // of the commands
   const auto close = [&] {
     if (data.samples.size() - begin > 1) {
       data.stretches.push_back({begin, data.samples.size()});
@@ -151,8 +155,18 @@ DataSet samplesOf(const std::vector<OdometryRecord>& records, double from_s, dou
     if (record.stamp_s < from_s || record.stamp_s > to_s || again) {
       continue;
     }
-    if (record.stamp_s - last_s > options.max_gap_s) {
+    while (next < commands.size() && commands[next].stamp_s < record.stamp_s) {
+      ++next;
+    }
+    const bool unknown = next < commands.size() &&
+                         commands[next].stamp_s - commands[next - 1].stamp_s > options.max_gap_s &&
+                         record.stamp_s > commands[next - 1].stamp_s &&
+                         record.stamp_s < commands[next].stamp_s;
+    if (unknown || record.stamp_s - last_s > options.max_gap_s) {
       close();
+    }
+    if (unknown) {
+      continue;
     }
     last_s = record.stamp_s;
     if (count++ % stride == 0) {
@@ -173,6 +187,17 @@ double usableDuration(const DataSet& data) {
 
 }  // namespace
 
+std::string describe(const std::vector<Holes>& holes) {
+  std::ostringstream out;
+  out << std::fixed;
+  for (const Holes& h : holes) {
+    out << "\nholes in " << h.stream << ": " << h.count << ", " << std::setprecision(2)
+        << h.missing_s << " s are missing; the longest from " << std::setprecision(3)
+        << h.longest_from_s << " s to " << h.longest_to_s << " s";
+  }
+  return out.str();
+}
+
 Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
                          double thrust_lag_s) {
   const Status status = check(recording);
@@ -182,7 +207,7 @@ Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
   // Only where both streams speak is the thrust known.
   const double from_s = recording.commands.front().stamp_s;
   const double to_s = recording.commands.back().stamp_s + options.command_timeout_s;
-  DataSet data = samplesOf(recording.odometry, from_s, to_s, options);
+  DataSet data = samplesOf(recording.odometry, recording.commands, from_s, to_s, options);
   addHoles(recording.odometry, recording.odometry_name, data.holes);
   addHoles(recording.commands, recording.command_name, data.holes);
   ThrustHistory history(recording.commands, thrust_lag_s, options.command_timeout_s);
@@ -198,7 +223,7 @@ Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
     out << "the recording is too short: " << recording.odometry_name << " and "
         << recording.command_name << " overlap for " << duration_s << " s, at least "
         << options.min_duration_s << " s are needed";
-    return failure(out.str());
+    return failure(out.str() + describe(data.holes));
   }
   return data;
 }

@@ -172,19 +172,22 @@ Result<Identification> identifyWithLag(const Recording& recording, const vessel:
   work.data = *std::move(data);
   work.guess = guess;
   work.vessel = guess;
+  const auto because = [&](const std::string& what) {
+    return failure(what + describe(work.data.holes));
+  };
   const Status excited = checkExcitation(work.data, guess.thrusters, options.min_excitation);
   if (!excited) {
-    return failure(excited.error().message);
+    return because(excited.error().message);
   }
   Result<Split> parts = split(work.data, options.split);
   if (!parts) {
-    return failure(parts.error().message);
+    return because(parts.error().message);
   }
   work.split = *std::move(parts);
 
   Result<Fit> paper = fitPaper(work, options);
   if (!paper) {
-    return failure("paper_model: " + paper.error().message);
+    return because("paper_model: " + paper.error().message);
   }
   work.paper = *std::move(paper);
   work.vessel.paper = paperFrom(work.paper);
@@ -193,7 +196,7 @@ Result<Identification> identifyWithLag(const Recording& recording, const vessel:
   if (options.fit_manoeuvring) {
     Result<Fit> manoeuvring = fitManoeuvring(work, options);
     if (!manoeuvring) {
-      return failure("manoeuvring_model: " + manoeuvring.error().message);
+      return because("manoeuvring_model: " + manoeuvring.error().message);
     }
     work.manoeuvring = *std::move(manoeuvring);
     work.vessel.manoeuvring = work.manoeuvring.model.coefficients;

@@ -110,10 +110,8 @@ std::string reportText(const Identification& r, const std::string& origin) {
       formatted("%zu samples over %.1f s, %zu windows fitted, %zu blocks for validation\n\n",
                 r.data.samples.size(), r.data.samples.back().time_s - r.data.samples.front().time_s,
                 r.split.fit_windows.size(), r.split.validation_blocks.size());
-  for (const Holes& h : r.data.holes) {
-    text += "holes in " + h.stream +
-            formatted(": %d, %.2f s are missing; the longest from %.3f s to %.3f s\n\n", h.count,
-                      h.missing_s, h.longest_from_s, h.longest_to_s);
+  if (!r.data.holes.empty()) {
+    text += describe(r.data.holes).substr(1) + "\n\n";
   }
   text += formatted("thruster lag %.3g s\n\n", r.vessel.thrusters.lag_s);
   text += estimateTable("paper_model", r.paper);

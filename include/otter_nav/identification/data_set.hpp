@@ -52,6 +52,8 @@ struct Holes {
   double longest_from_s = 0.0;
   double longest_to_s = 0.0;
 };
+// A line each, beginning with a line break; empty without holes.
+[[nodiscard]] std::string describe(const std::vector<Holes>& holes);
 
 struct DataSet {
   std::vector<Sample> samples;
@@ -71,7 +73,7 @@ struct DataOptions {
     fields("sample_interval_s", o.sample_interval_s, {0.001, 1.0},
            "faster odometry is thinned to this, its thrusts averaged");
     fields("max_gap_s", o.max_gap_s, {0.001, 60.0},
-           "a longer pause of the odometry splits the recording");
+           "a longer pause of the odometry or the commands splits the recording");
     fields("command_timeout_s", o.command_timeout_s, {0.01, 1e5},
            "thrust is zero this long after the last command");
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -112,6 +113,32 @@ TEST(Assemble, SplitsAtGapsAndUnwrapsTheHeading) {
   EXPECT_EQ(data->stretches[0].end, 400U);
   EXPECT_EQ(data->stretches[1].begin, 400U);
   EXPECT_NEAR(data->samples[399].state[vessel::kPsi], 0.05 * 399, 1e-9);
+}
+
+TEST(Assemble, LeavesOutWhereCommandsPause) {
+  Recording recording = steady(80.0, 0.1);
+  auto& commands = recording.commands;
+  const auto lost = [](const CommandRecord& c) { return c.stamp_s > 40.05 && c.stamp_s < 42.05; };
+  commands.erase(std::remove_if(commands.begin(), commands.end(), lost), commands.end());
+  const Result<DataSet> data = assemble(recording, DataOptions(), 0.0);
+  ASSERT_TRUE(data) << data.error().message;
+  ASSERT_EQ(data->stretches.size(), 2U);
+  EXPECT_NEAR(data->samples[data->stretches[0].end - 1].time_s, 40.0, 1e-9);
+  EXPECT_NEAR(data->samples[data->stretches[1].begin].time_s, 42.1, 1e-9);
+  for (const Stretch& s : data->stretches) {
+    for (std::size_t i = s.begin; i + 1 < s.end; ++i) {
+      EXPECT_GT(data->samples[i].thrusts[0], 1.0) << data->samples[i].time_s;
+    }
+  }
+}
+
+TEST(Assemble, SaysOfShortRecordingsWhereTheirHolesAre) {
+  Recording recording = steady(33.0, 0.1);
+  recording.odometry.erase(recording.odometry.begin() + 100, recording.odometry.begin() + 150);
+  const Result<DataSet> data = assemble(recording, DataOptions(), 0.0);
+  ASSERT_FALSE(data);
+  EXPECT_NE(data.error().message.find("holes in /odom: 1"), std::string::npos)
+      << data.error().message;
 }
 
 TEST(Assemble, NamesHoles) {
