@@ -11,9 +11,16 @@ struct Cluster {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::size_t> beams;  // that met them
   int new_points = 0;              // in water that was seen free before
+  int standing_points = 0;         // met there for a while
   bool out_of_range = false;       // in part: it goes on beyond the range
   bool first_hidden = false;       // it goes on behind something nearer, beyond its first point
   bool last_hidden = false;        // or its last
+
+  // It is seen whole, and nothing of it is where nothing was: of a vessel under way at least the
+  // bow would be.
+  [[nodiscard]] bool stands() const {
+    return !first_hidden && !last_hidden && standing_points == static_cast<int>(points.size());
+  }
 };
 
 // Along an axis: from `low` to `high`.

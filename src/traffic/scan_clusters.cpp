@@ -65,6 +65,7 @@ void ScanClusters::readEchoes(const map::SensorPose& sensor, const map::HullPose
   others_.clear();
   directions_.assign(scan.ranges_m.size(), Eigen::Vector2d::Zero());
   free_m_.assign(scan.ranges_m.size(), kNaN);
+  ends_at_standing_.assign(scan.ranges_m.size(), false);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double range = scan.ranges_m[i];
     const bool nothing = std::isinf(range) && range > 0.0;
@@ -90,8 +91,10 @@ void ScanClusters::readEchoes(const map::SensorPose& sensor, const map::HullPose
     }
     if (isCharted(point)) {
       others_.push_back(point);
+      ends_at_standing_[i] = true;
     } else {
-      echoes_.push_back({i, point, range * level, memory_.isNew(point)});
+      echoes_.push_back({i, point, range * level, memory_.isNew(point), memory_.stands(point)});
+      ends_at_standing_[i] = echoes_.back().stands;
     }
   }
 }
@@ -129,6 +132,7 @@ void ScanClusters::divide(std::size_t beams, double increment_rad) {
     cluster.points.push_back(echoes_[k].point);
     cluster.beams.push_back(echoes_[k].beam);
     cluster.new_points += echoes_[k].is_new ? 1 : 0;
+    cluster.standing_points += echoes_[k].stands ? 1 : 0;
   }
   // A full turn's last beam is beside its first.
   const bool full_turn = std::abs(increment_rad) * static_cast<double>(beams) > 2.0 * kPi - 0.1;
@@ -139,6 +143,7 @@ void ScanClusters::divide(std::size_t beams, double increment_rad) {
     last.points.insert(last.points.end(), first.points.begin(), first.points.end());
     last.beams.insert(last.beams.end(), first.beams.begin(), first.beams.end());
     last.new_points += first.new_points;
+    last.standing_points += first.standing_points;
     std::swap(first, last);
     clusters_.pop_back();
   }
@@ -181,14 +186,12 @@ const std::vector<Cluster>& ScanClusters::gather(double stamp_s, const map::Sens
   return clusters_;
 }
 
-double ScanClusters::inSight(const Eigen::Vector2d& position, double length_m,
+double ScanClusters::inSight(const Eigen::Vector2d& position, double near_m, double doubt_m,
                              double beam_m) const {
   const Eigen::Vector2d off = position - eye_;
   const double range = off.norm();
   constexpr double kMarginM = 0.5;
-  // Nearer by less than this is the thing itself, a little before where it is thought to be.
-  constexpr double kSelfM = 2.5;
-  if (range - 0.5 * length_m - kSelfM > range_max_m_ || free_m_.empty()) {
+  if (range - near_m - doubt_m > range_max_m_ || free_m_.empty()) {
     return 0.0;
   }
   const double half = std::atan2(0.25 * beam_m, std::max(range, 0.1));
@@ -197,7 +200,8 @@ double ScanClusters::inSight(const Eigen::Vector2d& position, double length_m,
     const double turns =
         std::remainder(bearing + side - angle_min_rad_ - kPi, 2.0 * kPi) + kPi;  // 0 to 2 pi
     const auto beam = static_cast<std::size_t>(std::lround(turns / increment_rad_));
-    if (beam < free_m_.size() && free_m_[beam] > range - 0.5 * length_m - kSelfM) {
+    if (beam < free_m_.size() &&
+        free_m_[beam] > range - near_m - (ends_at_standing_[beam] ? 0.0 : doubt_m)) {
       return range + kMarginM < range_max_m_ ? 1.0 : 0.5;
     }
   }

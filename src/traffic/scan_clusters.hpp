@@ -19,8 +19,9 @@ class ScanClusters {
                                      const map::HullPose& own, const map::Scan& scan);
   // How much of something at `position` could be seen in the scan gathered last: all of it (1), a
   // part (0.5: its far end is out of range), or nothing (0: it is out of range, behind something
-  // nearer, or where the waves hide it).
-  [[nodiscard]] double inSight(const Eigen::Vector2d& position, double length_m,
+  // nearer, or where the waves hide it). What is met up to `near_m` before it is the thing itself;
+  // `doubt_m` more if it hasn't stood there for a while.
+  [[nodiscard]] double inSight(const Eigen::Vector2d& position, double near_m, double doubt_m,
                                double beam_m) const;
 
  private:
@@ -29,6 +30,7 @@ class ScanClusters {
     Eigen::Vector2d point;
     double range_m = 0.0;  // over ground
     bool is_new = false;
+    bool stands = false;
   };
   [[nodiscard]] bool isCharted(const Eigen::Vector2d& point) const;
   void readEchoes(const map::SensorPose& sensor, const map::HullPose& own, const map::Scan& scan);
@@ -46,6 +48,7 @@ class ScanClusters {
   // Of each beam, over ground: direction, and how far it saw nothing (NaN: it says nothing).
   std::vector<Eigen::Vector2d> directions_;
   std::vector<double> free_m_;
+  std::vector<bool> ends_at_standing_;
   Eigen::Vector2d eye_ = Eigen::Vector2d::Zero();
   double yaw_rad_ = 0.0;
   double angle_min_rad_ = 0.0;

@@ -91,6 +91,11 @@ bool ScanMemory::isNew(const Eigen::Vector2d& point) const {
   return true;
 }
 
+bool ScanMemory::stands(const Eigen::Vector2d& point) const {
+  const Eigen::Vector2i at = cellAt(point);
+  return contains(at) && standsSince(cells_[indexOf(at)]);
+}
+
 void ScanMemory::met(const Eigen::Vector2d& point) {
   const Eigen::Vector2i at = cellAt(point);
   if (!contains(at)) {

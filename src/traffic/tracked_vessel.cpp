@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
@@ -17,6 +18,7 @@ constexpr double kLeastSizeM = 0.5;
 constexpr int kYoungHits = 5;
 
 constexpr double kLeastCourseSpeedMps = 0.3;
+constexpr double kLeastUnderWayMps = 0.6;
 constexpr double kCourseSigmas = 2.5;
 
 Eigen::Vector2d unit(double angle_rad) {
@@ -40,8 +42,12 @@ struct View {
         eye_athwart(across(ahead).dot(eye)),
         from_beside(looksAt(eye_athwart, athwart, eye_along, along)),
         from_end(looksAt(eye_along, along, eye_athwart, athwart)) {
-    hide(cluster.first_hidden, cluster.points.front(), ahead);
-    hide(cluster.last_hidden, cluster.points.back(), ahead);
+    if (cluster.first_hidden) {
+      hide(cluster.points.begin(), cluster.points.end(), ahead);
+    }
+    if (cluster.last_hidden) {
+      hide(cluster.points.rbegin(), cluster.points.rend(), ahead);
+    }
   }
 
   // Whether an end of the spans is where something nearer begins, and not the hull's.
@@ -54,14 +60,19 @@ struct View {
   Hidden athwart_hidden;
 
  private:
-  void hide(bool hidden, const Eigen::Vector2d& point, const Eigen::Vector2d& ahead) {
-    constexpr double kAtEndM = 0.3;
-    const auto mark = [&](double value, const Span& span, Hidden& ends) {
-      ends.low = ends.low || (hidden && value < span.low + kAtEndM);
-      ends.high = ends.high || (hidden && value > span.high - kAtEndM);
-    };
-    mark(ahead.dot(point), along, along_hidden);
-    mark(across(ahead).dot(point), athwart, athwart_hidden);
+  // The hull goes on beyond its first point, the way its echoes run there: along its side or its
+  // end.
+  template <typename Points>
+  void hide(Points first, Points last, const Eigen::Vector2d& ahead) {
+    constexpr double kRunM = 0.6;
+    const auto inner =
+        std::find_if(first, last, [&](const auto& p) { return (p - *first).norm() > kRunM; });
+    const Eigen::Vector2d run = *first - (inner == last ? *std::prev(last) : *inner);
+    const double runs_along = ahead.dot(run);
+    const double runs_athwart = across(ahead).dot(run);
+    const bool on_side = std::abs(runs_along) >= std::abs(runs_athwart);
+    Hidden& ends = on_side ? along_hidden : athwart_hidden;
+    ((on_side ? runs_along : runs_athwart) > 0.0 ? ends.high : ends.low) = true;
   }
   static double outside(double value, const Span& span) {
     return std::max({0.0, span.low - value, value - span.high});
@@ -119,6 +130,10 @@ bool TrackedVessel::followCourse() {
   return first;
 }
 
+bool TrackedVessel::isUnderWay() const {
+  return has_moved && motion.state().segment<2>(2).norm() > kLeastUnderWayMps;
+}
+
 Track TrackedVessel::track() const {
   const MotionState x = motion.state();
   Track track;
@@ -148,6 +163,18 @@ Track TrackedVessel::track() const {
   track.existence = existence;
   track.sources = sources;
   return track;
+}
+
+Eigen::Vector2d TrackedVessel::ahead() const {
+  return unit(*heading_rad);
+}
+
+double TrackedVessel::halfDepth(const Eigen::Vector2d& along) const {
+  if (!heading_rad) {
+    return 0.5 * std::max(length_m, beam_m);
+  }
+  return 0.5 *
+         (length_m * std::abs(ahead().dot(along)) + beam_m * std::abs(across(ahead()).dot(along)));
 }
 
 Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d& eye) const {

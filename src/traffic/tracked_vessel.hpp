@@ -55,8 +55,13 @@ struct TrackedVessel {
   // Takes the course as the heading where there is one.
   // Whether it is the first one.
   bool followCourse();
+  [[nodiscard]] bool isUnderWay() const;
   [[nodiscard]] Track track() const;
 
+  // Unit vector; asks for a heading.
+  [[nodiscard]] Eigen::Vector2d ahead() const;
+  // From the outline's middle to its side, along a unit vector.
+  [[nodiscard]] double halfDepth(const Eigen::Vector2d& along) const;
   // Where the outline's middle is if `cluster`, seen from `eye`, is this vessel: not the points'
   // middle, but the sides that are seen, with half the size from there on.
   [[nodiscard]] Measurement measure(const Cluster& cluster, const Eigen::Vector2d& eye) const;

@@ -8,6 +8,7 @@
 
 #include "association.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "scan_clusters.hpp"
 #include "tracked_vessel.hpp"
 
@@ -19,12 +20,14 @@ constexpr double kLivesS = 300.0;    // a vessel is there for so long on average
 constexpr double kConfirmed = 0.98;  // existence
 constexpr double kGone = 0.02;
 constexpr int kFewestHits = 2;
-constexpr double kOutOfReach = 0.1;  // with a lower chance to be detected nothing is concluded
 
 // Lidar.
 constexpr double kLidarDetection = 0.9;
 constexpr double kLidarUnplaced = 0.5;
-constexpr double kPlacedM2 = 4.0;
+constexpr double kHardlyConcluded = 0.02;
+constexpr double kPlacedM = 2.0;
+constexpr double kNearerM = 0.5;
+constexpr double kMostOffM = 2.0;
 constexpr double kLidarClutterPerM2 = 2e-3;
 constexpr double kFirstExistence = 0.2;
 constexpr int kFewestNew = 2;  // echoes of a cluster in water seen free, to begin a track
@@ -94,16 +97,15 @@ class Tracker::Impl {
       return vessel.measure(clusters[k], eye);
     };
     look.canBe = [&](const TrackedVessel& vessel, std::size_t k) {
+      if (vessel.isUnderWay() && clusters[k].stands()) {
+        return false;
+      }
       const Eigen::Vector2d middle = vessel.motion.state().head<2>();
       const double reach = 2.0 * std::max(vessel.length_m, vessel.beam_m) + 10.0;
       return (clusters[k].points.front() - middle).norm() < reach;
     };
-    look.detection = [&](const TrackedVessel& vessel) {
-      const double seen =
-          clusters_.inSight(vessel.motion.state().head<2>(), vessel.length_m, vessel.beam_m);
-      // Of a vessel that may be elsewhere one can't say whether it is in sight.
-      const bool placed = vessel.motion.covariance().topLeftCorner<2, 2>().trace() < kPlacedM2;
-      return seen * (placed ? kLidarDetection : kLidarUnplaced);
+    look.detection = [&](const TrackedVessel& vessel, const MotionFilter& now) {
+      return lidarDetection(vessel, now, eye);
     };
     look.seen = [&](TrackedVessel& vessel, std::size_t k, bool first_course) {
       if (first_course && vessel.sources == kLidar) {
@@ -140,9 +142,10 @@ class Tracker::Impl {
       return positionMeasurement(positions[k], options_.radar_noise_m);
     };
     look.canBe = [](const TrackedVessel& /*vessel*/, std::size_t /*k*/) { return true; };
-    look.detection = [&](const TrackedVessel& vessel) {
-      const double range = (vessel.motion.state().head<2>() - own).norm();
-      return range < options_.radar_range_m && !vessel.keeps_place ? kRadarDetection : 0.0;
+    look.detection = [&](const TrackedVessel& vessel, const MotionFilter& now) {
+      const double range = (now.state().head<2>() - own).norm();
+      const bool reached = range < options_.radar_range_m && !vessel.keeps_place;
+      return reached ? Detection{kRadarDetection, kRadarDetection} : Detection{};
     };
     look.seen = [](TrackedVessel& /*vessel*/, std::size_t /*k*/, bool /*first*/) {};
     const std::vector<double> taken = associate(look);
@@ -180,6 +183,12 @@ class Tracker::Impl {
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
 
  private:
+  struct Detection {
+    double probability = 0.0;
+    // The same for what a scan without her says of her existence: scan after scan of a vessel that
+    // may be elsewhere, or shows but an end, misses her for the same reason.
+    double concluded = 0.0;
+  };
   // Detections that came at once from one sensor.
   struct Look {
     double stamp_s = 0.0;
@@ -188,29 +197,60 @@ class Tracker::Impl {
     Source source = kLidar;
     std::function<Measurement(const TrackedVessel&, std::size_t)> measure;
     std::function<bool(const TrackedVessel&, std::size_t)> canBe;
-    std::function<double(const TrackedVessel&)> detection;  // probability
+    // Where the vessel's motion has brought it by now.
+    std::function<Detection(const TrackedVessel&, const MotionFilter&)> detection;
     // Most probably this one; whether its course has become known by it.
     std::function<void(TrackedVessel&, std::size_t, bool)> seen;
   };
 
+  [[nodiscard]] Detection lidarDetection(const TrackedVessel& vessel, const MotionFilter& now,
+                                         const Eigen::Vector2d& eye) const {
+    const Eigen::Vector2d middle = now.state().head<2>();
+    const double deviation = std::sqrt(now.covariance().topLeftCorner<2, 2>().trace());
+    const auto inSight = [&](const Eigen::Vector2d& position) {
+      const Eigen::Vector2d sight = (position - eye).normalized();
+      return clusters_.inSight(position, vessel.halfDepth(sight) + kNearerM, deviation,
+                               vessel.beam_m);
+    };
+    const double seen = inSight(middle);
+    if (seen > 0.0 && deviation < kPlacedM) {
+      return {seen * kLidarDetection, seen * kLidarDetection};
+    }
+    // She may show an end only, or be elsewhere.
+    const Eigen::Vector2d ahead = vessel.heading_rad ? vessel.ahead() : (middle - eye).normalized();
+    const Eigen::Vector2d along = (0.5 * vessel.length_m + std::min(kMostOffM, deviation)) * ahead;
+    const Eigen::Vector2d athwart = deviation * across(ahead);
+    double most = seen;
+    double least = seen;
+    for (const Eigen::Vector2d& off :
+         {along, Eigen::Vector2d(-along), athwart, Eigen::Vector2d(-athwart)}) {
+      const double there = inSight(middle + off);
+      most = std::max(most, there);
+      least = std::min(least, there);
+    }
+    return {most * kLidarUnplaced, least > 0.0 ? least * kLidarUnplaced : most * kHardlyConcluded};
+  }
+
   // Moves the tracks on and updates them; each detection's probability of being somebody's.
   std::vector<double> associate(const Look& look) {
     std::vector<std::size_t> of_track;
-    std::vector<double> detection;
+    std::vector<double> concluded;
     std::vector<double> none;
     std::vector<std::vector<Link>> links;
     std::vector<std::vector<MotionFilter::Candidate>> candidates;
     for (std::size_t v = 0; v < vessels_.size(); ++v) {
       TrackedVessel& vessel = vessels_[v];
-      const double chance = look.detection(vessel);
-      if (chance < kOutOfReach) {
+      MotionFilter now = vessel.motion;
+      now.predict(look.stamp_s);
+      const Detection chance = look.detection(vessel, now);
+      if (chance.probability == 0.0) {
         continue;
       }
       vessel.existence *= std::exp(-(look.stamp_s - vessel.motion.stamp()) / kLivesS);
-      vessel.motion.predict(look.stamp_s);
+      vessel.motion = now;
       of_track.push_back(v);
-      detection.push_back(chance);
-      none.push_back(1.0 - vessel.existence * chance);
+      concluded.push_back(chance.concluded);
+      none.push_back(1.0 - vessel.existence * chance.concluded);
       links.emplace_back();
       candidates.emplace_back();
       for (std::size_t k = 0; k < look.detections; ++k) {
@@ -223,9 +263,9 @@ class Tracker::Impl {
           continue;
         }
         candidate.likelihoods = vessel.motion.likelihoods(candidate.measurement);
-        links.back().push_back(
-            {k, vessel.existence * chance * vessel.motion.likelihood(candidate.likelihoods) /
-                    look.clutter_per_m2});
+        links.back().push_back({k, vessel.existence * chance.probability *
+                                       vessel.motion.likelihood(candidate.likelihoods) /
+                                       look.clutter_per_m2});
         candidates.back().push_back(std::move(candidate));
       }
     }
@@ -236,25 +276,25 @@ class Tracker::Impl {
       for (std::size_t l = 0; l < links[t].size(); ++l) {
         taken[links[t][l].detection] += marginals.links[t][l];
       }
-      update(look, vessel, detection[t], marginals.none[t], marginals.links[t], links[t],
+      update(look, vessel, concluded[t], marginals.none[t], marginals.links[t], links[t],
              candidates[t]);
     }
     return taken;
   }
 
   // Existence first, then the motion given that the vessel exists (Musicki and Evans 2004).
-  static void update(const Look& look, TrackedVessel& vessel, double detection, double none,
+  static void update(const Look& look, TrackedVessel& vessel, double concluded, double none,
                      const std::vector<double>& probabilities, const std::vector<Link>& links,
                      std::vector<MotionFilter::Candidate>& candidates) {
-    const double unseen = vessel.existence * (1.0 - detection) /
-                          (1.0 - vessel.existence * detection);  // exists, given no detection
+    const double unseen = vessel.existence * (1.0 - concluded) /
+                          (1.0 - vessel.existence * concluded);  // exists, given no detection
     double exists = none * unseen;
     for (const double probability : probabilities) {
       exists += probability;
     }
     vessel.existence = std::clamp(exists, 0.0, vessel.confirmed ? 0.9999 : kUnconfirmedAtMost);
     const bool in_doubt = !vessel.confirmed && vessel.sources == kLidar;
-    vessel.missed += detection > 0.5 ? 1 : 0;
+    vessel.missed += concluded > 0.5 ? 1 : 0;
     if (in_doubt && vessel.missed > kMostMissed) {
       vessel.doubt(look.stamp_s);
     }
