@@ -11,6 +11,7 @@
 namespace otter_nav::nodes {
 namespace {
 
+using ros_bridge::color;
 using ros_bridge::kMapFrame;
 using visualization_msgs::InteractiveMarker;
 using visualization_msgs::InteractiveMarkerControl;
@@ -19,15 +20,6 @@ using visualization_msgs::Marker;
 
 constexpr char kMarker[] = "goal";
 constexpr double kMarkerAheadM = 10.0;  // of the vessel, where the marker is first shown
-
-std_msgs::ColorRGBA color(double red, double green, double blue, double alpha) {
-  std_msgs::ColorRGBA value;
-  value.r = static_cast<float>(red);
-  value.g = static_cast<float>(green);
-  value.b = static_cast<float>(blue);
-  value.a = static_cast<float>(alpha);
-  return value;
-}
 
 Marker arrow(const std_msgs::ColorRGBA& shade) {
   Marker marker;

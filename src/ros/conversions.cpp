@@ -127,6 +127,15 @@ Result<OdometrySample> odometrySample(const nav_msgs::Odometry& message, const s
   return sample;
 }
 
+std_msgs::ColorRGBA color(double red, double green, double blue, double alpha) {
+  std_msgs::ColorRGBA value;
+  value.r = static_cast<float>(red);
+  value.g = static_cast<float>(green);
+  value.b = static_cast<float>(blue);
+  value.a = static_cast<float>(alpha);
+  return value;
+}
+
 DisturbanceEstimate toMessage(const vessel::DisturbanceEstimate& estimate) {
   const vessel::Disturbance& mean = estimate.mean;
   DisturbanceEstimate message;

@@ -24,15 +24,6 @@ constexpr double kTrajectoryHeightM = 0.05;
 constexpr double kTrajectoryStepM = 0.5;
 constexpr int kCircleCorners = 24;
 
-std_msgs::ColorRGBA color(double red, double green, double blue, double alpha = 1.0) {
-  std_msgs::ColorRGBA value;
-  value.r = static_cast<float>(red);
-  value.g = static_cast<float>(green);
-  value.b = static_cast<float>(blue);
-  value.a = static_cast<float>(alpha);
-  return value;
-}
-
 // In the map at its origin, for ever; `width_m` is the lines'.
 Marker marker(const std::string& name, int type, double width_m, const std_msgs::ColorRGBA& shade) {
   Marker value;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::traffic {
 namespace {
@@ -16,6 +17,22 @@ constexpr double kLeastDistanceM = 0.03;  // nearer is as good as on the side: t
 // Distance of a projection to the nearer end of its span.
 double toEnd(double value, const Span& span) {
   return std::min(value - span.low, span.high - value);
+}
+
+// Sum over the points of what `weigh` makes of their distance to the nearest side of the rectangle
+// round them.
+template <typename Weigh>
+double sumOverRectangle(const std::vector<Eigen::Vector2d>& points, double direction_rad,
+                        Weigh weigh) {
+  const Eigen::Vector2d ahead(std::cos(direction_rad), std::sin(direction_rad));
+  const Eigen::Vector2d port = across(ahead);
+  const Span along = spanOf(points, ahead);
+  const Span athwart = spanOf(points, port);
+  double sum = 0.0;
+  for (const Eigen::Vector2d& p : points) {
+    sum += weigh(std::min(toEnd(ahead.dot(p), along), toEnd(port.dot(p), athwart)));
+  }
+  return sum;
 }
 
 }  // namespace
@@ -35,15 +52,8 @@ double rectangleDirection(const std::vector<Eigen::Vector2d>& points) {
   double best_closeness = -1.0;
   for (int k = 0; k < kDirections; ++k) {
     const double direction = 0.5 * kPi * k / kDirections;
-    const Eigen::Vector2d ahead(std::cos(direction), std::sin(direction));
-    const Eigen::Vector2d port(-ahead.y(), ahead.x());
-    const Span along = spanOf(points, ahead);
-    const Span athwart = spanOf(points, port);
-    double closeness = 0.0;
-    for (const Eigen::Vector2d& p : points) {
-      const double off = std::min(toEnd(ahead.dot(p), along), toEnd(port.dot(p), athwart));
-      closeness += 1.0 / std::max(off, kLeastDistanceM);
-    }
+    const double closeness = sumOverRectangle(
+        points, direction, [](double off) { return 1.0 / std::max(off, kLeastDistanceM); });
     if (closeness > best_closeness) {
       best_closeness = closeness;
       best = direction;
@@ -53,15 +63,7 @@ double rectangleDirection(const std::vector<Eigen::Vector2d>& points) {
 }
 
 double rectangleDeviation(const std::vector<Eigen::Vector2d>& points, double direction_rad) {
-  const Eigen::Vector2d ahead(std::cos(direction_rad), std::sin(direction_rad));
-  const Eigen::Vector2d port(-ahead.y(), ahead.x());
-  const Span along = spanOf(points, ahead);
-  const Span athwart = spanOf(points, port);
-  double sum = 0.0;
-  for (const Eigen::Vector2d& p : points) {
-    const double off = std::min(toEnd(ahead.dot(p), along), toEnd(port.dot(p), athwart));
-    sum += off * off;
-  }
+  const double sum = sumOverRectangle(points, direction_rad, [](double off) { return off * off; });
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 

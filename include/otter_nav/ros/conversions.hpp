@@ -6,6 +6,7 @@
 #include <nav_msgs/Odometry.h>
 #include <otter_nav/DisturbanceEstimate.h>
 #include <ros/time.h>
+#include <std_msgs/ColorRGBA.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -46,6 +47,9 @@ struct OdometrySample {
 [[nodiscard]] Result<OdometrySample> odometrySample(const nav_msgs::Odometry& message,
                                                     const std::string& frame,
                                                     const std::string& child_frame);
+
+// Each in [0, 1].
+[[nodiscard]] std_msgs::ColorRGBA color(double red, double green, double blue, double alpha = 1.0);
 
 [[nodiscard]] DisturbanceEstimate toMessage(const vessel::DisturbanceEstimate& estimate);
 // An error names the field that is not finite.

@@ -28,12 +28,16 @@ double fastest(const std::vector<PolarPoint>& points, double wind_mps, double co
   return fastest;
 }
 
-TEST(WeatherPolar, CalmWaterAllowsTheTopSpeedOnEachCourse) {
+PolarOptions withoutReserve(double wind_mps, int courses) {
   PolarOptions options;
-  options.winds_mps = {0.0};
+  options.winds_mps = {wind_mps};
   options.reserve = 0.0;
-  options.courses = 8;
-  const auto points = polar(windy(), options);
+  options.courses = courses;
+  return options;
+}
+
+TEST(WeatherPolar, CalmWaterAllowsTheTopSpeedOnEachCourse) {
+  const auto points = polar(windy(), withoutReserve(0.0, 8));
   ASSERT_TRUE(points);
   for (int k = 0; k < 8; ++k) {
     EXPECT_NEAR(fastest(*points, 0.0, 0.25 * kPi * k), 5.0, 0.051);  // 100 N at 20 kg/s
@@ -42,10 +46,7 @@ TEST(WeatherPolar, CalmWaterAllowsTheTopSpeedOnEachCourse) {
 
 // Dead against W, 20 v + W^2 / 2 newtons; the picture is the same on both sides.
 TEST(WeatherPolar, SpeedAgainstTheWindIsWhatTheThrustLeaves) {
-  PolarOptions options;
-  options.winds_mps = {8.0};
-  options.reserve = 0.0;
-  options.courses = 24;
+  PolarOptions options = withoutReserve(8.0, 24);
   const auto points = polar(windy(), options);
   ASSERT_TRUE(points);
   EXPECT_NEAR(fastest(*points, 8.0, 0.0), (100.0 - 32.0) / 20.0, 0.051);
