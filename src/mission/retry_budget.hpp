@@ -2,6 +2,8 @@
 // stops on the way.
 #pragma once
 
+#include <limits>
+
 namespace otter_nav::mission {
 
 class RetryBudget {
@@ -10,6 +12,7 @@ class RetryBudget {
 
   void newGoal(double now_s) {
     stops_ = 0;
+    nearest_m_ = std::numeric_limits<double>::infinity();
     newRounds(now_s);
   }
   // False if it was the last round; else the next comes after a pause, for the map may change.
@@ -17,8 +20,14 @@ class RetryBudget {
     pause(now_s);
     return ++rounds_ < rounds_max_;
   }
-  // False if there were too many stops; else all rounds are to be had again.
-  bool stopped(double now_s) {
+  // False if there were too many stops; else all rounds are to be had again. Those with way made
+  // towards the goal since the ones before, of which `left_m` is left, begin the count anew.
+  bool stopped(double now_s, double left_m) {
+    constexpr double kWayMadeM = 10.0;
+    if (left_m < nearest_m_ - kWayMadeM) {
+      stops_ = 0;
+      nearest_m_ = left_m;
+    }
     if (++stops_ > stops_max_) {
       return false;
     }
@@ -43,6 +52,7 @@ class RetryBudget {
   int stops_max_;
   int rounds_ = 0;
   int stops_ = 0;
+  double nearest_m_ = std::numeric_limits<double>::infinity();
   double not_before_s_ = 0.0;
 };
 

@@ -30,12 +30,13 @@ double planThrustShare(double share_in_calm, double gust_share, int times_left_b
 }
 
 double planClearance(const SupervisorOptions& options, std::size_t level, double gust_reach_m,
-                     double drift_reach_m, const vessel::Hull& hull, double room_m) {
+                     const vessel::Hull& hull, double room_m) {
   const double listed = centreClearance(hull, options.side_clearances_m[level]);
   constexpr double kShares[] = {1.0, 1.0, 0.5, 0.25};  // of the reach; the last for all that follow
-  const double reach = kShares[std::min(level, std::size(kShares) - 1)] * gust_reach_m;
-  const double aside = level == 0 ? std::max(reach, drift_reach_m) : reach;
-  return std::min(listed + aside, std::max(listed, room_m));
+  const double aside = kShares[std::min(level, std::size(kShares) - 1)] * gust_reach_m;
+  // At the ends themselves something has to be left.
+  constexpr double kLessM = 0.1;
+  return std::min(listed + aside, std::max(listed, room_m - kLessM));
 }
 
 Safety::Safety(const SupervisorOptions& options, const vessel::Parameters& vessel)
@@ -59,8 +60,11 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
     levels_.narrower();
   }
   const double clearance = planClearance(options_, levels_.level(), weather_.gustReach(),
-                                         weather_.driftReach(), vessel_.hull, room_m);
+                                         vessel_.hull, room_m);
   auto limits = feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
+  constexpr double kLeeShares[] = {1.0, 0.5, 0.25, 0.1};  // by level
+  limits.drift_m =
+      kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
   if (options_.plan_with_weather && !plansBlind()) {
     limits.disturbance = weather_.mean();
   }

@@ -264,6 +264,34 @@ class Supervisor::Impl {
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
                kLostRad;
   }
+  // Off its trajectory, where nothing was verified, for longer than a plan takes, or towards
+  // something near.
+  bool isSetAside(const Moment& m) {
+    constexpr double kPatienceS = 1.5;
+    constexpr double kAheadS = 2.0;
+    constexpr double kStepS = 0.25;
+    if (m.situation.tracking_error_m < 0.5 * options_.tracking_error_max_m) {
+      off_since_s_ = m.now_s;
+      return false;
+    }
+    if (!isFarOff(m)) {
+      off_since_s_ = m.now_s;
+    }
+    if (m.now_s - off_since_s_ > kPatienceS) {
+      return true;
+    }
+    const vessel::State& x = m.situation.state;
+    const Eigen::Vector2d velocity =
+        Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
+    const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
+    for (double t = kStepS; t <= kAheadS; t += kStepS) {
+      const double there = m.obstacles.clearance(x.head<2>() + t * velocity, m.now_s + t);
+      if (there < safety().critical() && there < here) {
+        return true;
+      }
+    }
+    return false;
+  }
   // On the way left the thrusters have not enough against what blows by now, for longer than when
   // it was planned. Once the weather is known, then not for each change again.
   bool lacksThrust(const Moment& m) {
@@ -319,7 +347,7 @@ class Supervisor::Impl {
   Orders planFirst(const Moment& m) {
     enter(Phase::kPlanning);
     if (doesNotKnowTheWeather(m)) {
-      return {};
+      return holdHere();  // without thrust it would be set aside and turned meanwhile
     }
     return isOverTheEdge(m) ? turnBack(m) : planFromRest(m);
   }
@@ -473,6 +501,10 @@ class Supervisor::Impl {
     return stopByItself(
         m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
   }
+  Orders stopSetAside(const Moment& m) {
+    return stopByItself(m, text("set aside, %.1f m off the trajectory",
+                                m.situation.tracking_error_m));
+  }
   Orders stopBeyondThrust(const Moment& m) {
     return stopByItself(m, "too much wind and current: " + safety().beyondThrust());
   }
@@ -575,6 +607,7 @@ class Supervisor::Impl {
       {kUnderWay, &Impl::isLostOverTheEdge, &Impl::stopOverTheEdge},
       {kUnderWay, &Impl::hasLostItsHeading, &Impl::stopHeadingLost},
       {kUnderWay, &Impl::isBeyondThrust, &Impl::stopBeyondThrust},
+      {kUnderWay, &Impl::isSetAside, &Impl::stopSetAside},
       {kSailing, &Impl::isNarrow, &Impl::lookForAnother, kGoesOn},
       {kUnderWay, &Impl::hasNoStop, &Impl::takeLastStop},
       {kUnderWay, &Impl::isTooFastForLong, &Impl::brakeForSpeed},
@@ -787,7 +820,8 @@ class Supervisor::Impl {
   }
   // Plans from rest come next, unless there were too many stops.
   Orders rest(const Moment& m, const std::string& reason, const std::string& last) {
-    if (!retries_.stopped(m.now_s)) {
+    const double left_m = (m.situation.state.head<2>() - goal_.position).norm();
+    if (!retries_.stopped(m.now_s, left_m)) {
       return enter(Phase::kFailed, last);
     }
     safety().tryWidest();
@@ -875,6 +909,7 @@ class Supervisor::Impl {
   bool planned_in_known_weather_ = false;
   double planned_overtaxed_s_ = 0.0;
   double felt_s_ = -std::numeric_limits<double>::infinity();
+  double off_since_s_ = 0.0;      // far off the trajectory
   bool holds_ = false;            // the tracker was told to keep the place
   double calm_by_s_ = 0.0;        // or the mission fails
   double planned_for_mps_ = 0.0;  // the mission's speed limit then

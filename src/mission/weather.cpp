@@ -166,14 +166,15 @@ double Weather::gustReach() const {
   return at_first.distance_m + at_first.speed_mps * m.sway_inertia_kg / drag + later.distance_m;
 }
 
-double Weather::driftReach() const {
+Eigen::Vector2d Weather::drift() const {
   const Disturbance hard = gust();
   constexpr double kRecoversS = 3.0;
   double fastest = 0.0;
   forEachHeading([&](double psi) {
     fastest = std::max(fastest, vessel::setAside(vessel_.manoeuvring, hard, psi));
   });
-  return kRecoversS * fastest;
+  const double bow = vessel::headingIntoLoad(vessel_.manoeuvring, mean_, 0.0);
+  return -kRecoversS * fastest * Eigen::Vector2d(std::cos(bow), std::sin(bow));
 }
 
 }  // namespace otter_nav::mission

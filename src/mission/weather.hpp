@@ -33,8 +33,9 @@ class Weather {
   [[nodiscard]] double gustShare() const;
   // How far, m, the gust sets a tracked hull aside at most (docs/weather.md).
   [[nodiscard]] double gustReach() const;
-  // How far, m, a hull that lost its heading drifts to leeward until it lies into the wind.
-  [[nodiscard]] double driftReach() const;
+  // How far a hull that lost its heading is set aside in gusts until it lies into the wind, and
+  // where to: earth frame, m.
+  [[nodiscard]] Eigen::Vector2d drift() const;
 
  private:
   // A quantity's mean and variance with a fading memory, and its largest size lately.

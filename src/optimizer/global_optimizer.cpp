@@ -13,6 +13,7 @@
 #include "optimizer/solve/initial_spline.hpp"
 #include "optimizer/solve/spline_solver.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 
 namespace otter_nav::optimizer {
@@ -271,13 +272,21 @@ class GlobalOptimizer::Solver {
     spline_ = shape;
   }
 
+  [[nodiscard]] bool underLoad() const {
+    return vessel::InverseDynamics(vessel_, limits_.disturbance).greatestLoad() > 0.0;
+  }
+
   // What failed is wanted more strictly, and its weight raised.
   void tighten() {
     const feasibility::Verification& v = result_.verification;
     if (v.thrust_share > limits_.thrust_share && !vessel::paperHolds(vessel_)) {
       keepThrustWhereItLacks();
     } else if (v.thrust_share > limits_.thrust_share) {
-      const double excess = std::min(v.thrust_share - limits_.thrust_share, 0.04);
+      // Slowing down takes little off what a load asks for: then the worst of it counts, wherever.
+      const double excess =
+          std::min(underLoad() ? limits_.thrust_share * this->excess()
+                               : v.thrust_share - limits_.thrust_share,
+                   0.04);
       problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
       problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
       problem_.targets.weights.dynamics *= kWeightGrowth;

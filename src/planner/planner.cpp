@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "otter_nav/feasibility/lee_shore.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
 #include "otter_nav/topology/guide_path.hpp"
@@ -77,6 +78,22 @@ class Planner::Pipeline {
 
   Plan plan(const feasibility::Obstacles& obstacles, const Query& query,
             const Termination& termination) {
+    const feasibility::SafetyLimits& limits = query.limits;
+    if (limits.drift_m.isZero(0.0) || !limits.drift_m.allFinite()) {
+      return planAmong(obstacles, query, termination);
+    }
+    feasibility::Obstacles all = obstacles;
+    const feasibility::LeeShore lee(obstacles.field(), limits.drift_m,
+                                    std::min(limits.clearance_m, 0.5 * limits.hull.length_m),
+                                    limits.clearance_m, query.start.flat.position,
+                                    query.goal.flat.position);
+    all.add(lee);
+    return planAmong(all, query, termination);
+  }
+
+ private:
+  Plan planAmong(const feasibility::Obstacles& obstacles, const Query& query,
+                 const Termination& termination) {
     Run run{obstacles, query, termination, {}};
     run.samples_left = termination.max_iterations;
     const double began = run.now();
@@ -94,7 +111,6 @@ class Planner::Pipeline {
     return std::move(run.plan);
   }
 
- private:
   // What one query's stages share.
   struct Run {
     const feasibility::Obstacles& obstacles;

@@ -202,15 +202,18 @@ void InverseDynamics::push(double psi_rad, double yaw_rate_radps, double surge_n
   z.jerk = jerkFrom((ahead_rate - r * air.y) * e + r * (ahead + air.y1) * n, z.acceleration);
 }
 
-FlatPoint InverseDynamics::fromState(const State& x, double force_max_n) const {
+FlatPoint InverseDynamics::fromState(const State& x, double force_least_n,
+                                     double force_max_n) const {
   const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
   const Vector2d n = across(e);
   FlatPoint z;
   z.position = x.head<2>();
   z.velocity = x[kSurge] * e + x[kSway] * n;
   const double through = e.dot(z.velocity - disturbance_.current_mps);
-  const double force = std::min(model_.d2_kgps * through, force_max_n);
   const Air air = this->air(e);
+  // Along the hull: the thrusters' and the wind's.
+  const double force = std::min(std::max(model_.d2_kgps * through, force_least_n - air.y1),
+                                force_max_n + std::min(air.x, 0.0));
   z.acceleration = accelerationFrom(force * e + air.y * n, z.velocity);
   z.jerk = jerkFrom(x[kYawRate] * ((force + air.y1) * n - air.y * e), z.acceleration);
   return z;

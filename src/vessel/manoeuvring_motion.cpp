@@ -69,7 +69,8 @@ void push(const ManoeuvringModel& model, const Disturbance& disturbance, const S
 FlatPoint pathFromState(const State& state, double force_max_n, const Parameters& vessel,
                         const Disturbance& disturbance) {
   if (paperHolds(vessel)) {
-    return InverseDynamics(vessel, disturbance).fromState(state, force_max_n);
+    return InverseDynamics(vessel, disturbance)
+        .fromState(state, 2.0 * kOnwardShare * vessel.thrusters.ahead_max_n, force_max_n);
   }
   const double psi = state[kPsi];
   const Vector2d e(std::cos(psi), std::sin(psi));

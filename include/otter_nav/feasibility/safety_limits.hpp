@@ -3,6 +3,7 @@
 // what aims at less than a limit takes a share of it.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -24,6 +25,9 @@ struct SafetyLimits {
   // What the thrusters work against besides, all along: every demand of a plan is made and verified
   // with it (docs/planner.md).
   vessel::Disturbance disturbance;
+  // How far these set a hull aside that loses its heading: nothing may lie there
+  // (feasibility/lee_shore.hpp). Earth frame, m.
+  Eigen::Vector2d drift_m = Eigen::Vector2d::Zero();
   // A vessel that is faster than that where the plan starts: it has to slow down by this rate.
   double start_speed_mps = 0.0;
   double slowing_per_s = 0.0;

@@ -47,6 +47,12 @@ struct Thrust {
                     limits.disturbance.wind_mps.squaredNorm()),
         vessel(v) {}
 
+  // What the load's moment leaves for pushing ahead, or astern.
+  [[nodiscard]] double leftAhead() const { return left(ahead_n); }
+  [[nodiscard]] double leftAstern() const { return left(astern_n); }
+  [[nodiscard]] double left(double of_n) const {
+    return std::max(of_n - load_nm / vessel.thrusters.lever_arm_m, kLeastBrakeShare * of_n);
+  }
   // With the moment that is left beside a surge force.
   [[nodiscard]] vessel::TurnLaw turning(double surge_n) const {
     const double lever_m = vessel.thrusters.lever_arm_m;
@@ -208,9 +214,9 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
   const vessel::Disturbance disturbance = placed.seen(limits.disturbance);
   const double speed = kLaunchSpeedShare * limits.speed_max_mps;
   const double steady_n = steadyForce(vessel, disturbance, std::abs(turn_rad), speed);
-  const double most =
-      std::min(share * thrust.ahead_n, steady_n + vessel.paper.m1_kg * speed / kGentleLaunchS);
-  const bool gentle = most < share * thrust.ahead_n;
+  const double full_n = share * thrust.leftAhead();
+  const double most = std::min(full_n, steady_n + vessel.paper.m1_kg * speed / kGentleLaunchS);
+  const bool gentle = most < full_n;
   std::vector<SurgeRamp> ramps = {{kLongAgoS, kLongAgoS, most, most}};
   double turning_n = 0.0;
   double end = gentle ? 0.0 : kStraightLaunchS;
@@ -267,7 +273,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
   const Thrust thrust(vessel, limits);
   const Placed placed(psi_rad - turn_rad, turn_rad >= 0.0);
   const vessel::Disturbance disturbance = placed.seen(limits.disturbance);
-  const double brake_n = limits.astern_share * thrust.astern_n;
+  const double brake_n = limits.astern_share * thrust.leftAstern();
   const double turn_left = std::abs(turn_rad);
   const bool turns_at_rest = turn_left > kLeastTurnRad && !vessel::paperHolds(vessel);
   std::optional<TurnProfile> turn;
@@ -306,7 +312,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
     forced.clearRamps();
   }
   const double ahead_n =
-      std::min(kAheadShare * thrust.ahead_n,
+      std::min(kAheadShare * thrust.leftAhead(),
                steadyForce(vessel, disturbance, 0.0, kBrakeSpeedShare * limits.speed_max_mps));
   forced.addFirst({ramp_s, ramp_s + limits.brake_ramp_s, ahead_n, -brake_n});
   back.reach(ramp_s);

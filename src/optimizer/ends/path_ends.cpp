@@ -5,6 +5,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/feasibility/piece_check.hpp"
+#include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -88,7 +89,13 @@ void EndChooser::arriveAlong(const std::vector<Eigen::Vector2d>& path, End& end)
   const Eigen::Vector2d behind = trajectory::pointAlong(
       path, -kLookAheadM - arrivalLength(end.speed_mps, vessel_, end.limits));
   end.turn_rad = wrapAngle(end.psi_rad - angleOf(end.position - behind));
-  if (std::abs(end.turn_rad) < options_.turn_least_rad && !options_.careful) {
+  // Where what pushes would set the turning hull aside, the way leads to the goal on its heading.
+  const auto lies = [&](double turn_rad) {
+    return vessel::canLie(vessel_.manoeuvring, end.limits.disturbance, end.psi_rad - turn_rad);
+  };
+  const bool carried =
+      options_.straight_arrival || !lies(0.5 * end.turn_rad) || !lies(end.turn_rad);
+  if (carried || (std::abs(end.turn_rad) < options_.turn_least_rad && !options_.careful)) {
     end.turn_rad = 0.0;
   }
   for (int round = 0; round < kAimRounds; ++round) {

@@ -19,6 +19,7 @@ struct EndOptions {
   double arrival_speed_max_mps = 4.2;  // and after it was moved
   double turn_least_rad = 0.4;  // turns at the goal narrower than this are made on the way there
   bool careful = false;         // turns at rest, slow arrival
+  bool straight_arrival = false;  // no turn at the goal: the way leads to it on its heading
 };
 
 // A manoeuvre with what it was made from, so that it can be made again a little different.

@@ -122,6 +122,8 @@ Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parame
   attempt.initial.clearance_m = attempt.limits.clearance_m;
   attempt.initial.load_n = vessel::InverseDynamics(vessel, safety.disturbance).greatestLoad();
   attempt.ends = endsOf(care, vessel, safety, share);
+  // Turning under a load takes thrust and room: every other attempt does without.
+  attempt.ends.straight_arrival = attempt.initial.load_n > 0.0 && number % 2 == 1;
   return attempt;
 }
 

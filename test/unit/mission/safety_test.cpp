@@ -21,27 +21,27 @@ TEST(Safety, PlansMayUseLessThrustTheMoreGustsTake) {
 TEST(Safety, ClearancesAreTheListsInCalmWater) {
   const SupervisorOptions options;
   for (std::size_t k = 0; k < options.side_clearances_m.size(); ++k) {
-    EXPECT_DOUBLE_EQ(planClearance(options, k, 0.0, 0.0, vessel::Hull{}, kWideWater),
+    EXPECT_DOUBLE_EQ(planClearance(options, k, 0.0, vessel::Hull{}, kWideWater),
                      centreClearance(vessel::Hull{}, options.side_clearances_m[k]));
   }
 }
 
-// On all levels by what gusts move the hull, on the widest by what a lost heading costs.
+// By what gusts move the hull, less on the narrower levels.
 TEST(Safety, ClearancesGrowWithGusts) {
   const SupervisorOptions options;
   const vessel::Hull hull;
   const std::size_t last = options.side_clearances_m.size() - 1;
-  EXPECT_NEAR(planClearance(options, 0, 0.7, 4.0, hull, kWideWater),
-              centreClearance(hull, options.side_clearances_m[0]) + 4.0, 1e-12);
-  EXPECT_NEAR(planClearance(options, last, 0.7, 4.0, hull, kWideWater),
+  EXPECT_NEAR(planClearance(options, 0, 0.7, hull, kWideWater),
+              centreClearance(hull, options.side_clearances_m[0]) + 0.7, 1e-12);
+  EXPECT_NEAR(planClearance(options, last, 0.7, hull, kWideWater),
               centreClearance(hull, options.side_clearances_m[last]) + 0.25 * 0.7, 1e-12);
 }
 
 TEST(Safety, AsksForNoMoreThanStartAndGoalHave) {
   const SupervisorOptions options;
   const vessel::Hull hull;
-  EXPECT_DOUBLE_EQ(planClearance(options, 0, 1.0, 5.0, hull, 2.0), 2.0);
-  EXPECT_DOUBLE_EQ(planClearance(options, 3, 1.0, 5.0, hull, 0.5), 0.7);
+  EXPECT_DOUBLE_EQ(planClearance(options, 0, 1.0, hull, 2.0), 1.9);
+  EXPECT_DOUBLE_EQ(planClearance(options, 3, 1.0, hull, 0.5), 0.7);
 }
 
 // A wider hull is kept as far from everything, beside it.

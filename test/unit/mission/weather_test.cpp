@@ -60,7 +60,7 @@ TEST(Weather, CalmAsksForNothing) {
   const Weather weather = felt(windy(), 60.0, [](double) { return 0.0; });
   EXPECT_EQ(weather.gustShare(), 0.0);
   EXPECT_EQ(weather.gustReach(), 0.0);
-  EXPECT_EQ(weather.driftReach(), 0.0);
+  EXPECT_EQ(weather.drift().norm(), 0.0);
 }
 
 TEST(Weather, GustsAskForMoreTheFasterTheyAre) {

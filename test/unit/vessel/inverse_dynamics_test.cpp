@@ -162,7 +162,7 @@ TEST(InverseDynamics, FromStateGivesTheStateBack) {
   state << 3.0, -2.0, 0.7, 2.5, 0.3, 0.2;
   for (const Disturbance& weather : weathers()) {
     const InverseDynamics inverse(vessel, weather);
-    const FlatPoint z = inverse.fromState(state, 100.0);
+    const FlatPoint z = inverse.fromState(state, 0.0, 100.0);
     const FlatState back = inverse.state(z, z.velocity);
     EXPECT_TRUE(back.state.isApprox(state, 1e-9)) << back.state.transpose();
   }
@@ -172,7 +172,7 @@ TEST(InverseDynamics, SlowsDownWhereTheForceIsTooSmallForTheSpeed) {
   const InverseDynamics inverse(Parameters{});
   State state;
   state << 3.0, -2.0, 0.7, 4.0, 0.3, 0.2;
-  const FlatPoint z = inverse.fromState(state, 50.0);
+  const FlatPoint z = inverse.fromState(state, 0.0, 50.0);
   EXPECT_TRUE(inverse.state(z, z.velocity).state.isApprox(state, 1e-9));
   EXPECT_NEAR(inverse.headingForce(z.velocity, z.acceleration).norm(), 50.0, 1e-9);
 }
