@@ -292,6 +292,11 @@ class Supervisor::Impl {
     }
     return false;
   }
+  // Bow to it, with a shore to leeward nearer than a lost heading takes, and room ahead.
+  bool liesOffALeeShore(const Moment& m) {
+    sea_room_m_ = weather().isKnown() ? seaRoomToMake(m) : 0.0;
+    return sea_room_m_ > 0.0;
+  }
   // On the way left the thrusters have not enough against what blows by now, for longer than when
   // it was planned. Once the weather is known, then not for each change again.
   bool lacksThrust(const Moment& m) {
@@ -501,6 +506,20 @@ class Supervisor::Impl {
     return stopByItself(
         m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
   }
+  // Straight ahead, into what pushes.
+  Orders makeSeaRoom(const Moment& m) {
+    constexpr double kSpeedMps = 0.5;
+    constexpr double kLeastS = 4.0;
+    const vessel::State& x = m.situation.state;
+    vessel::FlatPoint from;
+    from.position = x.head<2>();
+    vessel::FlatPoint to = from;
+    to.position += sea_room_m_ * bowOf(x);
+    const double duration = std::max(kLeastS, sea_room_m_ / kSpeedMps);
+    return manoeuvre(m, Phase::kBackingOff,
+                     Trajectory({trajectory::hermitePiece(from, to, duration)}),
+                     text("makes %.1f m of room to leeward", sea_room_m_));
+  }
   Orders stopSetAside(const Moment& m) {
     return stopByItself(m, text("set aside, %.1f m off the trajectory",
                                 m.situation.tracking_error_m));
@@ -598,6 +617,7 @@ class Supervisor::Impl {
       {kWaiting, &Impl::doesNotKnowTheWeather, &Impl::keepOn},
       {kWaiting, &Impl::isOverTheEdge, &Impl::turnBack},
       {kWaiting, &Impl::isBeyondThrust, &Impl::waitForCalm},
+      {kWaiting, &Impl::liesOffALeeShore, &Impl::makeSeaRoom},
       {kWaiting, &Impl::always, &Impl::planFromRest},
 
       {kUnderWay, &Impl::hasFault, &Impl::stopForFault},
@@ -679,6 +699,48 @@ class Supervisor::Impl {
       longer += vessel::thrustMargin(thrusts, vessel_.thrusters) < 0.0 ? kStepS : 0.0;
     }
     return longer;
+  }
+  static Eigen::Vector2d bowOf(const vessel::State& x) {
+    return {std::cos(x[vessel::kPsi]), std::sin(x[vessel::kPsi])};
+  }
+  // How far ahead, m, there is enough room to leeward, or the most there is on the way; 0 where the
+  // vessel has it already, can't have it, or doesn't lie into what pushes.
+  double seaRoomToMake(const Moment& m) {
+    constexpr double kEnoughM = 4.0;
+    constexpr double kFarthestM = 6.0;
+    constexpr double kStepM = 0.5;
+    constexpr double kWorthM = 1.0;
+    constexpr double kIntoCosine = 0.9;
+    const Eigen::Vector2d drift = weather().drift();
+    const double far = std::min(drift.norm(), kEnoughM);
+    const vessel::State& x = m.situation.state;
+    const Eigen::Vector2d bow = bowOf(x);
+    if (far < kWorthM || -bow.dot(drift) < kIntoCosine * drift.norm()) {
+      return 0.0;
+    }
+    const auto leeward = [&](const Eigen::Vector2d& position) {
+      for (double s = kStepM; s < far; s += kStepM) {
+        const Eigen::Vector2d there = position + s * drift.normalized();
+        if (m.obstacles.clearance(there, m.now_s) < safety().critical()) {
+          return s - kStepM;
+        }
+      }
+      return far;
+    };
+    const double here = leeward(x.head<2>());
+    double best = 0.0;
+    double most = here + kWorthM;
+    for (double s = kStepM; s <= kFarthestM && most < far; s += kStepM) {
+      const Eigen::Vector2d there = x.head<2>() + s * bow;
+      if (m.obstacles.clearance(there, m.now_s) < safety().narrowest()) {
+        break;
+      }
+      if (leeward(there) >= most) {
+        best = s;
+        most = leeward(there);
+      }
+    }
+    return best;
   }
   // Without a trajectory the tracker does nothing: it shall keep the place, once.
   Orders holdHere() { return {std::nullopt, std::nullopt, !std::exchange(holds_, true)}; }
@@ -910,6 +972,7 @@ class Supervisor::Impl {
   double planned_overtaxed_s_ = 0.0;
   double felt_s_ = -std::numeric_limits<double>::infinity();
   double off_since_s_ = 0.0;      // far off the trajectory
+  double sea_room_m_ = 0.0;       // to be made
   bool holds_ = false;            // the tracker was told to keep the place
   double calm_by_s_ = 0.0;        // or the mission fails
   double planned_for_mps_ = 0.0;  // the mission's speed limit then
