@@ -55,7 +55,7 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
     return std::nullopt;
   }
   const trajectory::Sample sample =
-      trajectory::MotionAlong(sailed.trajectory, vessel_, safety.weather().mean()).sample(*at);
+      trajectory::MotionAlong(sailed.trajectory, vessel_, safety.planDisturbance()).sample(*at);
   PlanRequest request;
   request.query.start.flat = sample.flat;
   request.query.start.psi_rad = sample.state[vessel::kPsi];
@@ -94,7 +94,7 @@ PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
   PlanRequest request;
   request.query.start.flat =
       vessel::pathFromState(state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n,
-                            vessel_, safety.weather().mean());
+                            vessel_, safety.planDisturbance());
   request.query.start.flat.position += latency.seconds() * request.query.start.flat.velocity;
   // One that has hardly got under way is better launched again than led on from next to nothing.
   constexpr double kHardlyMovingMps = 0.25;

@@ -65,12 +65,14 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   constexpr double kLeeShares[] = {1.0, 0.5, 0.25, 0.1};  // by level
   limits.drift_m =
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
-  if (options_.plan_with_weather && !plansBlind()) {
-    limits.disturbance = weather_.mean();
-  }
+  limits.disturbance = planDisturbance();
   limits.hull_margin_m = kPlanMarginM;
   limits.limitSpeed(options_.speed_max_mps);
   return limits;
+}
+
+vessel::Disturbance Safety::planDisturbance() const {
+  return options_.plan_with_weather && !plansBlind() ? weather_.mean() : vessel::Disturbance{};
 }
 
 double Safety::freeThrustShare() const {

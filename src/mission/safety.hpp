@@ -64,6 +64,8 @@ class Safety {
   // room for, and with `thrust_share`.
   [[nodiscard]] feasibility::SafetyLimits limits(double thrust_share, double room_m);
 
+  // What the next plan is made with; the state it starts from has to be one under that too.
+  [[nodiscard]] vessel::Disturbance planDisturbance() const;
   // What wind and current and the vessel's troubles leave for plans.
   [[nodiscard]] double freeThrustShare() const;
   // For the next plan: where there was none with that, one with more rather than none.

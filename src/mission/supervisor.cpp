@@ -292,10 +292,11 @@ class Supervisor::Impl {
     }
     return false;
   }
-  // Bow to it, with a shore to leeward nearer than a lost heading takes, and room ahead.
+  // Bow to it, with something near, or to leeward nearer than a lost heading takes, and a better
+  // place ahead or astern.
   bool liesOffALeeShore(const Moment& m) {
     sea_room_m_ = weather().isKnown() ? seaRoomToMake(m) : 0.0;
-    return sea_room_m_ > 0.0;
+    return sea_room_m_ != 0.0;
   }
   // On the way left the thrusters have not enough against what blows by now, for longer than when
   // it was planned. Once the weather is known, then not for each change again.
@@ -506,7 +507,7 @@ class Supervisor::Impl {
     return stopByItself(
         m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
   }
-  // Straight ahead, into what pushes.
+  // Straight ahead or astern, bow to what pushes.
   Orders makeSeaRoom(const Moment& m) {
     constexpr double kSpeedMps = 0.5;
     constexpr double kLeastS = 4.0;
@@ -515,10 +516,11 @@ class Supervisor::Impl {
     from.position = x.head<2>();
     vessel::FlatPoint to = from;
     to.position += sea_room_m_ * bowOf(x);
-    const double duration = std::max(kLeastS, sea_room_m_ / kSpeedMps);
+    const double duration = std::max(kLeastS, std::abs(sea_room_m_) / kSpeedMps);
     return manoeuvre(m, Phase::kBackingOff,
                      Trajectory({trajectory::hermitePiece(from, to, duration)}),
-                     text("makes %.1f m of room to leeward", sea_room_m_));
+                     text("makes room, %.1f m %s", std::abs(sea_room_m_),
+                          sea_room_m_ > 0.0 ? "ahead" : "astern"));
   }
   Orders stopSetAside(const Moment& m) {
     return stopByItself(m, text("set aside, %.1f m off the trajectory",
@@ -703,42 +705,49 @@ class Supervisor::Impl {
   static Eigen::Vector2d bowOf(const vessel::State& x) {
     return {std::cos(x[vessel::kPsi]), std::sin(x[vessel::kPsi])};
   }
-  // How far ahead, m, there is enough room to leeward, or the most there is on the way; 0 where the
-  // vessel has it already, can't have it, or doesn't lie into what pushes.
+  // How far ahead of a vessel that lies into what pushes, m (negative: astern), there is enough
+  // room round it and to leeward, or most; 0 where it has that already, or there is no better place.
   double seaRoomToMake(const Moment& m) {
-    constexpr double kEnoughM = 4.0;
+    constexpr double kLeewardM = 4.0;
+    constexpr double kRoundM = 1.0;
     constexpr double kFarthestM = 6.0;
     constexpr double kStepM = 0.5;
-    constexpr double kWorthM = 1.0;
-    constexpr double kIntoCosine = 0.9;
+    constexpr double kWorthM = 0.7;
+    constexpr double kIntoCosine = 0.7;
     const Eigen::Vector2d drift = weather().drift();
-    const double far = std::min(drift.norm(), kEnoughM);
+    const double far = std::min(drift.norm(), kLeewardM);
     const vessel::State& x = m.situation.state;
     const Eigen::Vector2d bow = bowOf(x);
-    if (far < kWorthM || -bow.dot(drift) < kIntoCosine * drift.norm()) {
+    if (far < kRoundM || -bow.dot(drift) < kIntoCosine * drift.norm()) {
       return 0.0;
     }
-    const auto leeward = [&](const Eigen::Vector2d& position) {
-      for (double s = kStepM; s < far; s += kStepM) {
-        const Eigen::Vector2d there = position + s * drift.normalized();
-        if (m.obstacles.clearance(there, m.now_s) < safety().critical()) {
-          return s - kStepM;
+    const auto clear = [&](const Eigen::Vector2d& p) { return m.obstacles.clearance(p, m.now_s); };
+    const auto room = [&](const Eigen::Vector2d& position) {
+      double leeward = 0.0;
+      while (leeward < far &&
+             clear(position + (leeward + kStepM) * drift.normalized()) >= safety().critical()) {
+        leeward += kStepM;
+      }
+      return std::min(leeward, far) +
+             std::min(clear(position) - safety().narrowest(), kRoundM);
+    };
+    const double enough = far + kRoundM;
+    const double here = clear(x.head<2>());
+    double best = 0.0;
+    double most = room(x.head<2>()) + kWorthM;
+    for (const double way : {1.0, -1.0}) {
+      double found = 0.0;
+      for (double s = kStepM; s <= kFarthestM && most < enough; s += kStepM) {
+        const Eigen::Vector2d there = x.head<2>() + way * s * bow;
+        if (clear(there) < std::min(here, safety().narrowest())) {
+          break;
+        }
+        if (room(there) >= most) {
+          found = way * s;
+          most = room(there) + 0.5 * kStepM;
         }
       }
-      return far;
-    };
-    const double here = leeward(x.head<2>());
-    double best = 0.0;
-    double most = here + kWorthM;
-    for (double s = kStepM; s <= kFarthestM && most < far; s += kStepM) {
-      const Eigen::Vector2d there = x.head<2>() + s * bow;
-      if (m.obstacles.clearance(there, m.now_s) < safety().narrowest()) {
-        break;
-      }
-      if (leeward(there) >= most) {
-        best = s;
-        most = leeward(there);
-      }
+      best = found != 0.0 ? found : best;
     }
     return best;
   }

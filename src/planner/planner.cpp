@@ -22,6 +22,12 @@ namespace {
 // Beyond the clearance, that the guide line is pushed out to.
 constexpr double kRoomM = 0.7;
 constexpr double kSampleSpeedShare = 0.867;  // of the speed limit, along the guide line
+// A start faster than the limit is slowed down to so much of it, in so many times what the drag
+// takes.
+constexpr double kSlowedShares[] = {0.9, 0.0};
+constexpr double kSlowingShares[] = {1.0, 1.6, 0.7, 2.5};
+constexpr double kNearlyAtRestShare = 0.1;
+constexpr double kPauseS = 0.5;
 constexpr double kNearM = 0.3;               // a goal nearer than this needs no search
 
 std::string describe(const Eigen::Vector2d& p) {
@@ -80,7 +86,7 @@ class Planner::Pipeline {
             const Termination& termination) {
     const feasibility::SafetyLimits& limits = query.limits;
     if (limits.drift_m.isZero(0.0) || !limits.drift_m.allFinite()) {
-      return planAmong(obstacles, query, termination);
+      return planInTime(obstacles, query, termination);
     }
     feasibility::Obstacles all = obstacles;
     const feasibility::LeeShore lee(obstacles.field(), limits.drift_m,
@@ -88,10 +94,75 @@ class Planner::Pipeline {
                                     limits.clearance_m, query.start.flat.position,
                                     query.goal.flat.position);
     all.add(lee);
-    return planAmong(all, query, termination);
+    return planInTime(all, query, termination);
   }
 
  private:
+  // A start faster than the limit: where no way was found on which the vessel slows down, it does
+  // so first, straight ahead.
+  Plan planInTime(const feasibility::Obstacles& obstacles, const Query& query,
+                  const Termination& termination) {
+    Plan plan = planAmong(obstacles, query, termination);
+    const double speed = query.start.flat.velocity.norm();
+    if (plan.outcome == Outcome::kSolved || speed <= query.limits.speed_max_mps) {
+      return plan;
+    }
+    for (const double share : kSlowedShares) {
+      for (const double longer : kSlowingShares) {
+        const bool in_time = !termination.elapsed_s || termination.elapsed_s() < termination.budget_s;
+        Plan other = in_time ? planSlowed(obstacles, query, termination, share, longer) : Plan{};
+        if (other.outcome == Outcome::kSolved) {
+          return other;
+        }
+      }
+    }
+    return plan;
+  }
+
+  // Down to `share` of the limit, in `longer` times what the drag alone would take.
+  Plan planSlowed(const feasibility::Obstacles& obstacles, const Query& query,
+                  const Termination& termination, double share, double longer) {
+    const vessel::FlatPoint& from = query.start.flat;
+    const double speed = from.velocity.norm();
+    const double slowed = share * query.limits.speed_max_mps;
+    const double lag_s = vessel_.paper.m1_kg / vessel_.paper.d1_kgps;
+    const double takes_s =
+        longer * lag_s * std::log(speed / std::max(slowed, kNearlyAtRestShare * speed));
+    const Eigen::Vector2d ahead = from.velocity / speed;
+    Query rest = query;
+    rest.warm_start = {};
+    rest.guide_path.clear();
+    rest.start.flat = {};
+    rest.start.flat.position = from.position + 0.5 * (speed + slowed) * takes_s * ahead;
+    rest.start.flat.velocity = slowed * ahead;
+    rest.start.psi_rad = std::atan2(ahead.y(), ahead.x());
+    const double pause_s = slowed > 0.0 ? 0.0 : kPauseS;
+    Plan plan = planAmong(obstacles.startingAt(takes_s + pause_s), rest, termination);
+    if (plan.outcome != Outcome::kSolved) {
+      return plan;
+    }
+    std::vector<trajectory::Piece> pieces = {
+        trajectory::hermitePiece(from, rest.start.flat, takes_s)};
+    if (pause_s > 0.0) {
+      pieces.push_back(trajectory::spinPiece(rest.start.flat.position, rest.start.psi_rad,
+                                             rest.start.psi_rad, pause_s));
+      pieces.back().position =
+          trajectory::hermitePiece(rest.start.flat, plan.trajectory.flat(0.0), pause_s).position;
+    }
+    pieces.insert(pieces.end(), plan.trajectory.pieces().begin(), plan.trajectory.pieces().end());
+    plan.trajectory = trajectory::Trajectory(std::move(pieces));
+    const auto verification = feasibility::verify(plan.trajectory, obstacles, vessel_, query.start,
+                                                  query.goal, query.limits);
+    if (!verification.ok) {
+      plan.outcome = Outcome::kNoPath;
+      plan.reason = verification.reason;
+      return plan;
+    }
+    plan.figures.length_m = trajectory::length(plan.trajectory);
+    plan.figures.duration_s = plan.trajectory.duration();
+    return plan;
+  }
+
   Plan planAmong(const feasibility::Obstacles& obstacles, const Query& query,
                  const Termination& termination) {
     Run run{obstacles, query, termination, {}};
