@@ -32,7 +32,7 @@ double planThrustShare(double share_in_calm, double gust_share, int times_left_b
 double planClearance(const SupervisorOptions& options, std::size_t level, double gust_reach_m,
                      const vessel::Hull& hull, double room_m) {
   const double listed = centreClearance(hull, options.side_clearances_m[level]);
-  constexpr double kShares[] = {1.0, 1.0, 0.5, 0.25};  // of the reach; the last for all that follow
+  constexpr double kShares[] = {1.0, 1.0, 0.75, 0.5};  // of the reach; the last for all that follow
   const double aside = kShares[std::min(level, std::size(kShares) - 1)] * gust_reach_m;
   // At the ends themselves something has to be left.
   constexpr double kLessM = 0.1;

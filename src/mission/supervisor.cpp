@@ -517,8 +517,11 @@ class Supervisor::Impl {
     vessel::FlatPoint to = from;
     to.position += sea_room_m_ * bowOf(x);
     const double duration = std::max(kLeastS, std::abs(sea_room_m_) / kSpeedMps);
-    return manoeuvre(m, Phase::kBackingOff,
-                     Trajectory({trajectory::hermitePiece(from, to, duration)}),
+    // The heading is kept, astern as well.
+    trajectory::Piece piece =
+        trajectory::spinPiece(from.position, x[vessel::kPsi], x[vessel::kPsi], duration);
+    piece.position = trajectory::hermitePiece(from, to, duration).position;
+    return manoeuvre(m, Phase::kBackingOff, Trajectory({piece}),
                      text("makes room, %.1f m %s", std::abs(sea_room_m_),
                           sea_room_m_ > 0.0 ? "ahead" : "astern"));
   }

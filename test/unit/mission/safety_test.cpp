@@ -34,7 +34,7 @@ TEST(Safety, ClearancesGrowWithGusts) {
   EXPECT_NEAR(planClearance(options, 0, 0.7, hull, kWideWater),
               centreClearance(hull, options.side_clearances_m[0]) + 0.7, 1e-12);
   EXPECT_NEAR(planClearance(options, last, 0.7, hull, kWideWater),
-              centreClearance(hull, options.side_clearances_m[last]) + 0.25 * 0.7, 1e-12);
+              centreClearance(hull, options.side_clearances_m[last]) + 0.5 * 0.7, 1e-12);
 }
 
 TEST(Safety, AsksForNoMoreThanStartAndGoalHave) {
