@@ -313,7 +313,13 @@ class Supervisor::Impl {
            std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - planned_goal_psi_rad_)) >
                kWrongRad;
   }
-  bool isBeyondThrust(const Moment& /*m*/) { return !safety().beyondThrust().empty(); }
+  bool isBeyondThrust(const Moment& /*m*/) {
+    const bool is = !safety().beyondThrust().empty();
+    if (!is) {
+      calm_by_s_.reset();
+    }
+    return is;
+  }
   bool hasNewSpeedMax(const Moment& /*m*/) { return planned_for_mps_ != safety().speedMax(); }
   // A plan that slows down is to be had in time, or there is none.
   bool isTooFastForLong(const Moment& m) {
@@ -536,9 +542,9 @@ class Supervisor::Impl {
   Orders waitForCalm(const Moment& m) {
     constexpr double kPatienceS = 60.0;
     retries_.pause(m.now_s);
-    if (!holds_) {
+    if (!calm_by_s_) {
       calm_by_s_ = m.now_s + kPatienceS;
-    } else if (m.now_s > calm_by_s_) {
+    } else if (m.now_s > *calm_by_s_) {
       return enter(Phase::kFailed, "too much wind and current: " + safety().beyondThrust());
     }
     enter(phase_, "waits for less wind and current: " + safety().beyondThrust());
@@ -986,7 +992,7 @@ class Supervisor::Impl {
   double off_since_s_ = 0.0;      // far off the trajectory
   double sea_room_m_ = 0.0;       // to be made
   bool holds_ = false;            // the tracker was told to keep the place
-  double calm_by_s_ = 0.0;        // or the mission fails
+  std::optional<double> calm_by_s_;  // or the mission fails
   double planned_for_mps_ = 0.0;  // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
   stopping::Conflict conflict_;     // what the last condition found on the way

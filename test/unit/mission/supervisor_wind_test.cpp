@@ -120,6 +120,7 @@ TEST(SupervisorInWind, PlansOnceTheWeatherIsKnown) {
   const auto orders = mission.goTo({20.0, 0.0});
   ASSERT_TRUE(orders);
   EXPECT_FALSE(orders->plan);
+  EXPECT_TRUE(orders->stop);  // held meanwhile
   EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
   const Force transient = [](double t) { return Vector2d(t < 0.5 ? -60.0 : -4.0, 0.0); };
   EXPECT_TRUE(blow(mission, 0.8, transient).plans.empty());
@@ -157,6 +158,81 @@ TEST(SupervisorInWind, AllowsMoreThrustWhereThereIsNoPlanWithLess) {
   // At last one that knows nothing of the weather and leaves thrust for it.
   EXPECT_LT(asked[8].thrust_share, asked[0].thrust_share);
   EXPECT_EQ(asked[8].query.limits.disturbance.force_n.x(), 0.0);
+}
+
+// Off its trajectory nothing was verified: it waits for a plan no longer than one takes.
+TEST(SupervisorInWind, StopsWhereItIsSetAsideAndThereIsNoPlan) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  double off_s = 0.0;
+  bool stopped = false;
+  for (; off_s < 5.0 && !stopped; off_s += 0.1) {
+    mission.now_s += 0.1;
+    Situation aside = mission.situation();
+    aside.state.y() += 2.0;
+    aside.tracking_error_m = 2.0;
+    const Orders orders = mission.supervisor.update(mission.now_s, aside, mission.field);
+    stopped = orders.stop;
+    if (orders.plan) {
+      (void)mission.refuse(*orders.plan, "no");
+    }
+  }
+  EXPECT_TRUE(stopped);
+  EXPECT_GT(off_s, 1.0);
+  EXPECT_LT(off_s, 2.0);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
+}
+
+// At once where it is set towards something.
+TEST(SupervisorInWind, StopsWhereItIsSetTowardsSomething) {
+  for (const double set_mps : {1.5, -1.5}) {
+    ScriptedMission mission;
+    mission.setOut(6.0);
+    Situation aside = mission.situation();
+    aside.state.y() += 1.0;
+    aside.tracking_error_m = 1.0;
+    aside.state[vessel::kSurge] = 0.0;
+    aside.state[vessel::kSway] = set_mps;
+    const Vector2d here = aside.state.head<2>();
+    mission.put(here + Vector2d(-2.0, 2.5), here + Vector2d(2.0, 4.0));
+    const Orders orders = mission.supervisor.update(mission.now_s, aside, mission.field);
+    EXPECT_EQ(orders.stop, set_mps > 0.0);
+  }
+}
+
+// At rest, bow to 30 N from the east, with a shore 2 m to leeward: first it goes ahead.
+TEST(SupervisorInWind, MakesRoomOffALeeShoreBeforeItPlans) {
+  for (const bool shore : {true, false}) {
+    ScriptedMission mission;
+    blow(mission, 5.0, [](double) { return Vector2d(-30.0, 0.0); });
+    if (shore) {
+      mission.put({-4.0, -5.0}, {-2.5, 5.0});
+    }
+    const auto orders = mission.goTo({20.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    (void)mission.refuse(*orders->plan, "no");
+    const Orders next = mission.update(0.1);
+    EXPECT_EQ(mission.supervisor.phase(), shore ? Phase::kBackingOff : Phase::kPlanning);
+    ASSERT_EQ(next.sail.has_value(), shore);
+    if (shore) {
+      const trajectory::Trajectory& path = next.sail->trajectory;
+      const trajectory::Sample end = path.sample(path.duration(), vessel::Parameters{});
+      EXPECT_GT(end.state.x(), 0.9);
+      EXPECT_NEAR(end.state.y(), 0.0, 1e-6);
+      EXPECT_NEAR(end.state[vessel::kPsi], 0.0, 1e-6);
+    }
+  }
+}
+
+TEST(SupervisorInWind, WaitsAMinuteForLessWind) {
+  ScriptedMission mission;
+  const Force storm = [](double) { return Vector2d(-150.0, 0.0); };
+  blow(mission, 40.0, storm);
+  (void)mission.goTo({20.0, 0.0});
+  blow(mission, 40.0, storm);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning) << mission.supervisor.reason();
+  blow(mission, 30.0, storm);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kFailed);
 }
 
 TEST(SupervisorInWind, LaunchesAVesselAgainThatHasHardlyGotUnderWay) {
