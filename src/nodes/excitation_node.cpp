@@ -36,7 +36,7 @@ ExcitationNode::ExcitationNode(ExcitationNodeOptions options,
       diagnostics_(node_, private_node_, vessel.name),
       excitation_(std::move(manoeuvres), vessel.thrusters),
       command_publisher_(node_.advertise<ThrusterCommand>("thruster_command", kQueue)) {
-  command_.header.frame_id = ros_bridge::kBaseFrame;
+  command_.header.frame_id = ros_bridge::frames().base;
   odometry_subscriber_ = node_.subscribe("odom", kQueue, &ExcitationNode::onOdometry, this,
                                          ros::TransportHints().tcpNoDelay());
 }
@@ -46,7 +46,7 @@ void ExcitationNode::onOdometry(const nav_msgs::Odometry& message) {
     return;
   }
   const Result<ros_bridge::OdometrySample> sample =
-      ros_bridge::odometrySample(message, message.header.frame_id, ros_bridge::kBaseFrame);
+      ros_bridge::odometrySample(message, message.header.frame_id, ros_bridge::frames().base);
   if (!sample) {
     diagnostics_.refuse("odom", sample.error().message);
     return;

@@ -57,8 +57,9 @@ void GoalServer::abortWaiting(const std::string& reason) {
 
 void GoalServer::take(Handle handle) {
   handle.setAccepted();
-  const Status taken = ros_bridge::planarPose(handle.getGoal()->target_pose, ros_bridge::kMapFrame)
-                           .and_then([&](const vessel::Pose& pose) { return on_goal_(pose); });
+  const Status taken =
+      ros_bridge::planarPose(handle.getGoal()->target_pose, ros_bridge::frames().map)
+          .and_then([&](const vessel::Pose& pose) { return on_goal_(pose); });
   if (!taken) {
     ROS_WARN_STREAM("Refused the goal: " << taken.error().message);
     handle.setAborted(Result(), taken.error().message);
@@ -99,7 +100,7 @@ void GoalServer::abort(const std::string& reason) {
 void GoalServer::feedback(const vessel::Pose& pose, const ros::Time& stamp) {
   if (under_way_) {
     move_base_msgs::MoveBaseFeedback message;
-    message.base_position.header.frame_id = ros_bridge::kMapFrame;
+    message.base_position.header.frame_id = ros_bridge::frames().map;
     message.base_position.header.stamp = stamp;
     message.base_position.pose = ros_bridge::toPose(pose.position, pose.psi_rad);
     under_way_->publishFeedback(message);

@@ -16,7 +16,7 @@
 namespace otter_nav::nodes {
 namespace {
 
-using ros_bridge::kMapFrame;
+using ros_bridge::frames;
 using Level = ros_bridge::Diagnostics::Level;
 
 constexpr int kQueue = 50;
@@ -57,7 +57,7 @@ MapNode::MapNode(map::OccupancyMap map)
       map_(std::move(map)),
       load_time_(ros::WallTime::now().sec, ros::WallTime::now().nsec),
       scan_subscriber_(node_, "scan", kQueue, ros::TransportHints().tcpNoDelay()),
-      scan_filter_(scan_subscriber_, transforms_, kMapFrame, kQueue, node_),
+      scan_filter_(scan_subscriber_, transforms_, frames().map, kQueue, node_),
       map_publisher_(node_.advertise<nav_msgs::OccupancyGrid>(
           "map", 1,
           [this](const ros::SingleSubscriberPublisher& subscriber) { publishMapTo(subscriber); },
@@ -67,9 +67,9 @@ MapNode::MapNode(map::OccupancyMap map)
       save_service_(private_node_.advertiseService("save", &MapNode::onSave, this)),
       reset_service_(private_node_.advertiseService("reset", &MapNode::onReset, this)) {
   map_publisher_.publish(
-      ros_bridge::toMessage(map_.projection(), kMapFrame, ros::Time::now(), load_time_));
+      ros_bridge::toMessage(map_.projection(), frames().map, ros::Time::now(), load_time_));
   chart_publisher_.publish(
-      ros_bridge::toMessage(map_.chart(), kMapFrame, ros::Time::now(), load_time_));
+      ros_bridge::toMessage(map_.chart(), frames().map, ros::Time::now(), load_time_));
   scan_filter_.registerCallback(
       [this](const sensor_msgs::LaserScanConstPtr& message) { onScan(message); });
   ghost_subscriber_ = node_.subscribe("ghosts", kQueue, &MapNode::onGhosts, this,
@@ -80,7 +80,8 @@ MapNode::MapNode(map::OccupancyMap map)
 // A late subscriber gets the map as it is now, not as it was when it was latched.
 void MapNode::publishMapTo(const ros::SingleSubscriberPublisher& subscriber) const {
   if (!last_scan_.isZero()) {
-    subscriber.publish(ros_bridge::toMessage(map_.projection(), kMapFrame, last_scan_, load_time_));
+    subscriber.publish(
+        ros_bridge::toMessage(map_.projection(), frames().map, last_scan_, load_time_));
   }
 }
 
@@ -90,7 +91,7 @@ Result<map::CellRectangle> MapNode::insert(const sensor_msgs::LaserScan& message
   const Result<map::SensorPose> sensor =
       ros_bridge::poseInMap(transforms_, message.header.frame_id, stamp);
   const Result<map::SensorPose> base =
-      ros_bridge::poseInMap(transforms_, ros_bridge::kBaseFrame, stamp);
+      ros_bridge::poseInMap(transforms_, ros_bridge::frames().base, stamp);
   if (!sensor || !base) {
     return failure((sensor ? base : sensor).error().message);
   }
@@ -118,7 +119,7 @@ void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
 
 // A vessel was met there before it was known to be one.
 void MapNode::onGhosts(const sensor_msgs::PointCloud& message) {
-  if (message.header.frame_id != kMapFrame) {
+  if (message.header.frame_id != frames().map) {
     diagnostics_.refuse("ghosts", "frame_id is '" + message.header.frame_id + "'");
     return;
   }
@@ -137,7 +138,7 @@ void MapNode::publishUpdate(map::CellRectangle changed, const ros::Time& stamp) 
     changed = {0, 0, 1, 1};
   }
   update_publisher_.publish(
-      ros_bridge::updateMessage(map_.projection(), changed, kMapFrame, stamp));
+      ros_bridge::updateMessage(map_.projection(), changed, frames().map, stamp));
 }
 
 bool MapNode::onSave(SaveMap::Request& request, SaveMap::Response& response) {

@@ -131,7 +131,7 @@ void MissionNode::onState(const PlantState& message) {
 
 void MissionNode::onTrajectory(const Trajectory& message) {
   Result<trajectory::TimedTrajectory> timed =
-      ros_bridge::toTrajectory(message, ros_bridge::kMapFrame);
+      ros_bridge::toTrajectory(message, ros_bridge::frames().map);
   if (timed) {
     references_.add(message.id, timed->start_time_s, std::move(timed->trajectory));
   }
@@ -206,7 +206,7 @@ void MissionNode::sendGoal() {
     return;
   }
   move_base_msgs::MoveBaseGoal goal;
-  goal.target_pose.header.frame_id = ros_bridge::kMapFrame;
+  goal.target_pose.header.frame_id = ros_bridge::frames().map;
   goal.target_pose.header.stamp = states_.front().header.stamp;
   goal.target_pose.pose = ros_bridge::toPose(mission_.goal.position, mission_.goal.psi_rad);
   action_.sendGoal(goal,

@@ -28,7 +28,7 @@ class Delivery : public ros::CallbackInterface {
 
 geometry_msgs::PoseStamped poseMessage(const vessel::Pose& pose) {
   geometry_msgs::PoseStamped message;
-  message.header.frame_id = ros_bridge::kMapFrame;
+  message.header.frame_id = ros_bridge::frames().map;
   message.pose = ros_bridge::toPose(pose.position, pose.psi_rad);
   return message;
 }

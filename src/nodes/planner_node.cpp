@@ -13,7 +13,7 @@
 namespace otter_nav::nodes {
 namespace {
 
-using ros_bridge::kBaseFrame;
+using ros_bridge::frames;
 using Level = ros_bridge::Diagnostics::Level;
 using mission::Phase;
 
@@ -106,8 +106,8 @@ void PlannerNode::onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message)
 
 void PlannerNode::onOdometry(const nav_msgs::Odometry& message) {
   diagnostics_.received("odom");
-  const Result<ros_bridge::OdometrySample> sample =
-      ros_bridge::odometrySample(message, setup_.node.odometry_frame, kBaseFrame);
+  const Result<ros_bridge::OdometrySample> sample = ros_bridge::odometrySample(
+      message, ros_bridge::odometryFrame(setup_.node.odometry_frame), frames().base);
   if (!sample) {
     diagnostics_.refuse("odom", sample.error().message);
   } else if (!odometry_.add(*sample)) {

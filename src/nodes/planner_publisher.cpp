@@ -15,7 +15,7 @@
 namespace otter_nav::nodes {
 namespace {
 
-using ros_bridge::kMapFrame;
+using ros_bridge::frames;
 
 constexpr int kQueue = 100;
 constexpr double kPathStepS = 0.25;
@@ -30,14 +30,14 @@ PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters ves
       trajectory_markers_(
           node.advertise<visualization_msgs::MarkerArray>("trajectory_markers", 1, true)),
       tree_markers_(node.advertise<visualization_msgs::MarkerArray>("tree_markers", 1, true)) {
-  status_.header.frame_id = kMapFrame;
+  status_.header.frame_id = frames().map;
 }
 
 std::uint32_t PlannerPublisher::publish(const trajectory::TimedTrajectory& order,
                                         const vessel::Pose& goal) {
-  trajectory_.publish(ros_bridge::toMessage(order, ++last_id_, goal, kMapFrame, vessel_));
+  trajectory_.publish(ros_bridge::toMessage(order, ++last_id_, goal, frames().map, vessel_));
   path_.publish(
-      ros_bridge::toPath(order.trajectory, order.start_time_s, kPathStepS, kMapFrame, vessel_));
+      ros_bridge::toPath(order.trajectory, order.start_time_s, kPathStepS, frames().map, vessel_));
   return last_id_;
 }
 

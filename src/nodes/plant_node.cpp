@@ -67,9 +67,9 @@ PlantNode::~PlantNode() {
 }
 
 void PlantNode::onCommand(const ThrusterCommand& message) {
-  if (message.header.frame_id != ros_bridge::kBaseFrame) {
+  if (message.header.frame_id != ros_bridge::frames().base) {
     diagnostics_.refuse("thruster_command", "frame_id is '" + message.header.frame_id +
-                                                "', expected '" + ros_bridge::kBaseFrame + "'");
+                                                "', expected '" + ros_bridge::frames().base + "'");
     return;
   }
   if (!std::isfinite(message.left) || !std::isfinite(message.right)) {

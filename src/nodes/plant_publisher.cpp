@@ -20,8 +20,9 @@ using namespace ros_bridge;  // NOLINT: the node is made of these
 constexpr int kQueue = 100;
 constexpr double kWeatherPeriodS = 0.1;
 
-geometry_msgs::TransformStamped transform(const char* parent, const char* child,
-                                          const Eigen::Vector3d& position, const ros::Time& stamp) {
+geometry_msgs::TransformStamped transformOf(const std::string& parent, const std::string& child,
+                                            const Eigen::Vector3d& position,
+                                            const ros::Time& stamp) {
   geometry_msgs::TransformStamped message;
   message.header.frame_id = parent;
   message.header.stamp = stamp;
@@ -35,7 +36,7 @@ geometry_msgs::TransformStamped transform(const char* parent, const char* child,
 
 geometry_msgs::Vector3Stamped vectorMessage(const Eigen::Vector2d& v, const ros::Time& stamp) {
   geometry_msgs::Vector3Stamped message;
-  message.header.frame_id = kMapFrame;
+  message.header.frame_id = frames().map;
   message.header.stamp = stamp;
   message.vector.x = v.x();
   message.vector.y = v.y();
@@ -66,8 +67,8 @@ PlantPublisher::PlantPublisher(ros::NodeHandle& node, const plant::LidarOptions&
       transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", kQueue, true)) {
   // A GNSS-aided navigation system is simulated, so odom and map coincide.
   static_transforms_.sendTransform(
-      {transform(kMapFrame, kOdomFrame, Eigen::Vector3d::Zero(), ros::Time()),
-       transform(kBaseFrame, kLidarFrame, lidar.position_m, ros::Time())});
+      {transformOf(frames().map, frames().odom, Eigen::Vector3d::Zero(), ros::Time()),
+       transformOf(frames().base, frames().lidar, lidar.position_m, ros::Time())});
 }
 
 void PlantPublisher::publish(const plant::Simulator& simulator, const ros::Time& stamp) {
@@ -90,9 +91,9 @@ void PlantPublisher::publishOdometry(const plant::Simulator& simulator, const ro
   const vessel::State& state = odometry.state;
   const ros::Duration age(simulator.time() - odometry.stamp_s);
   nav_msgs::Odometry& message = last_odometry_;
-  message.header.frame_id = kOdomFrame;
+  message.header.frame_id = frames().odom;
   message.header.stamp = stamp - age;
-  message.child_frame_id = kBaseFrame;
+  message.child_frame_id = frames().base;
   message.pose.pose.position = toPoint(state.head<2>(), odometry.z_m);
   message.pose.pose.orientation =
       toQuaternion(odometry.roll_rad, odometry.pitch_rad, state[vessel::kPsi]);
@@ -109,7 +110,7 @@ void PlantPublisher::publishOdometry(const plant::Simulator& simulator, const ro
 
   geometry_msgs::TransformStamped base;
   base.header = message.header;
-  base.child_frame_id = kBaseFrame;
+  base.child_frame_id = frames().base;
   base.transform.translation.x = message.pose.pose.position.x;
   base.transform.translation.y = message.pose.pose.position.y;
   base.transform.translation.z = message.pose.pose.position.z;
@@ -123,15 +124,15 @@ void PlantPublisher::publishOdometry(const plant::Simulator& simulator, const ro
 void PlantPublisher::publishTruth(const plant::Simulator& simulator, const ros::Time& stamp) {
   const plant::Truth& truth = simulator.truth();
   nav_msgs::Odometry pose;
-  pose.header.frame_id = kMapFrame;
+  pose.header.frame_id = frames().map;
   pose.header.stamp = stamp;
-  pose.child_frame_id = kBaseFrame;
+  pose.child_frame_id = frames().base;
   pose.pose.pose.position = toPoint(truth.position.head<2>(), truth.position.z());
   pose.pose.pose.orientation = toQuaternion(truth.roll_rad, truth.pitch_rad, truth.yaw_rad);
   set(truth.velocity_in_body, pose.twist.twist.linear);
   set(truth.angular_velocity_in_body, pose.twist.twist.angular);
   ground_truth_.publish(pose);
-  trail_.add(pose.pose.pose, kMapFrame, stamp);
+  trail_.add(pose.pose.pose, frames().map, stamp);
 
   PlantState& state = last_state_;
   state.header = pose.header;
@@ -178,7 +179,7 @@ void PlantPublisher::publishVessels(const plant::Simulator& simulator, const ros
 
 void PlantPublisher::publishRadar(const plant::RadarScan& radar, const ros::Time& stamp) {
   geometry_msgs::PoseArray message;
-  message.header.frame_id = kBaseFrame;
+  message.header.frame_id = frames().base;
   message.header.stamp = stamp;
   for (const Eigen::Vector2d& position : radar.positions_in_base) {
     message.poses.push_back(toPose(position, 0.0));
@@ -201,7 +202,7 @@ void PlantPublisher::publishContact(const plant::Simulator& simulator, const ros
   in_contact_ = simulator.inContact();
   const plant::Truth& truth = simulator.truth();
   ContactEvent event;
-  event.header.frame_id = kMapFrame;
+  event.header.frame_id = frames().map;
   event.header.stamp = stamp;
   event.in_contact = static_cast<std::uint8_t>(in_contact_);
   event.position = toPoint(truth.position.head<2>());
@@ -211,7 +212,7 @@ void PlantPublisher::publishContact(const plant::Simulator& simulator, const ros
 
 void PlantPublisher::publishScan(const plant::Scan& scan, const ros::Time& stamp) {
   sensor_msgs::LaserScan& message = last_scan_;
-  message.header.frame_id = kLidarFrame;
+  message.header.frame_id = frames().lidar;
   message.header.stamp = stamp;
   message.angle_min = static_cast<float>(scan.angle_min_rad);
   message.angle_increment = static_cast<float>(scan.angle_increment_rad);

@@ -12,7 +12,7 @@ namespace otter_nav::nodes {
 namespace {
 
 using ros_bridge::color;
-using ros_bridge::kMapFrame;
+using ros_bridge::frames;
 using visualization_msgs::InteractiveMarker;
 using visualization_msgs::InteractiveMarkerControl;
 using visualization_msgs::InteractiveMarkerFeedback;
@@ -44,7 +44,7 @@ InteractiveMarkerControl control(const char* name, std::uint8_t mode) {
 
 InteractiveMarker goalMarker(const geometry_msgs::Pose& pose) {
   InteractiveMarker marker;
-  marker.header.frame_id = kMapFrame;
+  marker.header.frame_id = frames().map;
   marker.name = kMarker;
   marker.description = "next goal: drag, turn; right click to sail";
   marker.scale = 5.0F;
@@ -130,7 +130,7 @@ void RouteNode::onMarker(const InteractiveMarkerFeedback& feedback) {
 }
 
 void RouteNode::onAdd(const geometry_msgs::PoseStamped& goal) {
-  if (const auto pose = ros_bridge::planarPose(goal, kMapFrame); !pose) {
+  if (const auto pose = ros_bridge::planarPose(goal, frames().map); !pose) {
     ROS_WARN_STREAM("route/add refused: " << pose.error().message);
     return;
   }
@@ -144,7 +144,7 @@ void RouteNode::onSet(const geometry_msgs::PoseArray& goals) {
     geometry_msgs::PoseStamped stamped;
     stamped.header = goals.header;
     stamped.pose = goal;
-    if (const auto pose = ros_bridge::planarPose(stamped, kMapFrame); !pose) {
+    if (const auto pose = ros_bridge::planarPose(stamped, frames().map); !pose) {
       ROS_WARN_STREAM("route/set refused: " << pose.error().message);
       return;
     }
@@ -191,7 +191,7 @@ Status RouteNode::sail() {
 
 void RouteNode::sendFirst() {
   move_base_msgs::MoveBaseGoal goal;
-  goal.target_pose.header.frame_id = kMapFrame;
+  goal.target_pose.header.frame_id = frames().map;
   goal.target_pose.header.stamp = ros::Time::now();
   goal.target_pose.pose = goals_.front();
   client_.sendGoal(
@@ -232,7 +232,7 @@ void RouteNode::stopSailing(const std::string& reason) {
 
 void RouteNode::publish() {
   Route route;
-  route.header.frame_id = kMapFrame;
+  route.header.frame_id = frames().map;
   route.header.stamp = ros::Time::now();
   route.goals = goals_;
   route.sailing = static_cast<std::uint8_t>(sailing_);
@@ -241,12 +241,12 @@ void RouteNode::publish() {
 
   visualization_msgs::MarkerArray markers;
   Marker clear;
-  clear.header.frame_id = kMapFrame;
+  clear.header.frame_id = frames().map;
   clear.action = Marker::DELETEALL;
   markers.markers.push_back(clear);
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     Marker marker = arrow(color(0.6, 0.05, 0.4, 0.8));
-    marker.header.frame_id = kMapFrame;
+    marker.header.frame_id = frames().map;
     marker.ns = "goals";
     marker.id = static_cast<int>(2 * i);
     marker.pose = goals_[i];

@@ -20,7 +20,7 @@ constexpr int kQueue = 50;
 constexpr std::chrono::seconds kMapPatience{1};
 
 Result<topology::Pose> toPose(const geometry_msgs::PoseStamped& message, const char* what) {
-  return ros_bridge::planarPose(message, ros_bridge::kMapFrame)
+  return ros_bridge::planarPose(message, ros_bridge::frames().map)
       .map([](const vessel::Pose& pose) {
         return topology::Pose{pose.position, pose.psi_rad};
       })

@@ -14,8 +14,7 @@
 namespace otter_nav::nodes {
 namespace {
 
-using ros_bridge::kBaseFrame;
-using ros_bridge::kMapFrame;
+using ros_bridge::frames;
 using Level = ros_bridge::Diagnostics::Level;
 
 constexpr int kQueue = 100;
@@ -69,9 +68,9 @@ TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tra
       cycle_publisher_(node_.advertise<TrackerCycle>("tracker_cycle", kQueue, true)),
       vessel_publisher_(node_.advertise<std_msgs::String>("vessel", 1, true)),
       prediction_publisher_(node_.advertise<nav_msgs::Path>("predicted_path", kQueue)) {
-  command_message_.header.frame_id = kBaseFrame;
+  command_message_.header.frame_id = frames().base;
   // Latched, and cycle zero: whoever has it misses no cycle.
-  cycle_message_.header.frame_id = kMapFrame;
+  cycle_message_.header.frame_id = frames().map;
   cycle_publisher_.publish(cycle_message_);
   std_msgs::String file;
   file.data = vessel::toYaml(vessel);
@@ -119,7 +118,7 @@ void TrackerNode::onTrajectory(const Trajectory& message) {
   diagnostics_.received("trajectory");
   const double start_s = message.header.stamp.toSec();
   Status taken =
-      ros_bridge::toTrajectory(message, kMapFrame)
+      ros_bridge::toTrajectory(message, frames().map)
           .and_then([&](const trajectory::TimedTrajectory& timed) -> Status {
             if (timed.trajectory.empty()) {
               // In lockstep no step may depend on when the message came.
@@ -150,8 +149,8 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
     return;
   }
   diagnostics_.received("odom");
-  const Result<ros_bridge::OdometrySample> sample =
-      ros_bridge::odometrySample(message, options_.odometry_frame, kBaseFrame);
+  const Result<ros_bridge::OdometrySample> sample = ros_bridge::odometrySample(
+      message, ros_bridge::odometryFrame(options_.odometry_frame), frames().base);
   const ros::Time stamp = message.header.stamp;
   if (stamp < last_odometry_) {
     diagnostics_.refuse("odom", "its stamp goes backwards");
@@ -256,7 +255,7 @@ void TrackerNode::publishPrediction(const tracker::Prediction& prediction) {
     return;
   }
   nav_msgs::Path path;
-  path.header.frame_id = kMapFrame;
+  path.header.frame_id = frames().map;
   path.header.stamp = ros_bridge::toRosTime(prediction.start_s);
   for (int i = 0; i < prediction.size; ++i) {
     const vessel::State& state = prediction.states[static_cast<std::size_t>(i)];
@@ -294,7 +293,7 @@ TrackerStatus TrackerNode::status() const {
   const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
   const CycleStatistics::Summary cycles = statistics_.summary();
   TrackerStatus message;
-  message.header.frame_id = kMapFrame;
+  message.header.frame_id = frames().map;
   message.header.stamp = ros_bridge::toRosTime(command.stamp_s);
   message.state = tracker::name(command.mode);
   message.reason = command.reason;

@@ -22,7 +22,7 @@
 namespace otter_nav::nodes {
 namespace {
 
-using ros_bridge::kMapFrame;
+using ros_bridge::frames;
 using Level = ros_bridge::Diagnostics::Level;
 
 constexpr int kQueue = 50;
@@ -51,7 +51,7 @@ TrafficNode::TrafficNode(const traffic::Options& options, const vessel::Hull& hu
       hull_(hull),
       tracker_(options, {}, hull),
       scan_subscriber_(node_, "scan", kQueue, ros::TransportHints().tcpNoDelay()),
-      scan_filter_(scan_subscriber_, transforms_, kMapFrame, kQueue, node_),
+      scan_filter_(scan_subscriber_, transforms_, frames().map, kQueue, node_),
       tracks_publisher_(node_.advertise<Tracks>("tracks", kQueue)),
       markers_publisher_(node_.advertise<visualization_msgs::MarkerArray>("track_markers", 1)),
       still_publisher_(node_.advertise<sensor_msgs::LaserScan>("scan_still", kQueue)),
@@ -68,7 +68,7 @@ TrafficNode::TrafficNode(const traffic::Options& options, const vessel::Hull& hu
 
 // What the chart shows is no vessel; the tracks begin anew.
 void TrafficNode::onChart(const nav_msgs::OccupancyGrid& message) {
-  const Result<map::OccupancyGrid> chart = ros_bridge::toGrid(message, kMapFrame);
+  const Result<map::OccupancyGrid> chart = ros_bridge::toGrid(message, frames().map);
   if (!chart) {
     diagnostics_.refuse("chart", chart.error().message);
     return;
@@ -78,9 +78,9 @@ void TrafficNode::onChart(const nav_msgs::OccupancyGrid& message) {
 }
 
 void TrafficNode::onRadar(const geometry_msgs::PoseArray& message) {
-  if (message.header.frame_id != ros_bridge::kBaseFrame) {
+  if (message.header.frame_id != ros_bridge::frames().base) {
     diagnostics_.refuse("radar", "frame_id is '" + message.header.frame_id + "', expected '" +
-                                     ros_bridge::kBaseFrame + "'");
+                                     ros_bridge::frames().base + "'");
     return;
   }
   Heard heard;
@@ -119,7 +119,7 @@ void TrafficNode::takeOthers() {
       continue;
     }
     const Result<map::SensorPose> base =
-        ros_bridge::poseInMap(transforms_, ros_bridge::kBaseFrame, heard.stamp);
+        ros_bridge::poseInMap(transforms_, ros_bridge::frames().base, heard.stamp);
     if (!base) {
       diagnostics_.refuse("radar", base.error().message);
       continue;
@@ -148,7 +148,7 @@ void TrafficNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   const Result<map::SensorPose> sensor =
       ros_bridge::poseInMap(transforms_, message->header.frame_id, stamp);
   const Result<map::SensorPose> base =
-      ros_bridge::poseInMap(transforms_, ros_bridge::kBaseFrame, stamp);
+      ros_bridge::poseInMap(transforms_, ros_bridge::frames().base, stamp);
   if (!sensor || !base) {
     diagnostics_.refuse("scan", (sensor ? base : sensor).error().message);
   } else {
@@ -173,7 +173,7 @@ void TrafficNode::publishGhosts(const ros::Time& stamp,
     return;
   }
   sensor_msgs::PointCloud message;
-  message.header.frame_id = kMapFrame;
+  message.header.frame_id = frames().map;
   message.header.stamp = stamp;
   for (const Eigen::Vector2d& ghost : ghosts) {
     geometry_msgs::Point32 point;

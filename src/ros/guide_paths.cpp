@@ -7,7 +7,7 @@ namespace otter_nav::ros_bridge {
 
 GuidePath toMessage(const Result<topology::GuidePath>& path, const ros::Time& stamp) {
   GuidePath message;
-  message.header.frame_id = kMapFrame;
+  message.header.frame_id = frames().map;
   message.header.stamp = stamp;
   message.found = static_cast<std::uint8_t>(path.has_value());
   if (!path) {

@@ -9,7 +9,7 @@
 namespace otter_nav::ros_bridge {
 
 Status MapMirror::take(const nav_msgs::OccupancyGrid& message) {
-  Result<map::OccupancyGrid> grid = toGrid(message, kMapFrame);
+  Result<map::OccupancyGrid> grid = toGrid(message, frames().map);
   if (!grid) {
     return failure(grid.error().message);
   }
@@ -29,7 +29,7 @@ Result<map::CellRectangle> MapMirror::take(const map_msgs::OccupancyGridUpdate& 
   if (!ready()) {
     return failure("came before the map");
   }
-  Result<map::CellRectangle> changed = applyUpdate(update, kMapFrame, grid_);
+  Result<map::CellRectangle> changed = applyUpdate(update, frames().map, grid_);
   if (changed) {
     stamp_ = std::max(stamp_, update.header.stamp);
     if (!changed->empty()) {

@@ -27,7 +27,7 @@ constexpr int kCircleCorners = 24;
 // In the map at its origin, for ever; `width_m` is the lines'.
 Marker marker(const std::string& name, int type, double width_m, const std_msgs::ColorRGBA& shade) {
   Marker value;
-  value.header.frame_id = kMapFrame;
+  value.header.frame_id = frames().map;
   value.ns = name;
   value.type = type;
   value.action = Marker::ADD;

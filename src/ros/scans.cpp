@@ -19,7 +19,7 @@ Result<map::SensorPose> poseInMap(const tf2_ros::Buffer& transforms, const std::
                                   const ros::Time& stamp) {
   try {
     const geometry_msgs::Transform transform =
-        transforms.lookupTransform(kMapFrame, frame, stamp).transform;
+        transforms.lookupTransform(frames().map, frame, stamp).transform;
     const Eigen::Vector3d angles = rollPitchYaw(
         {transform.rotation.w, transform.rotation.x, transform.rotation.y, transform.rotation.z});
     map::SensorPose pose;

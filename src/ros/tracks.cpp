@@ -19,7 +19,7 @@ constexpr double kStepS = 10.0;
 Marker outlineMarker(const traffic::Outline& outline, const std::string& name, int id, double alpha,
                      const ros::Time& stamp) {
   Marker marker;
-  marker.header.frame_id = kMapFrame;
+  marker.header.frame_id = frames().map;
   marker.header.stamp = stamp;
   marker.ns = name;
   marker.id = id;
@@ -59,7 +59,7 @@ Marker nameMarker(const traffic::Track& track, const ros::Time& stamp) {
 
 Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& stamp) {
   Tracks message;
-  message.header.frame_id = kMapFrame;
+  message.header.frame_id = frames().map;
   message.header.stamp = stamp;
   for (const traffic::Track& track : tracks) {
     Track one;
@@ -83,8 +83,9 @@ Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& sta
 }
 
 Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
-  if (message.header.frame_id != kMapFrame) {
-    return failure("frame_id is '" + message.header.frame_id + "', expected '" + kMapFrame + "'");
+  if (message.header.frame_id != frames().map) {
+    return failure("frame_id is '" + message.header.frame_id + "', expected '" + frames().map +
+                   "'");
   }
   std::vector<traffic::Track> tracks;
   for (const Track& one : message.tracks) {

@@ -99,7 +99,7 @@ QRect ChartPicture::update(const map_msgs::OccupancyGridUpdate& update, std::str
   if (empty()) {
     return {};
   }
-  const auto changed = ros_bridge::applyUpdate(update, ros_bridge::kMapFrame, map_);
+  const auto changed = ros_bridge::applyUpdate(update, ros_bridge::frames().map, map_);
   if (!changed) {
     error = changed.error().message;
     return {};

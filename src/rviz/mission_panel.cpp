@@ -192,7 +192,7 @@ void MissionPanel::cancel() {
 
 void MissionPanel::changeGoals(const std::vector<geometry_msgs::Pose>& goals) {
   geometry_msgs::PoseArray message;
-  message.header.frame_id = ros_bridge::kMapFrame;
+  message.header.frame_id = ros_bridge::frames().map;
   message.poses = goals;
   route_publisher_.publish(message);
 }

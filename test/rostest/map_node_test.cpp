@@ -24,13 +24,13 @@ class MapNode : public testing::Test {
  protected:
   MapNode() {
     geometry_msgs::TransformStamped base;
-    base.header.frame_id = ros_bridge::kMapFrame;
-    base.child_frame_id = ros_bridge::kBaseFrame;
+    base.header.frame_id = ros_bridge::frames().map;
+    base.child_frame_id = ros_bridge::frames().base;
     base.transform.translation.x = kEast;
     base.transform.rotation.w = 1.0;
     geometry_msgs::TransformStamped lidar;
-    lidar.header.frame_id = ros_bridge::kBaseFrame;
-    lidar.child_frame_id = ros_bridge::kLidarFrame;
+    lidar.header.frame_id = ros_bridge::frames().base;
+    lidar.child_frame_id = ros_bridge::frames().lidar;
     lidar.transform.translation.z = 0.8;
     lidar.transform.rotation.w = 1.0;
     transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{base, lidar});
@@ -39,7 +39,7 @@ class MapNode : public testing::Test {
   // Ten beams ahead with an echo at 5 m.
   sensor_msgs::LaserScan scan() {
     sensor_msgs::LaserScan message;
-    message.header.frame_id = ros_bridge::kLidarFrame;
+    message.header.frame_id = ros_bridge::frames().lidar;
     message.header.stamp = ros::Time::now();
     message.angle_min = -0.02F;
     message.angle_increment = 0.004F;
@@ -62,7 +62,7 @@ class MapNode : public testing::Test {
       ros::WallDuration(0.05).sleep();
       ros::spinOnce();
       for (const auto& update : updates_.messages) {
-        EXPECT_TRUE(ros_bridge::applyUpdate(update, ros_bridge::kMapFrame, grid).has_value());
+        EXPECT_TRUE(ros_bridge::applyUpdate(update, ros_bridge::frames().map, grid).has_value());
       }
       updates_.messages.clear();
       return cellAhead(grid) == wanted;
@@ -78,7 +78,7 @@ class MapNode : public testing::Test {
 
 TEST_F(MapNode, PublishesItsChartAddsEchoesSavesAndResets) {
   ASSERT_TRUE(maps_.waitFor([](const auto& message) { return message.info.width == 240U; }));
-  const auto grid_result = ros_bridge::toGrid(maps_.messages.front(), ros_bridge::kMapFrame);
+  const auto grid_result = ros_bridge::toGrid(maps_.messages.front(), ros_bridge::frames().map);
   ASSERT_TRUE(grid_result.has_value());
   map::OccupancyGrid grid = *grid_result;
   const auto chart = map::loadChart(OTTER_NAV_SOURCE_DIR "/test/rostest/data/pond_chart.yaml");
@@ -103,7 +103,7 @@ TEST_F(MapNode, PublishesItsChartAddsEchoesSavesAndResets) {
   std_srvs::Trigger reset;
   ASSERT_TRUE(ros::service::call("map_node/reset", reset));
   ASSERT_TRUE(updates_.waitFor([&](const auto& update) {
-    (void)ros_bridge::applyUpdate(update, ros_bridge::kMapFrame, grid);
+    (void)ros_bridge::applyUpdate(update, ros_bridge::frames().map, grid);
     return cellAhead(grid) == map::Cell::kFree;
   }));
 }

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -11,6 +12,7 @@ import tempfile
 import time
 import unittest
 
+import rosbag
 import rospkg
 import rostest
 
@@ -50,6 +52,19 @@ def wait_until(done, patience_s):
             return True
         time.sleep(0.1)
     return done()
+
+
+def frames_in(message):
+    """Of a message's headers, whatever is inside, and of transforms the children."""
+    for slot in getattr(message, "__slots__", ()):
+        value = getattr(message, slot)
+        if slot in ("frame_id", "child_frame_id"):
+            yield value
+        elif isinstance(value, list):
+            for entry in value[:5]:
+                yield from frames_in(entry)
+        else:
+            yield from frames_in(value)
 
 
 class Mission(unittest.TestCase):
@@ -106,6 +121,25 @@ class Mission(unittest.TestCase):
                     "tracking_error_mean_m", "tracking_error_max_m", "replans"):
             self.assertEqual(first[key], second[key], key)
         self.assertEqual(track, again)
+
+    def test_frames_by_other_names(self):
+        """config/frames.yaml names the frames for every node: none is called as shipped any more."""
+        config = os.path.join(self.folder.name, "config")
+        shutil.copytree(os.path.join(PACKAGE, "config"), config)
+        names = {"map": "world", "odom": "world_odom", "base": "otter1/hull", "lidar": "otter1/eye"}
+        with open(os.path.join(config, "frames.yaml"), "w") as file:
+            file.writelines(f"{key}: {name}\n" for key, name in names.items())
+        bag = os.path.join(self.folder.name, "renamed.bag")
+        mission, _, output = self.sail("renamed", scenario=POND, config=config, record=bag)
+        self.assertEqual(mission["outcome"], "arrived", output)
+        seen, typed = set(), {}
+        with rosbag.Bag(bag) as recorded:
+            for topic, message, _ in recorded.read_messages():
+                found = set(frames_in(message)) - {""}
+                typed.setdefault(topic, set()).update(found)
+                seen |= found
+        self.assertEqual(seen, set(names.values()), {t: f for t, f in typed.items() if f - set(names.values())})
+        self.assertEqual(typed["/tf"], {"world_odom", "otter1/hull"})
 
     def test_killed_launch_leaves_no_process(self):
         launch, port = self.start(scenario=POND, speed=0.2)

@@ -41,7 +41,7 @@ class PlannerNode : public testing::Test {
 
   static move_base_msgs::MoveBaseGoal goal(double x, double y) {
     move_base_msgs::MoveBaseGoal message;
-    message.target_pose.header.frame_id = ros_bridge::kMapFrame;
+    message.target_pose.header.frame_id = ros_bridge::frames().map;
     message.target_pose.pose = ros_bridge::toPose({x, y}, 0.5);
     return message;
   }
@@ -122,7 +122,8 @@ TEST_F(PlannerNode, AbortsBadGoalsWithTheirReason) {
 TEST_F(PlannerNode, PlansFromTheVesselToTheGoal) {
   client_.sendGoal(goal(22.0, 8.0));
   ASSERT_TRUE(trajectories_.waitFor([](const auto& message) { return !message.pieces.empty(); }));
-  const auto timed = ros_bridge::toTrajectory(trajectories_.messages.back(), ros_bridge::kMapFrame);
+  const auto timed =
+      ros_bridge::toTrajectory(trajectories_.messages.back(), ros_bridge::frames().map);
   ASSERT_TRUE(timed.has_value()) << timed.error().message;
   const trajectory::Trajectory& trajectory = timed->trajectory;
   EXPECT_LT((trajectory.flat(0.0).position - kStart).norm(), 0.1);

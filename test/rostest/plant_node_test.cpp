@@ -29,7 +29,7 @@ class PlantNode : public testing::Test {
 
   void command(const ros::Time& stamp, double thrust_n) {
     ThrusterCommand message;
-    message.header.frame_id = ros_bridge::kBaseFrame;
+    message.header.frame_id = ros_bridge::frames().base;
     message.header.stamp = stamp;
     message.left = thrust_n;
     message.right = thrust_n;

@@ -65,9 +65,9 @@ class Inbox {
 inline nav_msgs::Odometry odometryAt(const Eigen::Vector2d& position, double psi_rad,
                                      const ros::Time& stamp) {
   nav_msgs::Odometry message;
-  message.header.frame_id = ros_bridge::kOdomFrame;
+  message.header.frame_id = ros_bridge::frames().odom;
   message.header.stamp = stamp;
-  message.child_frame_id = ros_bridge::kBaseFrame;
+  message.child_frame_id = ros_bridge::frames().base;
   message.pose.pose = ros_bridge::toPose(position, psi_rad);
   return message;
 }

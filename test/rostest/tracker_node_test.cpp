@@ -26,7 +26,7 @@ Trajectory straight(std::uint32_t id, const ros::Time& start) {
   to.position = {30.0, 0.0};
   const trajectory::Trajectory trajectory({trajectory::hermitePiece(from, to, 20.0)});
   return ros_bridge::toMessage({trajectory, start.toSec()}, id, {{30.0, 0.0}, 0.0},
-                               ros_bridge::kMapFrame, vessel::Parameters());
+                               ros_bridge::frames().map, vessel::Parameters());
 }
 
 // The message's constants are the names that the tracker gives its modes.

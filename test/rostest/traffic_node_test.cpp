@@ -26,9 +26,9 @@ class TrafficNode : public testing::Test {
   // The vessel lies at the origin and looks into open water.
   void scanAt(const ros::Time& stamp) {
     tf2_msgs::TFMessage transforms;
-    for (const char* child : {ros_bridge::kBaseFrame, ros_bridge::kLidarFrame}) {
+    for (const std::string& child : {ros_bridge::frames().base, ros_bridge::frames().lidar}) {
       geometry_msgs::TransformStamped transform;
-      transform.header.frame_id = ros_bridge::kMapFrame;
+      transform.header.frame_id = ros_bridge::frames().map;
       transform.header.stamp = stamp;
       transform.child_frame_id = child;
       transform.transform.translation.z = 0.8;
@@ -37,7 +37,7 @@ class TrafficNode : public testing::Test {
     }
     transforms_.publish(transforms);
     sensor_msgs::LaserScan scan;
-    scan.header.frame_id = ros_bridge::kLidarFrame;
+    scan.header.frame_id = ros_bridge::frames().lidar;
     scan.header.stamp = stamp;
     scan.angle_min = -3.14F;
     scan.angle_max = 3.13F;
@@ -49,7 +49,7 @@ class TrafficNode : public testing::Test {
   }
   void radarAt(const ros::Time& stamp, double x, double y) {
     geometry_msgs::PoseArray plot;
-    plot.header.frame_id = ros_bridge::kBaseFrame;
+    plot.header.frame_id = ros_bridge::frames().base;
     plot.header.stamp = stamp;
     plot.poses.push_back(ros_bridge::toPose({x, y}, 0.0));
     radar_.publish(plot);
@@ -89,7 +89,7 @@ TEST_F(TrafficNode, TracksWhatTheRadarAndAisTell) {
   EXPECT_NEAR(track.position.y, 20.0, 1.5);
   EXPECT_EQ(track.sources, Track::RADAR);
   EXPECT_GT(track.covariance[0], 0.0);
-  EXPECT_EQ(tracks_.messages.back().header.frame_id, ros_bridge::kMapFrame);
+  EXPECT_EQ(tracks_.messages.back().header.frame_id, ros_bridge::frames().map);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "otter_nav/ros/clock_watch.hpp"
+#include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/live_parameters.hpp"
 #include "otter_nav/ros/parameters.hpp"
 
@@ -34,6 +35,11 @@ int runNode(int argc, char** argv, const char* name) {
   ros::NodeHandle own("~");
   // What it was told, and what of it changes, is part of a recording.
   const ros::Publisher parameters = own.advertise<std_msgs::String>("parameters", 1, true);
+  if (const auto frames = readFrames(); !frames) {
+    ROS_FATAL_STREAM(frames.error().message);
+    ros::shutdown();
+    return 1;
+  }
   ClockWatch clock;
   while (true) {
     const auto node = readSection(own).and_then(
