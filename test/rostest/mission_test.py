@@ -3,7 +3,6 @@
 import csv
 import json
 import os
-import shutil
 import signal
 import socket
 import subprocess
@@ -123,14 +122,10 @@ class Mission(unittest.TestCase):
         self.assertEqual(track, again)
 
     def test_frames_by_other_names(self):
-        """config/frames.yaml names the frames for every node: none is called as shipped any more."""
-        config = os.path.join(self.folder.name, "config")
-        shutil.copytree(os.path.join(PACKAGE, "config"), config)
+        """`frames` names them for every node: none is called as shipped any more."""
         names = {"map": "world", "odom": "world_odom", "base": "otter1/hull", "lidar": "otter1/eye"}
-        with open(os.path.join(config, "frames.yaml"), "w") as file:
-            file.writelines(f"{key}: {name}\n" for key, name in names.items())
         bag = os.path.join(self.folder.name, "renamed.bag")
-        mission, _, output = self.sail("renamed", scenario=POND, config=config, record=bag)
+        mission, _, output = self.sail("renamed", scenario=POND, frames=json.dumps(names), record=bag)
         self.assertEqual(mission["outcome"], "arrived", output)
         seen, typed = set(), {}
         with rosbag.Bag(bag) as recorded:

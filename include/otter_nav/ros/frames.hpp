@@ -1,11 +1,10 @@
-// The frames (REP-105; docs/frames.md) and what they are called here: parameters `frames/...` of
-// the nodes' namespace, or of one above it (config/frames.yaml).
+// The frames (REP-105; docs/frames.md) and what they are called here: parameters `frames/map`, `odom`,
+// `base`, `lidar` of the nodes' namespace, or of one above it.
 #pragma once
 
 #include <string>
 
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/config/fields.hpp"
 
 namespace otter_nav::ros_bridge {
 
@@ -14,22 +13,13 @@ struct Frames {
   std::string odom = "odom";
   std::string base = "base_link";
   std::string lidar = "lidar";
-
-  template <typename Self, typename Fields>
-  static void describe(Self& o, Fields& fields) {
-    fields("map", o.map, "fixed to the earth");
-    fields("odom", o.odom, "the odometry's, which coincides with it");
-    fields("base", o.base, "the vessel's");
-    fields("lidar", o.lidar, "the scan's");
-  }
 };
 
-// An error names the parameter that is missing, unknown or empty; the defaults if there are none.
+// Those that are not set have the names above. An error names what is no frame or no name.
 [[nodiscard]] Result<Frames> readFrames();
 
 // As they were when the process first asked.
 [[nodiscard]] const Frames& frames();
-
 // The frame of a pose in `map` or `odom`.
 [[nodiscard]] inline const std::string& odometryFrame(const std::string& which) {
   return which == "map" ? frames().map : frames().odom;

@@ -20,7 +20,6 @@
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/planner/options.hpp"
 #include "otter_nav/plant/options.hpp"
-#include "otter_nav/ros/frames.hpp"
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/traffic/tracker.hpp"
 
@@ -69,7 +68,6 @@ std::vector<Shipped> allShipped() {
       shipped<plant::Options>("plant.yaml"),
       shipped<traffic::Options>("traffic.yaml"),
       shipped<identification::Options>("identification.yaml"),
-      shipped<ros_bridge::Frames>("frames.yaml"),
       shipped<nodes::MapNodeOptions>("map_node.yaml"),
       shipped<nodes::TopologyNodeOptions>("topology_node.yaml"),
       shipped<nodes::PlannerNodeOptions>("planner_node.yaml"),
