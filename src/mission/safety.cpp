@@ -76,7 +76,8 @@ vessel::Disturbance Safety::planDisturbance() const {
 }
 
 double Safety::freeThrustShare() const {
-  return planThrustShare(options_.thrust_share, weather_.gustShare(), times_left_behind_);
+  const double mean = options_.plan_with_weather ? 0.0 : weather_.meanShare();
+  return planThrustShare(options_.thrust_share, weather_.gustShare() + mean, times_left_behind_);
 }
 
 double Safety::nextThrustShare() const {

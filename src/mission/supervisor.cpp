@@ -260,7 +260,8 @@ class Supervisor::Impl {
     constexpr double kLostRad = 0.8;
     const trajectory::Sample wanted =
         sailed_.trajectory.sample(sailed_.elapsed(m.now_s), vessel_, planned_disturbance_);
-    return weather().isKnown() && isFarOff(m) &&
+    return weather().isKnown() &&
+           m.situation.tracking_error_m > 0.5 * options_.tracking_error_max_m &&
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
                kLostRad;
   }
@@ -277,15 +278,23 @@ class Supervisor::Impl {
     if (!isFarOff(m)) {
       off_since_s_ = m.now_s;
     }
-    if (m.now_s - off_since_s_ > kPatienceS) {
+    // Where the wind can take the heading a plan from there leads nowhere: at rest, bow to it, there
+    // is a better.
+    constexpr double kStrongShare = 0.4;  // of the thrusters' moment
+    const vessel::Thrusters& t = vessel_.thrusters;
+    const double moment_nm = t.lever_arm_m * (t.ahead_max_n + t.astern_max_n);
+    const double patience_s =
+        weather().greatestMoment() > kStrongShare * moment_nm ? 0.0 : kPatienceS;
+    if (isFarOff(m) && m.now_s - off_since_s_ >= patience_s) {
       return true;
     }
     const vessel::State& x = m.situation.state;
     const Eigen::Vector2d velocity =
         Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
     const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
-    for (double t = kStepS; t <= kAheadS; t += kStepS) {
-      const double there = m.obstacles.clearance(x.head<2>() + t * velocity, m.now_s + t);
+    for (double later = kStepS; later <= kAheadS; later += kStepS) {
+      const double there =
+          m.obstacles.clearance(x.head<2>() + later * velocity, m.now_s + later);
       if (there < safety().critical() && there < here) {
         return true;
       }
@@ -719,6 +728,8 @@ class Supervisor::Impl {
   double seaRoomToMake(const Moment& m) {
     constexpr double kLeewardM = 4.0;
     constexpr double kRoundM = 1.0;
+    constexpr double kRoundAgainM = 0.7;  // more, each time it had to stop again hereabouts
+    constexpr double kRoundMostM = 4.0;
     constexpr double kFarthestM = 6.0;
     constexpr double kStepM = 0.5;
     constexpr double kWorthM = 0.7;
@@ -727,6 +738,7 @@ class Supervisor::Impl {
     const double far = std::min(drift.norm(), kLeewardM);
     const vessel::State& x = m.situation.state;
     const Eigen::Vector2d bow = bowOf(x);
+    const double round = std::min(kRoundMostM, kRoundM + kRoundAgainM * retries_.stops());
     if (far < kRoundM || -bow.dot(drift) < kIntoCosine * drift.norm()) {
       return 0.0;
     }
@@ -738,9 +750,9 @@ class Supervisor::Impl {
         leeward += kStepM;
       }
       return std::min(leeward, far) +
-             std::min(clear(position) - safety().narrowest(), kRoundM);
+             std::min(clear(position) - safety().narrowest(), round);
     };
-    const double enough = far + kRoundM;
+    const double enough = far + round;
     const double here = clear(x.head<2>());
     double best = 0.0;
     double most = room(x.head<2>()) + kWorthM;
