@@ -24,6 +24,7 @@
 #include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
+#include "otter_nav/simulation/monitor.hpp"
 
 namespace {
 
@@ -45,6 +46,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   bool resume = false;
   bool known = false;  // the chart shows the world
+  bool monitor = false;
   int jobs = 1;
   std::string shard;
 };
@@ -114,6 +116,10 @@ scenario::MissionResult resultOf(const nlohmann::json& json) {
   result.tracker_ms_p99 = number("tracker_ms_p99");
   result.track = json.at("track");
   result.vessels = json.value("vessels", "");
+  if (const auto monitor = json.find("monitor"); monitor != json.end()) {
+    result.monitored = {monitor->at("steps"), monitor->at("violations"), monitor->at("margin_m"),
+                        monitor->at("first")};
+  }
   return result;
 }
 
@@ -226,9 +232,13 @@ Result<scenario::MissionResult> sail(const Arguments& arguments,
       line.show(scenario::progressText(now), now.state, now.t_s);
     };
   }
+  std::optional<simulation::Monitor> monitor;
+  if (arguments.monitor) {
+    monitor.emplace(waters, options);
+  }
   scenario::MissionResult result =
       simulation::run(*loop, label, options.record_period_s, track ? &*track : nullptr, progress,
-                      vessels ? &*vessels : nullptr);
+                      vessels ? &*vessels : nullptr, monitor ? &*monitor : nullptr);
   line.finish();
   result.track = track_path;
   result.vessels = vessels_path;
@@ -252,6 +262,11 @@ void printRow(const scenario::MissionResult& r) {
               r.distance_m, r.min_clearance_m, r.tracking_error_mean_m, r.tracking_error_max_m,
               r.replans, r.planning_ms_median, r.planning_ms_max, r.tracker_ms_p99,
               r.reason.c_str());
+  if (r.monitored) {
+    std::printf("%18s     %ld steps, margin %.3f m, %ld violations%s%s\n", "monitor:",
+                r.monitored->steps, r.monitored->margin_m, r.monitored->violations,
+                r.monitored->first.empty() ? "" : ", the first at ", r.monitored->first.c_str());
+  }
   std::fflush(stdout);
 }
 
@@ -428,6 +443,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--shard", arguments.shard, "I/M: only each M-th mission, from the I-th on");
+  app.add_flag("--known", arguments.known, "the chart shows the world, for comparison");
+  app.add_flag("--monitor", arguments.monitor,
+               "check each step by the world: the hull's margin, and the stop that must exist");
   CLI11_PARSE(app, argc, argv);
 
   const auto results = sailAll(arguments);
@@ -439,5 +457,17 @@ int main(int argc, char** argv) {
       results->begin(), results->end(),
       [](const scenario::MissionResult& r) { return r.outcome == scenario::Outcome::kArrived; });
   std::printf("%ld of %zu arrived\n", static_cast<long>(arrived), results->size());
+  long steps = 0;
+  long violations = 0;
+  for (const scenario::MissionResult& r : *results) {
+    steps += r.monitored ? r.monitored->steps : 0;
+    violations += r.monitored ? r.monitored->violations : 0;
+  }
+  if (arguments.monitor) {
+    std::printf("%ld violations in %ld steps\n", violations, steps);
+  }
+  if (violations > 0) {
+    return 3;
+  }
   return arrived == static_cast<long>(results->size()) ? 0 : 1;
 }

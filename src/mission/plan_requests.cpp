@@ -1,7 +1,10 @@
 #include "plan_requests.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "otter_nav/feasibility/clearance_walk.hpp"
+#include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/trajectory/motion_along.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
@@ -27,6 +30,16 @@ std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, doub
     }
   }
   return std::nullopt;
+}
+
+// What the discs that cover the hull leave where it lies, m.
+double roomAround(const vessel::Hull& hull, const trajectory::Boundary& at,
+                  const map::DistanceField& field) {
+  constexpr double kNoCentreM = -1e3;  // the discs alone
+  const Eigen::Vector2d bow(std::cos(at.psi_rad), std::sin(at.psi_rad));
+  double centre = 0.0;
+  return feasibility::HullCover(hull).slack(
+      field, at.flat.position, 0.0, kNoCentreM, [&] { return bow; }, centre);
 }
 
 }  // namespace
@@ -121,6 +134,11 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   request.query.goal.psi_rad = safety.restHeading(goal.psi_rad);
   request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
   request.query.limits = safety.limits(thrust_share, room);
+  // A stop may have ended nearer to something than plans keep.
+  const double around = std::min(roomAround(vessel_.hull, request.query.start, field),
+                                 roomAround(vessel_.hull, request.query.goal, field));
+  double& margin = request.query.limits.hull_margin_m;
+  margin = std::clamp(around - 2.0 * feasibility::kLeastSlackM, 0.0, margin);
   // Thrust beyond what gusts leave is for holding headings, not for going faster; but the start is
   // as fast as it is.
   constexpr double kSlowsDown = 1.05;

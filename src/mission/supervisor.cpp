@@ -1090,6 +1090,9 @@ const vessel::Pose& Supervisor::goal() const {
 const TimedTrajectory& Supervisor::sailed() const {
   return impl_->sailed_;
 }
+const std::optional<TimedTrajectory>& Supervisor::lastStop() const {
+  return impl_->fallback_;
+}
 double Supervisor::plannedClearance() const {
   return impl_->planned_clearance_m_;
 }

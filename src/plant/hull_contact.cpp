@@ -1,4 +1,4 @@
-#include "hull_contact.hpp"
+#include "otter_nav/plant/hull_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

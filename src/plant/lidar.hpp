@@ -9,7 +9,7 @@
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/plant/options.hpp"
 #include "otter_nav/plant/signals.hpp"
-#include "world_map.hpp"
+#include "otter_nav/plant/world_map.hpp"
 
 namespace otter_nav::plant {
 

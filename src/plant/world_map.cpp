@@ -1,4 +1,4 @@
-#include "world_map.hpp"
+#include "otter_nav/plant/world_map.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -30,6 +30,12 @@ std::string toJson(const std::vector<MissionResult>& results) {
     if (!result.vessels.empty()) {
       mission["vessels"] = result.vessels;
     }
+    if (result.monitored) {
+      mission["monitor"] = {{"steps", result.monitored->steps},
+                            {"violations", result.monitored->violations},
+                            {"margin_m", result.monitored->margin_m},
+                            {"first", result.monitored->first}};
+    }
     if (!result.reason.empty()) {
       mission["reason"] = result.reason;
     }

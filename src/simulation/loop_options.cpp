@@ -7,6 +7,7 @@
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
+#include "otter_nav/simulation/monitor.hpp"
 
 namespace otter_nav::simulation {
 namespace {
@@ -61,13 +62,16 @@ Result<Waters> loadWaters(const scenario::Scenario& scenario) {
 scenario::MissionResult run(ClosedLoop& loop, const scenario::MissionLabel& label,
                             double record_period_s, scenario::TrackWriter* track,
                             const std::function<void(const scenario::Progress&)>& progress,
-                            scenario::VesselsWriter* vessels) {
+                            scenario::VesselsWriter* vessels, Monitor* monitor) {
   constexpr double kProgressS = 0.5;
   double next_record_s = loop.time();
   double next_progress_s = loop.time();
   bool going = true;
   while (going) {
     going = loop.step();
+    if (monitor != nullptr) {
+      monitor->watch(loop);
+    }
     if (loop.time() >= next_record_s || !going) {
       if (track != nullptr) {
         track->write(loop.motion());
@@ -84,7 +88,11 @@ scenario::MissionResult run(ClosedLoop& loop, const scenario::MissionLabel& labe
       next_progress_s += kProgressS;
     }
   }
-  return loop.result(label);
+  scenario::MissionResult result = loop.result(label);
+  if (monitor != nullptr) {
+    result.monitored = monitor->result();
+  }
+  return result;
 }
 
 }  // namespace otter_nav::simulation

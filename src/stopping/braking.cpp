@@ -243,7 +243,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
                 vessel::shareOfLimit(here.thrusts[vessel::kRight], vessel.thrusters)});
   // What the centre keeps in any attitude, to be looked at first.
   const double centre_m =
-      std::max(stop.clearance_m, feasibility::HullCover(vessel.hull, stop.hull_margin_m).radius_m);
+      std::max(stop.clearance_m, feasibility::HullCover(vessel.hull, stop.hull_margin_m).middle_m);
   Braking best;
   best.clearance_m = -1.0;
   double best_way_m = 0.0;

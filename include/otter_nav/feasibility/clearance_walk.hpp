@@ -63,7 +63,7 @@ class PieceWalk {
                              const Bow& bow) const {
     const double approach =
         trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
-        (whole_ ? hull_.offset_m * turning_radps : 0.0) + obstacles.rateBound();
+        (whole_ ? hull_.arm() * turning_radps : 0.0) + obstacles.rateBound();
     Walked walked;
     walked.least_m = std::numeric_limits<double>::infinity();
     const auto slackAt = [&](double t) {

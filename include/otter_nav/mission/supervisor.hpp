@@ -49,7 +49,7 @@ enum class Phase {
 // What a user can set (config/mission.yaml, mapping `supervisor`); the other figures of the rules
 // stand beside them.
 struct SupervisorOptions {
-  std::vector<double> side_clearances_m = {1.06, 0.66, 0.26, 0.16};
+  std::vector<double> side_clearances_m = {1.06, 0.66, 0.26, 0.1};
   double critical_side_clearance_m = 0.03;
   double thrust_share = 0.95;
   double speed_max_mps = 0.0;
@@ -182,6 +182,8 @@ class Supervisor {
   [[nodiscard]] const vessel::Pose& goal() const;
   // What is being sailed; empty before the first plan.
   [[nodiscard]] const trajectory::TimedTrajectory& sailed() const;
+  // The way to rest that was verified last, from what was sailed then; none but under way.
+  [[nodiscard]] const std::optional<trajectory::TimedTrajectory>& lastStop() const;
   // What it was planned to keep from the hull's centre, m; 0 for a manoeuvre without a plan.
   [[nodiscard]] double plannedClearance() const;
   // Other vessels with risk of collision, and which rule of the road applies to each.

@@ -23,6 +23,14 @@ struct MissionLabel {
   std::uint64_t seed = 0;
 };
 
+// What an independent check of each step came to.
+struct Monitored {
+  long steps = 0;
+  long violations = 0;    // steps in which something was wrong
+  double margin_m = 0.0;  // the least of the hull's outline
+  std::string first;      // violation: when, what and where
+};
+
 struct MissionResult {
   MissionLabel label;
   Outcome outcome = Outcome::kError;
@@ -38,6 +46,7 @@ struct MissionResult {
   double tracker_ms_p99 = 0.0;
   std::string track;    // the CSV's path; empty if none was written
   std::string vessels;  // the same of other vessels
+  std::optional<Monitored> monitored = {};
 };
 
 // The true motion at one instant, and where the vessel should have been.

@@ -117,11 +117,13 @@ class ClosedLoop {
   std::string reason_;
 };
 
-// step() to the end; the track goes to `track`, the other vessels' to `vessels` and the progress to
+class Monitor;
+
+// step() to the end, each watched by `monitor` if there is one; the track goes to `track`, the other vessels' to `vessels` and the progress to
 // `progress` if they are given.
 [[nodiscard]] scenario::MissionResult run(
     ClosedLoop& loop, const scenario::MissionLabel& label, double record_period_s,
     scenario::TrackWriter* track, const std::function<void(const scenario::Progress&)>& progress,
-    scenario::VesselsWriter* vessels = nullptr);
+    scenario::VesselsWriter* vessels = nullptr, Monitor* monitor = nullptr);
 
 }  // namespace otter_nav::simulation

@@ -8,7 +8,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/hull.hpp"
-#include "plant/hull_contact.hpp"
+#include "otter_nav/plant/hull_contact.hpp"
 
 namespace otter_nav::plant {
 namespace {

@@ -94,6 +94,13 @@ TEST(HullCover, CoversTheRectangle) {
           nearest = std::min(nearest, (p - Eigen::Vector2d(side * cover.offset_m, 0.0)).norm());
         }
         EXPECT_LE(nearest, cover.radius_m + 1e-12);
+        const auto reaches = [&](double x, double y, double radius_m) {
+          return (p.cwiseAbs() - Eigen::Vector2d(x, y)).norm() <= radius_m + 1e-12;
+        };
+        const Eigen::Vector2d& c = cover.corner;
+        EXPECT_TRUE(reaches(0.0, 0.0, cover.middle_m) ||
+                    reaches(0.5 * c.x(), 0.0, cover.middle_m) ||
+                    reaches(c.x(), c.y(), cover.corner_m));
         EXPECT_LE(p.norm(), cover.reach() + 1e-12);
       }
     }

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "otter_nav/vessel/parameters.hpp"
-#include "world_map.hpp"
+#include "otter_nav/plant/world_map.hpp"
 
 namespace otter_nav::plant {
 

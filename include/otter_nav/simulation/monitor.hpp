@@ -1,0 +1,48 @@
+// Looks over the stack's shoulder: whether the vessel keeps clear, and whether the stop that it
+// counts on stays in water that was seen to be free. It judges by the world and by sight lines of
+// its own, never by the stack's map.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "otter_nav/plant/world_map.hpp"
+#include "otter_nav/scenario/recorder.hpp"
+#include "otter_nav/simulation/closed_loop.hpp"
+#include "otter_nav/trajectory/timed_trajectory.hpp"
+
+namespace otter_nav::simulation {
+
+class Monitor {
+ public:
+  // Water that the chart shows free counts as known if the options trust it, until an obstacle
+  // there was seen.
+  Monitor(const Waters& waters, const LoopOptions& options);
+
+  // After each step of the loop. A step in which anything is wrong is a violation.
+  void watch(const ClosedLoop& loop);
+  [[nodiscard]] const scenario::Monitored& result() const { return result_; }
+
+  // What watch() is made of. From a place on, all within the lidar's range and in sight is known.
+  void look(const Eigen::Vector2d& from);
+  // What is wrong with a way to rest from `now_s` on; empty if nothing is.
+  [[nodiscard]] std::string fault(const trajectory::TimedTrajectory& stop, double now_s) const;
+
+ private:
+  [[nodiscard]] std::string faultOf(const ClosedLoop& loop) const;
+  [[nodiscard]] std::string faultAt(const Eigen::Vector2d& position, double psi_rad) const;
+
+  plant::WorldMap world_;
+  vessel::Parameters vessel_;
+  double range_m_;
+  double period_s_;
+  double eye_ahead_m_;
+  double next_look_s_ = 0.0;
+  std::vector<bool> seen_;   // of the world's cells
+  std::vector<bool> known_;  // seen, or free by the chart
+  std::string stop_fault_;   // of the last look
+  scenario::Monitored result_;
+};
+
+}  // namespace otter_nav::simulation
