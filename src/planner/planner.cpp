@@ -414,7 +414,9 @@ class Planner::Pipeline {
     take(run, began,
          optimizer_.optimize(run.obstacles, guide_.points, run.query.start, run.query.goal,
                              run.budget(), run.query.limits));
-    run.plan.reason = reason;  // of the tree's path, if both fail
+    if (!reason.empty()) {
+      run.plan.reason = reason;  // of the tree's path, if both fail
+    }
   }
 
   void take(Run& run, double began_s, Result<optimizer::Optimized> optimized) const {

@@ -77,12 +77,12 @@ TEST(Braking, IsHardInFrontOfAWall) {
   map::OccupancyGrid grid = openWater();
   const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
   const Eigen::Vector2d here = sailed.flat(6.0).position;
-  block(grid, {here.x() + 10.0, -10.0}, {here.x() + 11.0, 10.0});
+  block(grid, {here.x() + 9.7, -10.0}, {here.x() + 11.0, 10.0});
   const map::DistanceField field = fieldOf(grid);
   const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel::Parameters{}, {kClearanceM});
   ASSERT_TRUE(stop.clear);
   EXPECT_LT(stop.trajectory.duration(), 4.0);
-  EXPECT_LT(stop.trajectory.flat(100.0).position.x(), here.x() + 10.0 - 0.8);
+  EXPECT_LT(stop.trajectory.flat(100.0).position.x(), here.x() + 9.7 - 0.8);
   expectRest(stop.trajectory);
   EXPECT_TRUE(verify(stop.trajectory, field).ok);
 }
