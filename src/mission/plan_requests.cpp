@@ -148,7 +148,8 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
       std::max(safety.limits(safety.freeThrustShare(), room).speed_max_mps, kSlowsDown * speed));
   request.thrust_share = thrust_share;
   request.moving = from != From::kRest;
-  asked_ = Asked{request, from, false, now_s, safety.speedMax(), {}};
+  asked_ = Asked{request,        from, false, now_s, safety.speedMax(), safety.slowShare() < 1.0,
+                 safety.level(), {}};
   return request;
 }
 

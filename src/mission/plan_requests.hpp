@@ -40,6 +40,8 @@ class PlanRequests {
     bool improves = false;  // asked for only to be faster
     double since_s = 0.0;
     double speed_max_mps = 0.0;  // the mission's, when it was asked for
+    bool slow = false;           // asked for because there was none at the usual speed
+    std::size_t level = 0;       // of the clearances
     // What the plan continues, from the sailed trajectory on; empty: that itself.
     trajectory::TimedTrajectory lead;
   };

@@ -68,6 +68,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   limits.disturbance = planDisturbance();
   limits.hull_margin_m = kPlanMarginM;
   limits.limitSpeed(options_.speed_max_mps);
+  limits.speed_max_mps *= slowShare();
   return limits;
 }
 
@@ -91,6 +92,11 @@ double Safety::nextThrustShare() const {
 
 bool Safety::plansBlind() const {
   return options_.plan_with_weather && times_refused_ >= kRefusedMost;
+}
+
+double Safety::slowShare() const {
+  constexpr double kLeast = 0.25;
+  return std::max(kLeast, std::pow(0.5, times_refused_));
 }
 
 double Safety::restHeading(double psi_rad) const {

@@ -2,6 +2,7 @@
 // mission's options, the weather and what was learned on the way. Nobody below adds to it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -43,6 +44,7 @@ class ClearanceLevels {
     return !last;
   }
   void widest() { level_ = 0; }
+  void begin(std::size_t level) { level_ = std::min(level, count_ - 1); }
 
  private:
   std::size_t count_;
@@ -74,6 +76,9 @@ class Safety {
   // instead is better than none.
   [[nodiscard]] bool plansBlind() const;
 
+  // Of the speed that plans may usually have: what can't be planned fast may be planned slow.
+  [[nodiscard]] double slowShare() const;
+
   void setOptions(const SupervisorOptions& options) { options_ = options; }
   // Of all plans from now on; 0: the vessel's alone.
   void setSpeedMax(double speed_mps) { options_.speed_max_mps = speed_mps; }
@@ -93,6 +98,8 @@ class Safety {
   bool refused();
   void planTaken();
   void tryWidest() { levels_.widest(); }
+  [[nodiscard]] std::size_t level() const { return levels_.level(); }
+  void tryLevel(std::size_t level) { levels_.begin(level); }
 
  private:
   SupervisorOptions options_;

@@ -338,10 +338,11 @@ class Supervisor::Impl {
     }
     return m.now_s - too_fast_since_s_ > kPatienceS;
   }
-  // A plan with rests on its way was the last resort, and may do with a better one soon.
+  // A plan with rests on its way, or a slow one, was the last resort, and may do with a better one
+  // soon.
   bool mayImprove(const Moment& m) {
     constexpr double kLastResortS = 1.0;
-    const double period = rests_on_the_way_ ? kLastResortS : options_.improve_period_s;
+    const double period = is_last_resort_ ? kLastResortS : options_.improve_period_s;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
   }
 
@@ -429,7 +430,11 @@ class Supervisor::Impl {
   }
   Orders planToImprove(const Moment& m) {
     plan_time_s_ = m.now_s;
+    if (is_last_resort_) {
+      safety().tryLevel(planned_level_);
+    }
     Orders orders = planFromSailed(m);
+    safety().tryWidest();
     if (orders.plan) {
       plans_.markAsImprovement();
     }
@@ -869,7 +874,8 @@ class Supervisor::Impl {
     }
     replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;
     sailed_ = std::move(plan);
-    rests_on_the_way_ = stopping::restsOnTheWay(sailed_.trajectory);
+    is_last_resort_ = asked.slow || stopping::restsOnTheWay(sailed_.trajectory);
+    planned_level_ = asked.level;
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
     planned_limits_ = asked.request.query.limits;
     planned_thrust_share_ = asked.request.thrust_share;
@@ -992,7 +998,8 @@ class Supervisor::Impl {
   TimedTrajectory sailed_;
   // From it to rest in known water, as last verified.
   std::optional<TimedTrajectory> fallback_;
-  bool rests_on_the_way_ = false;
+  bool is_last_resort_ = false;
+  std::size_t planned_level_ = 0;
   double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;         // and with
   feasibility::SafetyLimits planned_limits_;  // all of it

@@ -49,7 +49,7 @@ enum class Phase {
 // What a user can set (config/mission.yaml, mapping `supervisor`); the other figures of the rules
 // stand beside them.
 struct SupervisorOptions {
-  std::vector<double> side_clearances_m = {1.06, 0.66, 0.26, 0.1};
+  std::vector<double> side_clearances_m = {1.06, 0.46, 0.2, 0.1};
   double critical_side_clearance_m = 0.03;
   double thrust_share = 0.95;
   double speed_max_mps = 0.0;

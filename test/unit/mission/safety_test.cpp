@@ -76,11 +76,16 @@ TEST(Safety, LimitsTheSpeed) {
 TEST(Safety, TakesTheFirstLevelThatStartAndGoalHaveRoomFor) {
   const SupervisorOptions options;
   Safety safety(options, vessel::Parameters{});
-  EXPECT_NEAR(safety.limits(0.95, 1.0).clearance_m, 0.8, 1e-12);
+  EXPECT_NEAR(safety.limits(0.95, 0.9).clearance_m, 0.74, 1e-12);
   EXPECT_TRUE(safety.refused());
   EXPECT_NEAR(safety.limits(0.95, kWideWater).clearance_m, 0.64, 1e-12);
+  const double usual_mps = safety.limits(0.95, kWideWater).speed_max_mps;
   EXPECT_FALSE(safety.refused());  // all were tried
   EXPECT_NEAR(safety.limits(0.95, kWideWater).clearance_m, 1.6, 1e-12);
+  // And once more, slower, until there is a plan.
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).speed_max_mps, 0.5 * usual_mps, 1e-9);
+  safety.planTaken();
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).speed_max_mps, usual_mps, 1e-9);
 }
 
 }  // namespace
