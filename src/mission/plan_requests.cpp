@@ -109,11 +109,13 @@ PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
       vessel::pathFromState(state, kStartShare * share * 2.0 * vessel_.thrusters.ahead_max_n,
                             vessel_, safety.planDisturbance());
   request.query.start.flat.position += latency.seconds() * request.query.start.flat.velocity;
-  // One that has hardly got under way is better launched again than led on from next to nothing.
+  // One that has hardly got under way is better launched again than led on from next to nothing;
+  // and going astern it doesn't point where a path from there would have it.
   constexpr double kHardlyMovingMps = 0.25;
   constexpr double kHardlyTurningRadps = 0.2;
-  if (state.segment<2>(vessel::kSurge).norm() < kHardlyMovingMps &&
-      std::abs(state[vessel::kYawRate]) < kHardlyTurningRadps) {
+  const bool hardly = state.segment<2>(vessel::kSurge).norm() < kHardlyMovingMps &&
+                      std::abs(state[vessel::kYawRate]) < kHardlyTurningRadps;
+  if (hardly || state[vessel::kSurge] <= 0.0) {
     const Eigen::Vector2d there = request.query.start.flat.position;
     request.query.start.flat = {};
     request.query.start.flat.position = there;

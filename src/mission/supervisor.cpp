@@ -977,7 +977,7 @@ class Supervisor::Impl {
     if (!hasFault(m)) {
       if (std::optional<Trajectory> path =
               stopping::backOff(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_,
-                                m.situation.disturbance_n)) {
+                                m.situation.disturbance.mean)) {
         return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why);
       }
     }

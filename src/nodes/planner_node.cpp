@@ -343,7 +343,6 @@ mission::Situation PlannerNode::situation() const {
     const vessel::FlatPoint reference = sailed.trajectory.flat(sailed.elapsed(vessel_.stamp_s));
     situation.tracking_error_m = (reference.position - vessel_.state.head<2>()).norm();
   }
-  situation.disturbance_n = tracker_.disturbance();
   situation.disturbance = tracker_.estimate();
   situation.tracker_fault = tracker_.gaveUp();
   situation.tracker_reason = tracker_.reason();

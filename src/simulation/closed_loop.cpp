@@ -191,7 +191,6 @@ mission::Situation ClosedLoop::situation() const {
   situation.state = plant_.odometry().state;
   situation.odometry_stamp_s = plant_.odometry().stamp_s;
   situation.tracking_error_m = command_.tracking_error_m;
-  situation.disturbance_n = command_.outside_force_n.norm();
   situation.disturbance = command_.disturbance;
   using tracker::Mode;
   const bool braking = command_.mode == Mode::kStopping || command_.mode == Mode::kStopped;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <queue>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/hull.hpp"
+#include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -60,6 +63,145 @@ bool canFollow(const Trajectory& path, const Obstacles& obstacles,
   return feasibility::verify(path, obstacles, vessel, limits, tolerances).ok;
 }
 
+// The shortest way of few turns on the spot and straight legs to room to turn, by Dijkstra's search
+// over places a leg apart.
+class BackingOff {
+ public:
+  BackingOff(const vessel::State& state, const Obstacles& obstacles,
+             const vessel::Parameters& vessel, const vessel::Disturbance& disturbance)
+      : obstacles_(obstacles),
+        vessel_(vessel),
+        disturbance_(disturbance),
+        room_m_(turningRoom(vessel.hull)) {
+    const auto near = [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, 0.0); };
+    nodes_.push_back({state.head<2>(), state[vessel::kPsi], 0.0, 0.0, -1, {}});
+    keep_m_ = std::clamp(feasibility::outlineClearance(vessel.hull, nodes_[0].position,
+                                                       nodes_[0].psi_rad, near) -
+                             kTouchesM,
+                         kTightM, kClearM);
+  }
+
+  std::optional<Trajectory> find() {
+    constexpr double kBetterM = 0.1;  // than here, or it isn't worth the way
+    constexpr std::size_t kMostNodes = 40;
+    int best = 0;
+    double best_m = std::min(roomAt(nodes_[0]) + kBetterM, room_m_);
+    if (roomAt(nodes_[0]) < room_m_) {
+      front_.emplace(0.0, 0);
+    }
+    for (std::size_t looked = 0; looked < kMostNodes && !front_.empty();) {
+      const int k = front_.top().second;
+      front_.pop();
+      if (!visited_.insert(keyOf(nodes_[static_cast<std::size_t>(k)])).second) {
+        continue;
+      }
+      ++looked;
+      const double there_m = roomAt(nodes_[static_cast<std::size_t>(k)]);
+      if (k > 0 && there_m >= best_m) {
+        best = k;
+        best_m = there_m + kBetterM;
+        if (there_m >= room_m_) {
+          break;
+        }
+      }
+      expand(k);
+    }
+    if (best == 0) {
+      return std::nullopt;
+    }
+    Trajectory way(piecesTo(best));
+    return canFollow(way, obstacles_, vessel_) ? std::optional<Trajectory>(std::move(way))
+                                               : std::nullopt;
+  }
+
+ private:
+  struct Node {
+    Eigen::Vector2d position;
+    double psi_rad;
+    double cost_s;
+    double time_s;  // when it is reached
+    int from;
+    std::vector<Piece> pieces;  // that lead here
+  };
+  using Key = std::array<int, 3>;
+
+  [[nodiscard]] static Key keyOf(const Node& node) {
+    constexpr double kCellM = 0.2;
+    constexpr double kCellRad = 0.2;
+    return {static_cast<int>(std::floor(node.position.x() / kCellM)),
+            static_cast<int>(std::floor(node.position.y() / kCellM)),
+            static_cast<int>(std::floor(wrapAngle(node.psi_rad) / kCellRad))};
+  }
+  [[nodiscard]] double roomAt(const Node& node) const {
+    return std::min(room_m_, obstacles_.clearance(node.position, node.time_s));
+  }
+
+  // Each leg after a turn on the spot if need be, the longer ones as far as the shorter are clear.
+  void expand(int k) {
+    constexpr std::array<double, 5> kTurnsRad = {0.0, 0.4, -0.4, 0.8, -0.8};
+    for (const double turn : kTurnsRad) {
+      Node turned = nodes_[static_cast<std::size_t>(k)];
+      turned.from = k;
+      turned.pieces.clear();
+      if (turn != 0.0 && !append(turned, gentleSpin(turned.position, turned.psi_rad, turn))) {
+        continue;
+      }
+      turned.psi_rad += turn;
+      for (const double side : {-1.0, 1.0}) {
+        for (const double lengths : {0.25, 0.5, 1.0}) {
+          Node to = turned;
+          const double ahead_m = side * lengths * vessel_.hull.length_m;
+          if (!append(to, straight(to.position, to.psi_rad, ahead_m))) {
+            break;  // nor does it further on
+          }
+          if (visited_.count(keyOf(to)) == 0) {
+            front_.emplace(-to.cost_s, static_cast<int>(nodes_.size()));
+            nodes_.push_back(std::move(to));
+          }
+        }
+      }
+    }
+  }
+
+  // False where it isn't clear or leads too far.
+  bool append(Node& node, const Piece& piece) const {
+    constexpr double kPieceS = 1.0;  // what one more is worth
+    constexpr double kMostLengths = 4.0;
+    constexpr double kMostS = 40.0;
+    const double end = piece.duration_s;
+    const double aside_mps =
+        vessel::setAside(vessel_.manoeuvring, disturbance_, piece.spinHeading(end)[0]);
+    if (!outlineKeepsClear(Trajectory({piece}), 0.0, vessel_, obstacles_.startingAt(node.time_s),
+                           keep_m_ + aside_mps * end, true)) {
+      return false;
+    }
+    node.position = piece.flat(end).position;
+    node.time_s += end;
+    node.cost_s += end + kPieceS;
+    node.pieces.push_back(piece);
+    return node.cost_s < kMostS && (node.position - nodes_[0].position).norm() <
+                                       kMostLengths * vessel_.hull.length_m;
+  }
+
+  [[nodiscard]] std::vector<Piece> piecesTo(int node) const {
+    std::vector<Piece> pieces;
+    for (int k = node; k > 0; k = nodes_[static_cast<std::size_t>(k)].from) {
+      const std::vector<Piece>& leg = nodes_[static_cast<std::size_t>(k)].pieces;
+      pieces.insert(pieces.begin(), leg.begin(), leg.end());
+    }
+    return pieces;
+  }
+
+  const Obstacles& obstacles_;
+  const vessel::Parameters& vessel_;
+  const vessel::Disturbance& disturbance_;
+  double room_m_;
+  double keep_m_ = 0.0;
+  std::vector<Node> nodes_;
+  std::priority_queue<std::pair<double, int>> front_;  // the cheapest first
+  std::set<Key> visited_;
+};
+
 // Places inside the map's edge with room to turn, the nearest first.
 std::vector<Eigen::Vector2d> placesInside(const Eigen::Vector2d& position,
                                           const Obstacles& obstacles, const vessel::Hull& hull) {
@@ -100,47 +242,9 @@ double turningRoom(const vessel::Hull& hull) {
 }
 
 std::optional<Trajectory> backOff(const vessel::State& state, const Obstacles& obstacles,
-                                  const vessel::Parameters& vessel, double disturbance_n) {
-  constexpr double kBetterM = 0.1;  // than here, or it isn't worth the way
-  constexpr std::array<double, 7> kTurnsRad = {0.0, 0.3, -0.3, 0.6, -0.6, 1.0, -1.0};
-  const double drift_mps = disturbance_n / vessel.manoeuvring.sway_drag_kgps;
-  const double room = turningRoom(vessel.hull);
-  const Eigen::Vector2d here = state.head<2>();
-  const double psi = state[vessel::kPsi];
-  const auto near = [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, 0.0); };
-  const double keep_m = std::clamp(
-      feasibility::outlineClearance(vessel.hull, here, psi, near) - kTouchesM, kTightM, kClearM);
-  double best_m = obstacles.clearance(here, 0.0) + kBetterM;
-  std::optional<Trajectory> best;
-  for (const double turn : kTurnsRad) {
-    for (const double side : {-1.0, 1.0}) {
-      for (const double lengths : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0}) {
-        const double ahead = side * lengths * vessel.hull.length_m;
-        std::vector<Piece> pieces;
-        if (turn != 0.0) {
-          pieces.push_back(gentleSpin(here, psi, turn));
-        }
-        pieces.push_back(straight(here, psi + turn, ahead));
-        Trajectory path(std::move(pieces));
-        const double end = path.duration();
-        const double there_m = std::min(room, obstacles.clearance(path.flat(end).position, end));
-        if (there_m <= best_m) {
-          continue;
-        }
-        if (!outlineKeepsClear(path, 0.0, vessel, obstacles, keep_m + drift_mps * end, true)) {
-          break;  // nor does it further on
-        }
-        if (canFollow(path, obstacles, vessel)) {
-          best_m = there_m;
-          best = std::move(path);
-        }
-      }
-    }
-    if (best_m >= room) {
-      break;
-    }
-  }
-  return best;
+                                  const vessel::Parameters& vessel,
+                                  const vessel::Disturbance& disturbance) {
+  return BackingOff(state, obstacles, vessel, disturbance).find();
 }
 
 std::optional<Trajectory> turnBack(const vessel::State& state, const Obstacles& obstacles,

@@ -104,8 +104,7 @@ struct Situation {
   vessel::State state = vessel::State::Zero();  // latest odometry, map frame
   double odometry_stamp_s = 0.0;
   double tracking_error_m = 0.0;  // as the tracker reports it
-  double disturbance_n = 0.0;     // magnitude of the force that wind and current exert, estimated
-  vessel::DisturbanceEstimate disturbance;  // the same as the tracker has it, with its covariance
+  vessel::DisturbanceEstimate disturbance;  // wind, current and force as the tracker has them
   bool tracker_fault = false;               // the tracker can't follow and brakes by itself
   std::string tracker_reason;
   std::vector<traffic::Track> tracks;  // of other vessels, on the clock of `now_s`

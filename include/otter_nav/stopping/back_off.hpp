@@ -16,14 +16,14 @@ namespace otter_nav::stopping {
 // Room to turn on the spot: the hull's corners, and some more, m from its centre.
 [[nodiscard]] double turningRoom(const vessel::Hull& hull);
 
-// From rest at `state` to a place with more room, at best enough to turn on the spot: straight
-// astern or ahead, after a turn on the spot if need be, the least turn first; rest to rest.
+// From rest at `state` to a place with more room, at best enough to turn on the spot: by legs
+// straight astern or ahead with turns on the spot between them, the quickest; rest to rest.
 // Verified like a plan, but for the clearance: the hull's exact outline keeps 0.1 m, and what
-// `disturbance_n` could set it aside meanwhile. None where no better place is near.
+// `disturbance` sets it aside during a leg. None where no better place is within four lengths.
 [[nodiscard]] std::optional<trajectory::Trajectory> backOff(const vessel::State& state,
                                                             const feasibility::Obstacles& obstacles,
                                                             const vessel::Parameters& vessel,
-                                                            double disturbance_n);
+                                                            const vessel::Disturbance& disturbance);
 
 // From rest over the map's edge, or close to it, to the nearest place inside with room to turn: a
 // turn on the spot towards or away from it, whichever is less, then straight; rest to rest. Nothing

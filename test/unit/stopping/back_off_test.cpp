@@ -19,7 +19,7 @@ TEST(BackOff, GoesAsternFromAWallAhead) {
   test::block(grid, {1.3, -10.0}, {2.0, 10.0});
   const map::DistanceField field = test::fieldOf(grid);
   const vessel::Parameters otter;
-  const auto way = backOff(restAt(0.0, 0.0, 0.0), field, otter, 0.0);
+  const auto way = backOff(restAt(0.0, 0.0, 0.0), field, otter, {});
   ASSERT_TRUE(way);
   const trajectory::Sample end = way->sample(way->duration(), otter);
   EXPECT_LT(end.state.x(), -0.2);
@@ -32,7 +32,7 @@ TEST(BackOff, GoesAsternFromAWallAhead) {
 TEST(BackOff, GoesAheadWhereTheWallIsAstern) {
   map::OccupancyGrid grid = test::openWater();
   test::block(grid, {-2.0, -10.0}, {-1.3, 10.0});
-  const auto way = backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), vessel::Parameters{}, 0.0);
+  const auto way = backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), vessel::Parameters{}, {});
   ASSERT_TRUE(way);
   EXPECT_GT(way->flat(way->duration()).position.x(), 0.2);
 }
@@ -40,16 +40,21 @@ TEST(BackOff, GoesAheadWhereTheWallIsAstern) {
 TEST(BackOff, StaysWhereThereIsRoomOrNoWayOut) {
   map::OccupancyGrid grid = test::openWater();
   const vessel::Parameters otter;
-  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, 0.0));
+  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, {}));
   test::block(grid, {-30.0, 0.9}, {30.0, 2.0});  // a canal along the heading
   test::block(grid, {-30.0, -2.0}, {30.0, -0.9});
-  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, 0.0));
+  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, {}));
 }
 
 TEST(BackOff, StaysWhereTheWindWouldSetItAgainstTheWall) {
   map::OccupancyGrid grid = test::openWater();
   test::block(grid, {1.3, -10.0}, {2.0, 10.0});
-  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), vessel::Parameters{}, 6.0));
+  test::block(grid, {-1.5, 0.9}, {1.3, 2.0});
+  const vessel::Parameters otter;
+  vessel::Disturbance abeam;
+  abeam.force_n = {0.0, 20.0};
+  EXPECT_TRUE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, {}));
+  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, abeam));
 }
 
 // A hull twice as long needs more room to turn, and gets it.
@@ -61,7 +66,7 @@ TEST(BackOff, GoesFurtherWithALongerHull) {
   wam_v.hull = {4.9, 2.44};
   wam_v.thrusters.ahead_max_n = 1000.0;
   wam_v.thrusters.astern_max_n = 400.0;
-  const auto way = backOff(restAt(0.0, 0.0, 0.0), field, wam_v, 0.0);
+  const auto way = backOff(restAt(0.0, 0.0, 0.0), field, wam_v, {});
   ASSERT_TRUE(way);
   EXPECT_GE(field.clearance(way->flat(way->duration()).position), turningRoom(wam_v.hull));
 }
