@@ -1,0 +1,76 @@
+// Stops that break the rule, and some that keep it.
+#include "otter_nav/simulation/monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../mission/waters.hpp"
+#include "otter_nav/stopping/braking.hpp"
+
+namespace otter_nav::simulation {
+namespace {
+
+namespace test = mission::test;
+using trajectory::TimedTrajectory;
+
+constexpr double kSpeed = 2.0;
+
+// A wall 8 m ahead of the origin with a gap to see through nowhere; the chart shows what it is told.
+Waters waters(map::Cell charted) {
+  Waters w;
+  w.world = test::openWater();
+  test::block(w.world, {8.0, -10.0}, {9.0, 10.0});
+  w.chart = test::openWater();
+  w.chart.cells.assign(w.chart.cells.size(), charted);
+  return w;
+}
+
+LoopOptions trusting(bool chart) {
+  LoopOptions options;
+  options.map.trust_chart = chart;
+  return options;
+}
+
+// A rest `length_m` ahead.
+TimedTrajectory restAhead(double length_m) {
+  return {test::eastward({0.0, 0.0}, length_m, 0.5), 0.0};
+}
+
+TEST(Monitor, PassesAStopShortOfTheWall) {
+  Monitor monitor(waters(map::Cell::kUnknown), trusting(false));
+  monitor.look({0.0, 0.0});
+  EXPECT_EQ(monitor.fault(restAhead(6.5), 0.0), "");
+}
+
+TEST(Monitor, FindsAStopThatTouchesWhatWasInSight) {
+  Monitor monitor(waters(map::Cell::kFree), trusting(true));
+  EXPECT_EQ(monitor.fault(restAhead(7.3), 0.0), "");  // uncharted, and not seen yet
+  monitor.look({0.0, 0.0});
+  EXPECT_NE(monitor.fault(restAhead(7.3), 0.0).find("in sight"), std::string::npos);
+  EXPECT_EQ(monitor.fault(restAhead(6.9), 0.0), "");
+}
+
+TEST(Monitor, FindsAStopInWaterThatNobodySaw) {
+  const TimedTrajectory stop = restAhead(4.0);
+  Monitor blind(waters(map::Cell::kUnknown), trusting(true));
+  EXPECT_NE(blind.fault(stop, 0.0).find("not seen"), std::string::npos);
+  Monitor doubting(waters(map::Cell::kFree), trusting(false));
+  EXPECT_NE(doubting.fault(stop, 0.0).find("not seen"), std::string::npos);
+  doubting.look({0.0, 0.0});
+  EXPECT_EQ(doubting.fault(stop, 0.0), "");
+  // Behind the wall nothing was in sight.
+  const TimedTrajectory behind{test::eastward({12.0, 0.0}, 6.0, 0.5), 0.0};
+  EXPECT_NE(doubting.fault(behind, 0.0).find("not seen"), std::string::npos);
+}
+
+TEST(Monitor, FindsAStopThatDoesNotEnd) {
+  Monitor monitor(waters(map::Cell::kFree), trusting(true));
+  const trajectory::Trajectory whole = test::eastward({-40.0, 0.0}, 40.0, kSpeed);
+  const TimedTrajectory cut{
+      trajectory::Trajectory({whole.pieces().begin(), whole.pieces().end() - 1}), 0.0};
+  EXPECT_NE(monitor.fault(cut, 0.0).find("under way"), std::string::npos);
+  // What is past doesn't count, and what comes does.
+  EXPECT_EQ(monitor.fault({whole, 0.0}, 20.0), "");
+}
+
+}  // namespace
+}  // namespace otter_nav::simulation
