@@ -210,17 +210,14 @@ bool goesOnFrom(const trajectory::Sample& here, const Trajectory& stop,
   return std::abs(wrapAngle(psi - here.state[vessel::kPsi])) < kTurnRad;
 }
 
-// More than what is left of an acceleration as it dies out.
-bool gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
-  constexpr double kFasterMps = 0.5;
+// What it gets faster than it begins, m/s.
+double gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
   constexpr double kStepS = 0.1;
-  const double fastest = here.flat.velocity.norm() + kFasterMps;
+  double fastest = 0.0;
   for (double t = 0.0; t < stop.duration(); t += kStepS) {
-    if (stop.flat(t).velocity.norm() > fastest) {
-      return true;
-    }
+    fastest = std::max(fastest, stop.flat(t).velocity.norm());
   }
-  return false;
+  return fastest - here.flat.velocity.norm();
 }
 
 }  // namespace
@@ -254,16 +251,30 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     }
     best = {std::move(held), false, 0.0};
   }
+  const auto keeps = [&](const Trajectory& candidate) {
+    return !firstConflict(candidate, 0.0, ahead, centre_m).found &&
+           goesOnFrom(here, candidate, vessel) && keepsAsternShare(candidate, vessel) &&
+           feasibility::verify(candidate, ahead, vessel, limits, tolerances).ok;
+  };
+  // No more than what is left of an acceleration as it dies out; of a hard one that is more, where
+  // nothing else will do.
+  constexpr double kFasterMps = 0.5;
+  constexpr double kMuchFasterMps = 1.5;
+  std::vector<Trajectory> faster;
   const Candidates candidates(sailed, at_s);
   for (std::size_t k = 0; k < candidates.count(); ++k) {
     Trajectory candidate = candidates.make(k);
     if (candidate.empty()) {
       continue;
     }
-    if (!firstConflict(candidate, 0.0, ahead, centre_m).found &&
-        goesOnFrom(here, candidate, vessel) && !gathersWay(here, candidate) &&
-        keepsAsternShare(candidate, vessel) &&
-        feasibility::verify(candidate, ahead, vessel, limits, tolerances).ok) {
+    const double gathered_mps = gathersWay(here, candidate);
+    if (gathered_mps > kFasterMps) {
+      if (gathered_mps <= kMuchFasterMps) {
+        faster.push_back(std::move(candidate));
+      }
+      continue;
+    }
+    if (keeps(candidate)) {
       return {std::move(candidate), true, stop.clearance_m};
     }
     const double clearance = leastClearance(candidate, ahead);
@@ -271,6 +282,11 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     if (clearance > best.clearance_m || (clearance == best.clearance_m && way < best_way_m)) {
       best = {std::move(candidate), false, clearance};
       best_way_m = way;
+    }
+  }
+  for (Trajectory& candidate : faster) {
+    if (keeps(candidate)) {
+      return {std::move(candidate), true, stop.clearance_m};
     }
   }
   return best;
