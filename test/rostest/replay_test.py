@@ -168,9 +168,10 @@ class Replay(unittest.TestCase):
                     commands[t] = (m.left**2 + m.right**2) / 2
                 elif m.state == "arrived":
                     arrived = min(t, arrived or t)
-        begin = min(t for t, _ in orders)
-        errors = [math.dist((x, y), self.place(orders, t)) for t, x, y in sorted(set(states))
+        begin = min(t for t, order in orders if order.pieces)
+        places = [((x, y), self.place(orders, t)) for t, x, y in sorted(set(states))
                   if begin - 1e-6 <= t <= arrived + 1e-6]
+        errors = [math.dist(true, place) for true, place in places if place]
         squares = [n for t, n in commands.items() if begin - 1e-6 <= t <= arrived + 1e-6]
         for key, value in (("tracking_error_mean_m", sum(errors) / len(errors)),
                            ("tracking_error_max_m", max(errors)), ("duration_s", arrived - begin),
@@ -181,8 +182,10 @@ class Replay(unittest.TestCase):
 
     @staticmethod
     def place(orders, t):
-        """Where the last trajectory that has begun is at t."""
+        """Where the last trajectory that has begun is at t; None while one is an order to stop."""
         start, order = max(((s, o) for s, o in orders if s <= t + 1e-9), key=lambda one: (one[0], one[1].id))
+        if not order.pieces:
+            return None
         left = t - start
         for piece in order.pieces:
             if left <= piece.duration:
