@@ -1,5 +1,5 @@
-// The frames (REP-105; docs/frames.md) and what they are called here: parameters `frames/map`, `odom`,
-// `base`, `lidar` of the nodes' namespace, or of one above it.
+// The frames (REP-105; docs/frames.md) and what they are called here: parameters `frames/map`,
+// `odom`, `base`, `lidar` of the nodes' namespace, or of one above it.
 #pragma once
 
 #include <string>
