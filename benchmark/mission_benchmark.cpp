@@ -263,8 +263,8 @@ void printRow(const scenario::MissionResult& r) {
               r.replans, r.planning_ms_median, r.planning_ms_max, r.tracker_ms_p99,
               r.reason.c_str());
   if (r.monitored) {
-    std::printf("%18s     %ld steps, margin %.3f m, %ld violations%s%s\n", "monitor:",
-                r.monitored->steps, r.monitored->margin_m, r.monitored->violations,
+    std::printf("%18s     %ld steps, margin %.3f m, %ld violations%s%s\n",
+                "monitor:", r.monitored->steps, r.monitored->margin_m, r.monitored->violations,
                 r.monitored->first.empty() ? "" : ", the first at ", r.monitored->first.c_str());
   }
   std::fflush(stdout);

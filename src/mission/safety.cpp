@@ -59,8 +59,8 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
          centreClearance(vessel_.hull, options_.side_clearances_m[levels_.level()]) > room_m) {
     levels_.narrower();
   }
-  const double clearance = planClearance(options_, levels_.level(), weather_.gustReach(),
-                                         vessel_.hull, room_m);
+  const double clearance =
+      planClearance(options_, levels_.level(), weather_.gustReach(), vessel_.hull, room_m);
   auto limits = feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
   constexpr double kLeeShares[] = {1.0, 0.5, 0.25, 0.1};  // by level
   limits.drift_m =
@@ -95,7 +95,7 @@ bool Safety::plansBlind() const {
 }
 
 double Safety::slowShare() const {
-  constexpr double kLeast = 0.25;
+  constexpr double kLeast = 0.5;  // slower still, the hull hardly answers
   return std::max(kLeast, std::pow(0.5, times_refused_));
 }
 

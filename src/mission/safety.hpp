@@ -26,8 +26,8 @@ namespace otter_nav::mission {
                                      int times_left_behind);
 
 // The clearance that `level` of the options' list asks for, m: so much beside what gusts move the
-// tracked hull by (`gust_reach_m`; three quarters of that on the third level, half from the fourth on).
-// Not more than start and goal have (`room_m`), unless the list itself asks for it.
+// tracked hull by (`gust_reach_m`; three quarters of that on the third level, half from the fourth
+// on). Not more than start and goal have (`room_m`), unless the list itself asks for it.
 [[nodiscard]] double planClearance(const SupervisorOptions& options, std::size_t level,
                                    double gust_reach_m, const vessel::Hull& hull, double room_m);
 

@@ -278,8 +278,8 @@ class Supervisor::Impl {
     if (!isFarOff(m)) {
       off_since_s_ = m.now_s;
     }
-    // Where the wind can take the heading a plan from there leads nowhere: at rest, bow to it, there
-    // is a better.
+    // Where the wind can take the heading a plan from there leads nowhere: at rest, bow to it,
+    // there is a better.
     constexpr double kStrongShare = 0.4;  // of the thrusters' moment
     const vessel::Thrusters& t = vessel_.thrusters;
     const double moment_nm = t.lever_arm_m * (t.ahead_max_n + t.astern_max_n);
@@ -293,8 +293,7 @@ class Supervisor::Impl {
         Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
     const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
     for (double later = kStepS; later <= kAheadS; later += kStepS) {
-      const double there =
-          m.obstacles.clearance(x.head<2>() + later * velocity, m.now_s + later);
+      const double there = m.obstacles.clearance(x.head<2>() + later * velocity, m.now_s + later);
       if (there < safety().critical() && there < here) {
         return true;
       }
@@ -546,8 +545,8 @@ class Supervisor::Impl {
                           sea_room_m_ > 0.0 ? "ahead" : "astern"));
   }
   Orders stopSetAside(const Moment& m) {
-    return stopByItself(m, text("set aside, %.1f m off the trajectory",
-                                m.situation.tracking_error_m));
+    return stopByItself(m,
+                        text("set aside, %.1f m off the trajectory", m.situation.tracking_error_m));
   }
   Orders stopBeyondThrust(const Moment& m) {
     return stopByItself(m, "too much wind and current: " + safety().beyondThrust());
@@ -729,7 +728,8 @@ class Supervisor::Impl {
     return {std::cos(x[vessel::kPsi]), std::sin(x[vessel::kPsi])};
   }
   // How far ahead of a vessel that lies into what pushes, m (negative: astern), there is enough
-  // room round it and to leeward, or most; 0 where it has that already, or there is no better place.
+  // room round it and to leeward, or most; 0 where it has that already, or there is no better
+  // place.
   double seaRoomToMake(const Moment& m) {
     constexpr double kLeewardM = 4.0;
     constexpr double kRoundM = 1.0;
@@ -754,8 +754,7 @@ class Supervisor::Impl {
              clear(position + (leeward + kStepM) * drift.normalized()) >= safety().critical()) {
         leeward += kStepM;
       }
-      return std::min(leeward, far) +
-             std::min(clear(position) - safety().narrowest(), round);
+      return std::min(leeward, far) + std::min(clear(position) - safety().narrowest(), round);
     };
     const double enough = far + round;
     const double here = clear(x.head<2>());
@@ -1008,11 +1007,11 @@ class Supervisor::Impl {
   bool planned_in_known_weather_ = false;
   double planned_overtaxed_s_ = 0.0;
   double felt_s_ = -std::numeric_limits<double>::infinity();
-  double off_since_s_ = 0.0;      // far off the trajectory
-  double sea_room_m_ = 0.0;       // to be made
-  bool holds_ = false;            // the tracker was told to keep the place
+  double off_since_s_ = 0.0;         // far off the trajectory
+  double sea_room_m_ = 0.0;          // to be made
+  bool holds_ = false;               // the tracker was told to keep the place
   std::optional<double> calm_by_s_;  // or the mission fails
-  double planned_for_mps_ = 0.0;  // the mission's speed limit then
+  double planned_for_mps_ = 0.0;     // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
   stopping::Conflict conflict_;     // what the last condition found on the way
   double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for

@@ -7,13 +7,13 @@
 
 #include "ais_transmitters.hpp"
 #include "environment.hpp"
-#include "otter_nav/plant/hull_contact.hpp"
 #include "lidar.hpp"
 #include "odometry_sensor.hpp"
 #include "other_vessels.hpp"
+#include "otter_nav/plant/hull_contact.hpp"
 #include "otter_nav/plant/plant_model.hpp"
-#include "radar.hpp"
 #include "otter_nav/plant/world_map.hpp"
+#include "radar.hpp"
 
 namespace otter_nav::plant {
 namespace {

@@ -7,6 +7,7 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/plant/hull_contact.hpp"
 #include "otter_nav/vessel/hull.hpp"
+#include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::simulation {
 namespace {
@@ -107,8 +108,7 @@ std::string Monitor::fault(const TimedTrajectory& stop, double now_s) const {
     }
   }
   const vessel::State last = stop.trajectory.sample(end, vessel_).state;
-  constexpr double kRestMps = 1e-2;
-  return last.segment<2>(vessel::kSurge).norm() > kRestMps ? "the stop ends under way" : "";
+  return last.segment<2>(vessel::kSurge).norm() > vessel::kRestMps ? "the stop ends under way" : "";
 }
 
 // Under way there must be a stop that is still to be had; while coming to rest it is sailed.

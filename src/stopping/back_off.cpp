@@ -75,10 +75,10 @@ class BackingOff {
         room_m_(turningRoom(vessel.hull)) {
     const auto near = [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, 0.0); };
     nodes_.push_back({state.head<2>(), state[vessel::kPsi], 0.0, 0.0, -1, {}});
-    keep_m_ = std::clamp(feasibility::outlineClearance(vessel.hull, nodes_[0].position,
-                                                       nodes_[0].psi_rad, near) -
-                             kTouchesM,
-                         kTightM, kClearM);
+    keep_m_ = std::clamp(
+        feasibility::outlineClearance(vessel.hull, nodes_[0].position, nodes_[0].psi_rad, near) -
+            kTouchesM,
+        kTightM, kClearM);
   }
 
   std::optional<Trajectory> find() {
@@ -179,8 +179,8 @@ class BackingOff {
     node.time_s += end;
     node.cost_s += end + kPieceS;
     node.pieces.push_back(piece);
-    return node.cost_s < kMostS && (node.position - nodes_[0].position).norm() <
-                                       kMostLengths * vessel_.hull.length_m;
+    return node.cost_s < kMostS &&
+           (node.position - nodes_[0].position).norm() < kMostLengths * vessel_.hull.length_m;
   }
 
   [[nodiscard]] std::vector<Piece> piecesTo(int node) const {

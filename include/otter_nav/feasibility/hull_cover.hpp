@@ -37,9 +37,9 @@ struct HullCover {
   [[nodiscard]] double arm() const { return std::max(offset_m, corner.norm()); }
 
   // How far the hull at `position` may still move before its centre is nearer than
-  // `centre_clearance_m` or its discs touch anything, m; negative where that is so already. Far from
-  // everything a lower bound. `bow` gives the unit vector ahead, and is asked near obstacles only.
-  // `centre` gets the clearance of the hull's centre.
+  // `centre_clearance_m` or its discs touch anything, m; negative where that is so already. Far
+  // from everything a lower bound. `bow` gives the unit vector ahead, and is asked near obstacles
+  // only. `centre` gets the clearance of the hull's centre.
   template <typename Bow>
   [[nodiscard]] double slack(const Obstacles& obstacles, const Eigen::Vector2d& position,
                              double time_s, double centre_clearance_m, const Bow& bow,

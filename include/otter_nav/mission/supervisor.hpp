@@ -103,7 +103,7 @@ struct SupervisorOptions {
 struct Situation {
   vessel::State state = vessel::State::Zero();  // latest odometry, map frame
   double odometry_stamp_s = 0.0;
-  double tracking_error_m = 0.0;  // as the tracker reports it
+  double tracking_error_m = 0.0;            // as the tracker reports it
   vessel::DisturbanceEstimate disturbance;  // wind, current and force as the tracker has them
   bool tracker_fault = false;               // the tracker can't follow and brakes by itself
   std::string tracker_reason;

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/plant/world_map.hpp"
+#include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::plant {
 

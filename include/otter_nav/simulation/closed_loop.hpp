@@ -119,8 +119,8 @@ class ClosedLoop {
 
 class Monitor;
 
-// step() to the end, each watched by `monitor` if there is one; the track goes to `track`, the other vessels' to `vessels` and the progress to
-// `progress` if they are given.
+// step() to the end, each watched by `monitor` if there is one; the track goes to `track`, the
+// other vessels' to `vessels` and the progress to `progress` if they are given.
 [[nodiscard]] scenario::MissionResult run(
     ClosedLoop& loop, const scenario::MissionLabel& label, double record_period_s,
     scenario::TrackWriter* track, const std::function<void(const scenario::Progress&)>& progress,

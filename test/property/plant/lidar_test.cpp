@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/plant/hull_contact.hpp"
+#include "otter_nav/vessel/hull.hpp"
 
 namespace otter_nav::plant {
 namespace {

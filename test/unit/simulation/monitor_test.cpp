@@ -14,7 +14,8 @@ using trajectory::TimedTrajectory;
 
 constexpr double kSpeed = 2.0;
 
-// A wall 8 m ahead of the origin with a gap to see through nowhere; the chart shows what it is told.
+// A wall 8 m ahead of the origin with a gap to see through nowhere; the chart shows what it is
+// told.
 Waters waters(map::Cell charted) {
   Waters w;
   w.world = test::openWater();
