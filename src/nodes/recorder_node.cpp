@@ -14,6 +14,7 @@ namespace {
 const std::string kScan = "scan";
 const std::string kGaps = "recording_gaps";
 constexpr double kQuietS = 0.3;  // of wall time without a message: nothing more is on its way
+constexpr double kPatienceS = 5.0;
 
 }  // namespace
 
@@ -132,12 +133,21 @@ void RecorderNode::finish() {
     return;
   }
   finished_ = true;
+  // Until it is quiet; where the vessel sails on, until everything of before has come.
+  const ros::Time asked = ros::Time::now();
+  const ros::WallTime latest = ros::WallTime::now() + ros::WallDuration(kPatienceS);
+  const auto whole = [&] {
+    return paced_.size() == options_.paced.size() &&
+           std::all_of(paced_.begin(), paced_.end(),
+                       [&](const auto& last) { return last.second > asked; });
+  };
   ros::CallbackQueue& queue = *ros::getGlobalCallbackQueue();
   std::uint64_t before = 0;
   do {
     before = recording_.messages();
     queue.callAvailable(ros::WallDuration(kQuietS));
-  } while (!failed_ && recording_.messages() != before);
+  } while (!failed_ && recording_.messages() != before && !whole() &&
+           ros::WallTime::now() < latest);
   const Status closed = recording_.close(node_.resolveName(kGaps));
   const std::string lost = recording_.lost();
   failed_ = failed_ || !closed || !lost.empty();

@@ -284,6 +284,23 @@ class Replay(unittest.TestCase):
         self.assertFalse(os.path.exists(bag + ".active"))
         self.assert_same(bag)
 
+    def test_recorder_ends_while_the_vessel_sails_on(self):
+        bag = self.path("beside.bag")
+        _, port = self.start(scenario=POND, speed=0.5, lockstep="false")
+        self.assertTrue(wait_until(lambda: "plant_node" in Mission.running(port), 60))
+        recorder = subprocess.Popen(
+            ["roslaunch", "-p", str(port), os.path.join(PACKAGE, "launch", "record.launch"), f"file:={bag}"],
+            env={**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}"}, text=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        self.addCleanup(self.kill, recorder, port)
+        self.assertTrue(wait_until(lambda: self.size(bag) > 100000, 60), self.size(bag))
+        recorder.send_signal(signal.SIGINT)
+        output, _ = recorder.communicate(timeout=60)
+        self.assertTrue(os.path.exists(bag), output)
+        self.assertFalse(os.path.exists(bag + ".active"))
+        with rosbag.Bag(bag) as recorded:
+            self.assertGreater(recorded.get_message_count("/odom"), 100)
+
     @staticmethod
     def size(bag):
         return os.path.getsize(bag + ".active") if os.path.exists(bag + ".active") else 0
