@@ -77,7 +77,10 @@ vessel::Disturbance Safety::planDisturbance() const {
 }
 
 double Safety::freeThrustShare() const {
-  const double mean = options_.plan_with_weather ? 0.0 : weather_.meanShare();
+  // More would only make the vessel crab more, for it is the tracker that finds the thrust.
+  constexpr double kMostForMean = 0.1;
+  const double mean =
+      options_.plan_with_weather ? 0.0 : std::min(weather_.meanShare(), kMostForMean);
   return planThrustShare(options_.thrust_share, weather_.gustShare() + mean, times_left_behind_);
 }
 

@@ -21,7 +21,8 @@ namespace otter_nav::mission {
 
 // Of the limits, for a plan; in steps of 0.05. What gusts take (`gust_share`) is left over, and 0.1
 // more each time the vessel couldn't follow; but never less than 0.4. What wind and current take on
-// the whole is the plan's own to find thrust for; for still water it is left over too.
+// the whole is the plan's own to find thrust for; for still water up to a tenth is left
+// over too.
 [[nodiscard]] double planThrustShare(double share_in_calm, double gust_share,
                                      int times_left_behind);
 
