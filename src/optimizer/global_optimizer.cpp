@@ -283,10 +283,9 @@ class GlobalOptimizer::Solver {
       keepThrustWhereItLacks();
     } else if (v.thrust_share > limits_.thrust_share) {
       // Slowing down takes little off what a load asks for: then the worst of it counts, wherever.
-      const double excess =
-          std::min(underLoad() ? limits_.thrust_share * this->excess()
-                               : v.thrust_share - limits_.thrust_share,
-                   0.04);
+      const double excess = std::min(underLoad() ? limits_.thrust_share * this->excess()
+                                                 : v.thrust_share - limits_.thrust_share,
+                                     0.04);
       problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
       problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
       problem_.targets.weights.dynamics *= kWeightGrowth;

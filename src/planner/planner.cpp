@@ -28,7 +28,7 @@ constexpr double kSlowedShares[] = {0.9, 0.0};
 constexpr double kSlowingShares[] = {1.0, 1.6, 0.7, 2.5};
 constexpr double kNearlyAtRestShare = 0.1;
 constexpr double kPauseS = 0.5;
-constexpr double kNearM = 0.3;               // a goal nearer than this needs no search
+constexpr double kNearM = 0.3;  // a goal nearer than this needs no search
 
 std::string describe(const Eigen::Vector2d& p) {
   std::ostringstream text;
@@ -89,10 +89,9 @@ class Planner::Pipeline {
       return planInTime(obstacles, query, termination);
     }
     feasibility::Obstacles all = obstacles;
-    const feasibility::LeeShore lee(obstacles.field(), limits.drift_m,
-                                    std::min(limits.clearance_m, 0.5 * limits.hull.length_m),
-                                    limits.clearance_m, query.start.flat.position,
-                                    query.goal.flat.position);
+    const feasibility::LeeShore lee(
+        obstacles.field(), limits.drift_m, std::min(limits.clearance_m, 0.5 * limits.hull.length_m),
+        limits.clearance_m, query.start.flat.position, query.goal.flat.position);
     all.add(lee);
     return planInTime(all, query, termination);
   }
@@ -109,7 +108,8 @@ class Planner::Pipeline {
     }
     for (const double share : kSlowedShares) {
       for (const double longer : kSlowingShares) {
-        const bool in_time = !termination.elapsed_s || termination.elapsed_s() < termination.budget_s;
+        const bool in_time =
+            !termination.elapsed_s || termination.elapsed_s() < termination.budget_s;
         Plan other = in_time ? planSlowed(obstacles, query, termination, share, longer) : Plan{};
         if (other.outcome == Outcome::kSolved) {
           return other;

@@ -75,8 +75,7 @@ class LeeShore final : public ObstacleLayer {
     constexpr double kMarginM = 0.1;
     for (int k = 1; k <= kSteps; ++k) {
       const double share = static_cast<double>(k) / kSteps;
-      if (field_->clearance(position + share * drift_m_) + slack_m_ <
-          clearance_m_ + kMarginM) {
+      if (field_->clearance(position + share * drift_m_) + slack_m_ < clearance_m_ + kMarginM) {
         return static_cast<double>(k - 1) / kSteps;
       }
     }

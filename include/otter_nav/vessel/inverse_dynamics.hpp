@@ -231,8 +231,8 @@ class InverseDynamics {
                ? heldIn(wind(bow), bow, yaw_rate_radps, yaw_acceleration, velocity, acceleration)
                : heldIn(calmAir(), bow, yaw_rate_radps, yaw_acceleration, velocity, acceleration);
   }
-  // A state as a point of a path: yaw rate as it is, surge force to hold the speed, but no less than
-  // gives the path a heading (`force_least_n` along it) and no more than `force_max_n`.
+  // A state as a point of a path: yaw rate as it is, surge force to hold the speed, but no less
+  // than gives the path a heading (`force_least_n` along it) and no more than `force_max_n`.
   [[nodiscard]] FlatPoint fromState(const State& state, double force_least_n,
                                     double force_max_n) const;
 

@@ -17,8 +17,8 @@ struct EndOptions {
   ManoeuvreLimits limits;
   double arrival_speed_mps = 3.0;      // when full astern begins, at first
   double arrival_speed_max_mps = 4.2;  // and after it was moved
-  double turn_least_rad = 0.4;  // turns at the goal narrower than this are made on the way there
-  bool careful = false;         // turns at rest, slow arrival
+  double turn_least_rad = 0.4;    // turns at the goal narrower than this are made on the way there
+  bool careful = false;           // turns at rest, slow arrival
   bool straight_arrival = false;  // no turn at the goal: the way leads to it on its heading
 };
 

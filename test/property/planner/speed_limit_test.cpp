@@ -120,8 +120,8 @@ TEST_P(SpeedLimit, IsReachedFromAbove) {
   Planner planner(Options{}, vessel_);
   const Plan plan = planner.plan(field, query, byIterations());
   ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
-  const auto verification = feasibility::verify(plan.trajectory, field, vessel_, query.start,
-                                                query.goal, query.limits);
+  const auto verification =
+      feasibility::verify(plan.trajectory, field, vessel_, query.start, query.goal, query.limits);
   EXPECT_TRUE(verification.ok) << verification.reason;
   constexpr double kSlowedS = 12.0;
   double fastest = 0.0;

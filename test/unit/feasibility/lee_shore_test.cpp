@@ -38,7 +38,7 @@ TEST(LeeShore, CountsToLeewardAndNotToWindward) {
   const LeeShore lee = shoreOf(field);
   EXPECT_LT(lee.clearance({0.0, -5.5}, 0.0), kClearanceM);  // set onto the shore
   EXPECT_GE(lee.clearance({0.0, -6.5}, 0.0), kClearanceM);
-  EXPECT_GE(lee.clearance({0.0, 3.5}, 0.0), kClearanceM);  // set off it
+  EXPECT_GE(lee.clearance({0.0, 3.5}, 0.0), kClearanceM);    // set off it
   EXPECT_GE(lee.clearance({15.0, -2.0}, 0.0), kClearanceM);  // past it
 }
 
