@@ -6,7 +6,6 @@
 
 #include <otter_nav/TrackerStatus.h>
 
-#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -56,9 +55,7 @@ class TrackerWatch {
   [[nodiscard]] const std::string& reason() const {
     return refused_id_ == sailing_id_ ? refused_reason_ : reason_;
   }
-  // The force of wind and current it estimates, N.
-  [[nodiscard]] double disturbance() const { return disturbance_n_; }
-  // What makes it, as far as that is known; the last one that was finite.
+  // The wind, current and force it estimates; the last that were finite.
   [[nodiscard]] const vessel::DisturbanceEstimate& estimate() const { return estimate_; }
 
  private:
@@ -68,7 +65,6 @@ class TrackerWatch {
                          status.state == TrackerStatus::STOPPED;
     faults_ = gave_up && status.trajectory_id == sailing_id_ ? faults_ + 1 : 0;
     reason_ = status.reason;
-    disturbance_n_ = std::hypot(status.disturbance[0], status.disturbance[1]);
     if (const auto estimate = ros_bridge::disturbanceEstimate(status.estimate)) {
       estimate_ = *estimate;
     }
@@ -81,7 +77,6 @@ class TrackerWatch {
   std::uint32_t refused_id_ = 0;
   std::uint32_t sailing_id_ = kNone;
   int faults_ = 0;
-  double disturbance_n_ = 0.0;
   vessel::DisturbanceEstimate estimate_;
   double latest_s_ = 0.0;              // stamp of the last status
   std::deque<TrackerStatus> waiting_;  // to count, in the order they came
