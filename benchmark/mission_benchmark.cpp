@@ -99,7 +99,7 @@ scenario::MissionResult resultOf(const nlohmann::json& json) {
   const std::string outcome = json.at("outcome");
   for (const auto candidate :
        {scenario::Outcome::kArrived, scenario::Outcome::kStopped, scenario::Outcome::kCollided,
-        scenario::Outcome::kTimeout, scenario::Outcome::kError}) {
+        scenario::Outcome::kCapsized, scenario::Outcome::kTimeout, scenario::Outcome::kError}) {
     if (outcome == scenario::name(candidate)) {
       result.outcome = candidate;
     }

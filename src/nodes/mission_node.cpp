@@ -14,6 +14,7 @@
 #include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/share.hpp"
+#include "otter_nav/plant/signals.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/parameters.hpp"
@@ -247,6 +248,8 @@ void MissionNode::recordUntil(double time_s) {
     record(*last_state_);
     if (last_state_->in_contact != 0) {
       finish(Outcome::kCollided, "the hull touched something while " + planner_.state);
+    } else if (plant::capsized(last_state_->roll, last_state_->pitch)) {
+      finish(Outcome::kCapsized, "turned over by waves and thrust while " + planner_.state);
     }
   }
   if (last_state_ && !finished_) {

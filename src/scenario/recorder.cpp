@@ -15,6 +15,8 @@ const char* name(Outcome outcome) {
       return "stopped";
     case Outcome::kCollided:
       return "collided";
+    case Outcome::kCapsized:
+      return "capsized";
     case Outcome::kTimeout:
       return "timeout";
     case Outcome::kError:

@@ -124,6 +124,9 @@ void ClosedLoop::judge() {
   if (plant_.hadContact()) {
     finish(scenario::Outcome::kCollided, "the hull touched " + touched() + " while " +
                                              std::string(mission::name(supervisor_.phase())));
+  } else if (plant::capsized(plant_.truth().roll_rad, plant_.truth().pitch_rad)) {
+    finish(scenario::Outcome::kCapsized, "turned over by waves and thrust while " +
+                                             std::string(mission::name(supervisor_.phase())));
   } else if (supervisor_.phase() == mission::Phase::kArrived) {
     finish(scenario::Outcome::kArrived, supervisor_.reason());
   } else if (supervisor_.phase() == mission::Phase::kFailed) {

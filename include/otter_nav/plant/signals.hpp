@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "otter_nav/vessel/parameters.hpp"
@@ -26,6 +28,13 @@ struct Truth {
   Eigen::Vector2d wind_mps = Eigen::Vector2d::Zero();     // velocity of the air, map frame
   Eigen::Vector2d current_mps = Eigen::Vector2d::Zero();  // velocity of the water, map frame
 };
+
+// A hull that leans so far is on its way over: nothing the thrusters do rights it, and its lidar
+// looks into the water or the sky.
+constexpr double kCapsizedRad = 1.0;
+[[nodiscard]] inline bool capsized(double roll_rad, double pitch_rad) {
+  return std::max(std::abs(roll_rad), std::abs(pitch_rad)) > kCapsizedRad;
+}
 
 // What a navigation system reports: late and noisy where the options say so.
 struct Odometry {

@@ -11,7 +11,7 @@
 
 namespace otter_nav::scenario {
 
-enum class Outcome { kArrived, kStopped, kCollided, kTimeout, kError };
+enum class Outcome { kArrived, kStopped, kCollided, kCapsized, kTimeout, kError };
 [[nodiscard]] const char* name(Outcome outcome);
 
 // Which mission, sailed by whom in what.

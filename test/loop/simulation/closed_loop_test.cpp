@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/mission/waters.hpp"
+#include "otter_nav/base/angles.hpp"
 
 namespace otter_nav::simulation {
 namespace {
@@ -68,6 +69,18 @@ TEST(ClosedLoop, ContactWithAVesselEndsTheMissionAndNamesHer) {
   EXPECT_EQ(result.outcome, scenario::Outcome::kCollided);
   EXPECT_NE(result.reason.find("vessel 7"), std::string::npos) << result.reason;
   EXPECT_LT(result.min_clearance_m, 0.6);
+}
+
+// In a sea that throws her over the mission is neither sailed on nor counted as arrived.
+TEST(ClosedLoop, ACapsizedVesselHasNotArrived) {
+  Waters waters{test::openWater(60.0), {}};
+  waters.world = waters.chart;
+  LoopOptions steep = options();
+  steep.plant.disturbance.waves.components = {{1.5, 2.5, kPi}};
+  auto loop = ClosedLoop::create(steep, waters, kAcross, 1);
+  ASSERT_TRUE(loop.has_value());
+  const scenario::MissionResult result = run(*loop, {}, 0.1, nullptr, {});
+  EXPECT_EQ(result.outcome, scenario::Outcome::kCapsized) << result.reason;
 }
 
 // The chart ends at x = -30 m, the water goes on.
