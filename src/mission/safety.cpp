@@ -77,10 +77,13 @@ vessel::Disturbance Safety::planDisturbance() const {
 }
 
 double Safety::freeThrustShare() const {
-  // More would only make the vessel crab more, for it is the tracker that finds the thrust.
+  // Little of it is what every plan leaves; more than the most would only make the vessel crab
+  // more, for it is the tracker that finds the thrust.
+  constexpr double kLittle = 0.05;
   constexpr double kMostForMean = 0.1;
-  const double mean =
-      options_.plan_with_weather ? 0.0 : std::min(weather_.meanShare(), kMostForMean);
+  const double mean = options_.plan_with_weather
+                          ? 0.0
+                          : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
   return planThrustShare(options_.thrust_share, weather_.gustShare() + mean, times_left_behind_);
 }
 
