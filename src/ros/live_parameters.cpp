@@ -80,8 +80,8 @@ void leaves(XmlRpcValue& tree, const std::string& path, std::map<std::string, Xm
 }  // namespace
 
 LiveParameters::LiveParameters(std::vector<config::NumberField> live, Apply apply,
-                               ros::Publisher in_force)
-    : live_(std::move(live)), apply_(std::move(apply)), told_(std::move(in_force)) {
+                               const ros::Publisher& in_force)
+    : live_(std::move(live)), apply_(std::move(apply)), told_(in_force) {
   node_.getParam(node_.getNamespace(), current_);
   in_force_ = current_;
   tell();

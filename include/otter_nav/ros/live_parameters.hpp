@@ -27,7 +27,8 @@ class LiveParameters {
   // `live`: what may change, by its path below the node's name. It is known by its last key (and
   // index), which has to be its own. `in_force`, a latched std_msgs/String, is told all parameters
   // as YAML, now and after each change.
-  LiveParameters(std::vector<config::NumberField> live, Apply apply, ros::Publisher in_force);
+  LiveParameters(std::vector<config::NumberField> live, Apply apply,
+                 const ros::Publisher& in_force);
 
  private:
   struct Change {
