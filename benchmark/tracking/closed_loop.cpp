@@ -101,7 +101,8 @@ Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
   step_us.reserve(static_cast<std::size_t>(cycles));
   for (int i = 0; i < cycles; ++i) {
     const double now = simulator->time();
-    tracker.addOdometry(simulator->odometry().stamp_s, simulator->odometry().state);
+    tracker.addOdometry(simulator->odometry().stamp_s, simulator->odometry().state,
+                        -simulator->odometry().pitch_rad);
     const auto before = std::chrono::steady_clock::now();
     const tracker::Command command = tracker.step(now);
     const auto after = std::chrono::steady_clock::now();

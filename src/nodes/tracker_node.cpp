@@ -163,7 +163,7 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
   }
   last_odometry_ = stamp;
   if (sample) {
-    tracker_.addOdometry(sample->stamp_s, sample->state);
+    tracker_.addOdometry(sample->stamp_s, sample->state, -sample->pitch_rad);
   } else {
     diagnostics_.refuse("odom", sample.error().message);
   }

@@ -76,7 +76,7 @@ bool ClosedLoop::step() {
 
 void ClosedLoop::sense() {
   const plant::Odometry& odometry = plant_.odometry();
-  tracker_.addOdometry(odometry.stamp_s, odometry.state);
+  tracker_.addOdometry(odometry.stamp_s, odometry.state, -odometry.pitch_rad);
   if (plant_.radarDue()) {
     sensing_->hear(plant_.radar(), odometry);
   }

@@ -31,6 +31,10 @@ constexpr double kBrakingShare = 0.6;  // of the thrust astern: how far ahead a 
 // shrinks at this mean speed.
 constexpr double kJoinLengths = 1.5;
 constexpr double kJoinSpeedMps = 0.7;
+// From the first on less is pushed ahead, from the second nothing. A hull on even keel doesn't get
+// there: the Otter's bow comes up by 0.15 rad at most in the strongest sea that is shipped.
+constexpr double kBowUpFreeRad = 0.2;
+constexpr double kBowUpMostRad = 0.45;
 constexpr double kJoinSpeedShare = 0.3;    // of the speed limit, where that is less
 constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts the next one
 constexpr double kBrakeBlindS = 5.0;  // braking by the model alone without odometry; then no thrust
@@ -67,7 +71,7 @@ class Tracker::Core {
 
   Status setTrajectory(trajectory::Trajectory trajectory, double start_s, std::uint32_t order,
                        double speed_max_mps);
-  void addOdometry(double stamp_s, const vessel::State& state);
+  void addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad);
   void requestStop(std::string_view reason, double start_s, std::uint32_t order);
   void setWeights(const Weights& weights);
   Command step(double now_s);
@@ -88,6 +92,7 @@ class Tracker::Core {
   struct Measurement {
     double stamp_s = 0.0;
     vessel::State state = vessel::State::Zero();
+    double bow_up_rad = 0.0;
   };
 
   void takeOdometry();
@@ -105,6 +110,7 @@ class Tracker::Core {
   vessel::Thrusts stop(double now_s, const vessel::State& state, Fix fix, Command& command);
 
   void finish(double now_s, const vessel::State& state, Command& command);
+  [[nodiscard]] vessel::Thrusts keepBowDown(const vessel::Thrusts& wanted) const;
   [[nodiscard]] vessel::Thrusts slew(const vessel::Thrusts& wanted) const;
 
   Options options_;
@@ -131,6 +137,7 @@ class Tracker::Core {
   Mode mode_ = Mode::kIdle;
   std::string_view stop_reason_;
   double lost_since_s_ = 0.0;
+  double bow_up_rad_ = 0.0;
   bool lost_ = false;
   vessel::Thrusts last_thrusts_ = vessel::Thrusts::Zero();
 };
@@ -179,8 +186,8 @@ void Tracker::Core::setWeights(const Weights& weights) {
   new_weights_.give(std::make_unique<Weights>(weights));
 }
 
-void Tracker::Core::addOdometry(double stamp_s, const vessel::State& state) {
-  odometry_.push({stamp_s, state});
+void Tracker::Core::addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad) {
+  odometry_.push({stamp_s, state, bow_up_rad});
 }
 
 void Tracker::Core::takeOdometry() {
@@ -189,6 +196,7 @@ void Tracker::Core::takeOdometry() {
     navigator_.addOdometry(m.stamp_s, m.state);
     ++odometry_taken_;
     odometry_stamp_s_ = m.stamp_s;
+    bow_up_rad_ = std::isfinite(m.bow_up_rad) ? m.bow_up_rad : 0.0;
   }
 }
 
@@ -316,6 +324,15 @@ void Tracker::Core::watchFix(Fix fix, double now_s, const vessel::State& state) 
   }
 }
 
+// What the thrusters push together is cut down; what they turn the hull with is kept.
+vessel::Thrusts Tracker::Core::keepBowDown(const vessel::Thrusts& wanted) const {
+  const double share =
+      std::clamp((kBowUpMostRad - bow_up_rad_) / (kBowUpMostRad - kBowUpFreeRad), 0.0, 1.0);
+  const double over = std::max(0.0, 0.5 * wanted.sum() - share * vessel_.thrusters.ahead_max_n);
+  return over > 0.0 ? vessel::clampThrusts((wanted.array() - over).matrix(), vessel_.thrusters)
+                    : wanted;
+}
+
 vessel::Thrusts Tracker::Core::slew(const vessel::Thrusts& wanted) const {
   const double most = options_.thrust_rate_nps * options_.period_s;
   const vessel::Thrusts change = (wanted - last_thrusts_).cwiseMax(-most).cwiseMin(most);
@@ -371,7 +388,7 @@ Command Tracker::Core::step(double now_s) {
     case Mode::kIdle:
       break;
   }
-  command.thrusts = slew(wanted);
+  command.thrusts = keepBowDown(slew(wanted));
   finish(now_s, state, command);
   return command;
 }
@@ -422,8 +439,8 @@ Status Tracker::setTrajectory(trajectory::Trajectory trajectory, double start_s,
   return core_->setTrajectory(std::move(trajectory), start_s, order, speed_max_mps);
 }
 
-void Tracker::addOdometry(double stamp_s, const vessel::State& state) {
-  core_->addOdometry(stamp_s, state);
+void Tracker::addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad) {
+  core_->addOdometry(stamp_s, state, bow_up_rad);
 }
 
 void Tracker::requestStop(std::string_view reason, double start_s, std::uint32_t order) {

@@ -121,7 +121,7 @@ class Vessel {
       begin();
     }
     if (run().odometry.empty() || sample->stamp_s >= run().odometry.back().stamp_s) {
-      run().odometry.push_back({sample->stamp_s, sample->state});
+      run().odometry.push_back({sample->stamp_s, sample->state, -sample->pitch_rad});
     }
   }
 

@@ -17,6 +17,7 @@ namespace otter_nav::replay {
 struct RecordedOdometry {
   double stamp_s = 0.0;
   vessel::State state = vessel::State::Zero();
+  double bow_up_rad = 0.0;
 };
 
 // A trajectory, or an order to stop if it is empty. `position` is its place among all messages.

@@ -53,7 +53,7 @@ class OdometryFeed {
     }
     first_ = false;
     for (const RecordedOdometry* odometry : here) {
-      tracker.addOdometry(odometry->stamp_s, odometry->state);
+      tracker.addOdometry(odometry->stamp_s, odometry->state, odometry->bow_up_rad);
     }
     if (here.size() != wanted) {
       return failure("step " + std::to_string(cycle.number) + " at " + seconds(cycle.time_s) +

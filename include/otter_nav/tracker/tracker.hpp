@@ -79,8 +79,10 @@ class Tracker {
   [[nodiscard]] Status setTrajectory(
       trajectory::Trajectory trajectory, double start_s, std::uint32_t order = 0,
       double speed_max_mps = std::numeric_limits<double>::infinity());
-  // Any one thread. Not finite or out of order: dropped, and the next status says so.
-  void addOdometry(double stamp_s, const vessel::State& state);
+  // Any one thread. Not finite or out of order: dropped, and the next status says so. The higher
+  // the bow comes up, the less the vessel is pushed ahead: thrust below the centre of gravity and a
+  // sea from ahead can turn a small hull over.
+  void addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad = 0.0);
   // Any thread: brake and hold the spot from `start_s` on, until the next trajectory. `reason` is
   // static text.
   void requestStop(std::string_view reason, double start_s = 0.0, std::uint32_t order = 0);

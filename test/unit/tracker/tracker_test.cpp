@@ -143,6 +143,35 @@ TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
   }
 }
 
+// As the bow comes up the push ahead is cut down to nothing, and what turns the hull is kept.
+TEST_F(TrackerTest, PushesLessTheHigherTheBowComesUp) {
+  const auto push = [&](double bow_up_rad) {
+    Tracker tracker(load(), vessel_);
+    std::swap(tracker, tracker_);
+    state_.setZero();
+    now_s_ += 1000.0;
+    sail(0.02);
+    EXPECT_TRUE(tracker_.setTrajectory(line(60.0, 25.0), now_s_));
+    sail(3.0);
+    state_[vessel::kPsi] -= 0.1;
+    vessel::Thrusts thrusts;
+    for (int i = 0; i < 10; ++i) {
+      tracker_.addOdometry(now_s_, state_, bow_up_rad);
+      thrusts = tracker_.step(now_s_).thrusts;
+      now_s_ += 0.01;
+    }
+    return thrusts;
+  };
+  const vessel::Thrusts level = push(0.15);
+  EXPECT_LT((level - push(0.0)).norm(), 0.01);
+  const double most_n = 2.0 * vessel_.thrusters.ahead_max_n;
+  EXPECT_GT(level.sum(), 0.2 * most_n);
+  EXPECT_NEAR(push(0.42).sum(), 0.12 * most_n, 1e-6);
+  const vessel::Thrusts high = push(0.5);
+  EXPECT_LE(high.sum(), 1e-9);
+  EXPECT_GT(high[vessel::kRight] - high[vessel::kLeft], 5.0);
+}
+
 // Weights come in from the next step on.
 TEST_F(TrackerTest, TakesNewWeights) {
   const auto offset = [&](double position) {
