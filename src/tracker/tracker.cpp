@@ -31,8 +31,9 @@ constexpr double kBrakingShare = 0.6;  // of the thrust astern: how far ahead a 
 // shrinks at this mean speed.
 constexpr double kJoinLengths = 1.5;
 constexpr double kJoinSpeedMps = 0.7;
-// From the first on less is pushed ahead, from the second nothing. A hull on even keel doesn't get
-// there: the Otter's bow comes up by 0.15 rad at most in the strongest sea that is shipped.
+// From the first on less is pushed ahead, from the second nothing, beyond it astern. A hull on even
+// keel doesn't get there: the Otter's bow comes up by 0.15 rad at most in the strongest sea that is
+// shipped.
 constexpr double kBowUpFreeRad = 0.2;
 constexpr double kBowUpMostRad = 0.45;
 constexpr double kJoinSpeedShare = 0.3;    // of the speed limit, where that is less
@@ -324,13 +325,15 @@ void Tracker::Core::watchFix(Fix fix, double now_s, const vessel::State& state) 
   }
 }
 
-// What the thrusters push together is cut down; what they turn the hull with is kept.
+// What the thrusters push together is cut down, at last to a push astern, which brings the bow
+// down; what they turn the hull with is kept.
 vessel::Thrusts Tracker::Core::keepBowDown(const vessel::Thrusts& wanted) const {
+  const vessel::Thrusters& t = vessel_.thrusters;
   const double share =
-      std::clamp((kBowUpMostRad - bow_up_rad_) / (kBowUpMostRad - kBowUpFreeRad), 0.0, 1.0);
-  const double over = std::max(0.0, 0.5 * wanted.sum() - share * vessel_.thrusters.ahead_max_n);
-  return over > 0.0 ? vessel::clampThrusts((wanted.array() - over).matrix(), vessel_.thrusters)
-                    : wanted;
+      std::clamp((kBowUpMostRad - bow_up_rad_) / (kBowUpMostRad - kBowUpFreeRad), -1.0, 1.0);
+  const double most = share * (share > 0.0 ? t.ahead_max_n : t.astern_max_n);
+  const double over = 0.5 * wanted.sum() - most;
+  return over > 0.0 ? vessel::clampThrusts((wanted.array() - over).matrix(), t) : wanted;
 }
 
 vessel::Thrusts Tracker::Core::slew(const vessel::Thrusts& wanted) const {
@@ -388,7 +391,8 @@ Command Tracker::Core::step(double now_s) {
     case Mode::kIdle:
       break;
   }
-  command.thrusts = keepBowDown(slew(wanted));
+  // Before the slew, so that what turns the hull is slewed; after it, since the bow doesn't wait.
+  command.thrusts = keepBowDown(slew(keepBowDown(wanted)));
   finish(now_s, state, command);
   return command;
 }
