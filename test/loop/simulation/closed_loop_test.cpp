@@ -5,6 +5,7 @@
 
 #include "../../unit/mission/waters.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/simulation/monitor.hpp"
 
 namespace otter_nav::simulation {
 namespace {
@@ -61,14 +62,33 @@ TEST(ClosedLoop, StopsSafelyAndSaysWhyWhenTheGoalIsWalledOff) {
 }
 
 // Nobody can get out of the way of a vessel this broad and fast.
-TEST(ClosedLoop, ContactWithAVesselEndsTheMissionAndNamesHer) {
+Waters withAVesselInTheWay() {
   Waters waters{test::openWater(60.0), {}, {}};
   waters.world = waters.chart;
   waters.vessels = {{7, {10.0, 100.0}, true, {{-20.0, 30.0}, {-20.0, -200.0}}, {8.0}}};
-  const scenario::MissionResult result = sail(waters);
+  return waters;
+}
+
+TEST(ClosedLoop, ContactWithAVesselEndsTheMissionAndNamesHer) {
+  const scenario::MissionResult result = sail(withAVesselInTheWay());
   EXPECT_EQ(result.outcome, scenario::Outcome::kCollided);
   EXPECT_NE(result.reason.find("vessel 7"), std::string::npos) << result.reason;
   EXPECT_LT(result.min_clearance_m, 0.6);
+}
+
+TEST(ClosedLoop, TheMonitorSeesContactAndWhereItWasFirst) {
+  const Waters waters = withAVesselInTheWay();
+  auto loop = ClosedLoop::create(options(), waters, kAcross, 1);
+  ASSERT_TRUE(loop.has_value());
+  Monitor monitor(waters, options());
+  bool goes_on = true;
+  while (goes_on) {
+    goes_on = loop->step();
+    monitor.watch(*loop);
+  }
+  EXPECT_EQ(monitor.result().margin_m, 0.0);
+  EXPECT_GT(monitor.result().violations, 0);
+  EXPECT_NE(monitor.result().first.find("contact"), std::string::npos) << monitor.result().first;
 }
 
 // In a sea that throws her over the mission is neither sailed on nor counted as arrived.
