@@ -1,5 +1,7 @@
 #include "otter_nav/feasibility/safety_limits.hpp"
 
+#include "otter_nav/vessel/thrusters.hpp"
+
 namespace otter_nav::feasibility {
 namespace {
 
@@ -22,7 +24,7 @@ SafetyLimits SafetyLimits::of(const vessel::Parameters& vessel) {
 SafetyLimits SafetyLimits::of(const vessel::Parameters& vessel, double clearance_m,
                               double thrust_share) {
   const vessel::Thrusters& thrusters = vessel.thrusters;
-  const double moment = thrusters.lever_arm_m * (thrusters.ahead_max_n + thrusters.astern_max_n);
+  const double moment = vessel::greatestMoment(thrusters);
   SafetyLimits limits;
   limits.clearance_m = clearance_m;
   limits.hull = vessel.hull;

@@ -6,6 +6,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/rest.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 #include "text.hpp"
 
 namespace otter_nav::mission {
@@ -127,7 +128,7 @@ std::string Safety::beyondThrust() const {
     return text("wind and current push with %.0f N in gusts, the thrusters with %.0f N", push_n,
                 2.0 * t.ahead_max_n);
   }
-  const double moment_nm = t.lever_arm_m * (t.ahead_max_n + t.astern_max_n);
+  const double moment_nm = vessel::greatestMoment(t);
   const double turning_nm = weather_.greatestMoment();
   if (turning_nm > kAtMost * moment_nm) {
     return text("the wind turns the hull with %.0f N m, the thrusters with %.0f N m", turning_nm,

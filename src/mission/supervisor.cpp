@@ -281,8 +281,7 @@ class Supervisor::Impl {
     // Where the wind can take the heading a plan from there leads nowhere: at rest, bow to it,
     // there is a better.
     constexpr double kStrongShare = 0.4;  // of the thrusters' moment
-    const vessel::Thrusters& t = vessel_.thrusters;
-    const double moment_nm = t.lever_arm_m * (t.ahead_max_n + t.astern_max_n);
+    const double moment_nm = vessel::greatestMoment(vessel_.thrusters);
     const double patience_s =
         weather().greatestMoment() > kStrongShare * moment_nm ? 0.0 : kPatienceS;
     if (isFarOff(m) && m.now_s - off_since_s_ >= patience_s) {

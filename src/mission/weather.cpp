@@ -6,6 +6,7 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/rest.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -141,7 +142,7 @@ double Weather::gustReach() const {
   const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
   const vessel::Thrusters& t = vessel_.thrusters;
   const double thrust_n = 2.0 * t.ahead_max_n;
-  const double moment_nm = t.lever_arm_m * (t.ahead_max_n + t.astern_max_n);
+  const double moment_nm = vessel::greatestMoment(t);
   double more_n = 0.0;  // than the mean's force, on the worst heading
   double most_n = 0.0;  // of the gust's
   double yaw_nm = 0.0;  // of the gust's

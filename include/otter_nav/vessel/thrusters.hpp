@@ -32,6 +32,11 @@ inline double shareOfLimit(double thrust_n, const Thrusters& limits) {
                          : -thrust_n / std::max(limits.astern_max_n, 1e-9);
 }
 
+// With one thruster full ahead and the other full astern, N m.
+inline double greatestMoment(const Thrusters& limits) {
+  return limits.lever_arm_m * (limits.ahead_max_n + limits.astern_max_n);
+}
+
 inline Thrusts clampThrusts(const Thrusts& thrusts, const Thrusters& limits) {
   return thrusts.cwiseMin(limits.ahead_max_n).cwiseMax(-limits.astern_max_n);
 }
