@@ -31,6 +31,11 @@ constexpr double kMostKeptShare = 0.5;  // of a thruster's force, for what the o
 constexpr int kIterationsPerRound = 12;
 constexpr double kWeightGrowth = 1.5;  // of the weights of what fails, from round to round
 constexpr double kSlower = 0.97;       // wanted, where a speed failed
+// Of the force |w| that is wanted while turning, from round to round, where a thrust exceeds its
+// limit by more than a share: next to w = 0 the heading turns at any rate, and slowing down or a
+// reserve of thrust mends nothing.
+constexpr double kFirmerHeading = 2.5;
+constexpr double kSpike = 0.1;
 // A trajectory that asks for this share too much of a thruster is slowed down to suit.
 constexpr double kDilationMax = 0.06;
 // After the first feasible result.
@@ -97,15 +102,19 @@ class GlobalOptimizer::Solver {
                                 const std::vector<Eigen::Vector2d>& path,
                                 const trajectory::Boundary& start, const trajectory::Boundary& goal,
                                 const feasibility::SafetyLimits& limits) const {
+    const StopAndSpin spinning(vessel_, spinLimits(limits), limits);
     Optimized plain;
-    plain.trajectory = StopAndSpin(vessel_, spinLimits(limits), limits).follow(path, start, goal);
-    plain.verification =
-        feasibility::verify(plain.trajectory, obstacles, vessel_, start, goal, limits);
     plain.last_resort = true;
-    if (!plain.verification.ok) {
-      return failure("following the path from stop to stop failed: " + plain.verification.reason);
+    for (const auto& stops :
+         {spinning.quickestStops(obstacles.field(), path, start, goal), path}) {
+      plain.trajectory = spinning.follow(stops, start, goal);
+      plain.verification =
+          feasibility::verify(plain.trajectory, obstacles, vessel_, start, goal, limits);
+      if (plain.verification.ok) {
+        return plain;
+      }
     }
-    return plain;
+    return failure("following the path from stop to stop failed: " + plain.verification.reason);
   }
 
  private:
@@ -279,6 +288,9 @@ class GlobalOptimizer::Solver {
   // What failed is wanted more strictly, and its weight raised.
   void tighten() {
     const feasibility::Verification& v = result_.verification;
+    if (vessel::paperHolds(vessel_) && excess() > kSpike) {
+      problem_.targets.limits.heading_force_n *= kFirmerHeading;
+    }
     if (v.thrust_share > limits_.thrust_share && !vessel::paperHolds(vessel_)) {
       keepThrustWhereItLacks();
     } else if (v.thrust_share > limits_.thrust_share) {

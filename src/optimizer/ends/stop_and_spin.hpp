@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "otter_nav/feasibility/safety_limits.hpp"
+#include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/optimizer/spin.hpp"
 #include "otter_nav/trajectory/boundary.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
@@ -24,8 +25,16 @@ class StopAndSpin {
   [[nodiscard]] trajectory::Trajectory follow(const std::vector<Eigen::Vector2d>& path,
                                               const trajectory::Boundary& start,
                                               const trajectory::Boundary& goal) const;
+  // Another way along `path` with straight and clear legs, from end to end in the least time: stops
+  // are points of `path`, or a little farther from what is near. `path` where there is none.
+  [[nodiscard]] std::vector<Eigen::Vector2d> quickestStops(const map::DistanceField& field,
+                                                           const std::vector<Eigen::Vector2d>& path,
+                                                           const trajectory::Boundary& start,
+                                                           const trajectory::Boundary& goal) const;
 
  private:
+  // Of a leg from rest to rest.
+  [[nodiscard]] double legDuration(double length_m) const;
   void appendStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                       std::vector<trajectory::Piece>& pieces) const;
 
