@@ -105,8 +105,7 @@ class GlobalOptimizer::Solver {
     const StopAndSpin spinning(vessel_, spinLimits(limits), limits);
     Optimized plain;
     plain.last_resort = true;
-    for (const auto& stops :
-         {spinning.quickestStops(obstacles.field(), path, start, goal), path}) {
+    for (const auto& stops : {spinning.quickestStops(obstacles.field(), path, start, goal), path}) {
       plain.trajectory = spinning.follow(stops, start, goal);
       plain.verification =
           feasibility::verify(plain.trajectory, obstacles, vessel_, start, goal, limits);
@@ -163,7 +162,7 @@ class GlobalOptimizer::Solver {
         quicken(stop);
         return true;
       }
-      const bool hopeless = round >= kPatience && excess() > kHopeless;
+      const bool hopeless = round >= kPatience && excess_ > kHopeless;
       if (hopeless || outOfTime()) {
         return false;
       }
@@ -258,23 +257,18 @@ class GlobalOptimizer::Solver {
     }
   }
 
-  [[nodiscard]] double excess() const {
-    return worstExcess(result_.trajectory, vessel_, limits_, start_->psi_rad);
-  }
-
   // Verifies; what asks for a little too much thrust is slowed down: between the manoeuvres time
   // runs slower by a factor, which leaves the shape as it is but for the pieces next to them.
   void verifyDilated(double dilation_max) {
     constexpr int kTries = 6;
     const Spline shape = spline_;
-    result_.trajectory = assembled();
-    for (int i = 0; i < kTries; ++i) {
-      const double excess = this->excess();
-      if (excess <= 0.0 || excess > dilation_max) {
+    for (int i = 0; i <= kTries; ++i) {
+      result_.trajectory = assembled();
+      excess_ = worstExcess(result_.trajectory, vessel_, limits_, start_->psi_rad);
+      if (excess_ <= 0.0 || excess_ > dilation_max) {
         break;
       }
-      dilate(1.0 + 0.7 * excess + 0.001, spline_);
-      result_.trajectory = assembled();
+      dilate(1.0 + 0.7 * excess_ + 0.001, spline_);
     }
     result_.verification =
         feasibility::verify(result_.trajectory, *obstacles_, vessel_, *start_, *goal_, limits_);
@@ -288,16 +282,17 @@ class GlobalOptimizer::Solver {
   // What failed is wanted more strictly, and its weight raised.
   void tighten() {
     const feasibility::Verification& v = result_.verification;
-    if (vessel::paperHolds(vessel_) && excess() > kSpike) {
-      problem_.targets.limits.heading_force_n *= kFirmerHeading;
+    if (vessel::paperHolds(vessel_) && excess_ > kSpike) {
+      double& wanted_n = problem_.targets.limits.heading_force_n;
+      wanted_n = std::min(kFirmerHeading * wanted_n, mostHeadingForce(vessel_, limits_));
     }
     if (v.thrust_share > limits_.thrust_share && !vessel::paperHolds(vessel_)) {
       keepThrustWhereItLacks();
     } else if (v.thrust_share > limits_.thrust_share) {
       // Slowing down takes little off what a load asks for: then the worst of it counts, wherever.
-      const double excess = std::min(underLoad() ? limits_.thrust_share * this->excess()
-                                                 : v.thrust_share - limits_.thrust_share,
-                                     0.04);
+      const double excess = std::min(
+          underLoad() ? limits_.thrust_share * excess_ : v.thrust_share - limits_.thrust_share,
+          0.04);
       problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
       problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
       problem_.targets.weights.dynamics *= kWeightGrowth;
@@ -433,6 +428,7 @@ class GlobalOptimizer::Solver {
   EndChooser chooser_{vessel_, limits_, end_options_};
   ChosenEnds chosen_;
   Optimized result_;
+  double excess_ = 0.0;  // the worst of result_'s, as a share of the limit
   feasibility::SafetyLimits limits_;
   const feasibility::Obstacles* obstacles_ = nullptr;
   const trajectory::Boundary* start_ = nullptr;

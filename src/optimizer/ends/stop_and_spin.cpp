@@ -1,6 +1,7 @@
 #include "optimizer/ends/stop_and_spin.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,7 @@ constexpr double kSamePointM = 0.02;
 constexpr double kStandstillS = 0.1;  // a trajectory that has nothing to do lasts this long
 constexpr double kLeastLegS = 1.2;    // a shorter leg would jerk the hull for nothing
 constexpr double kSameHeadingRad = 1e-9;
+constexpr int kTurns = 64;                 // in half a circle, whose times are compared
 constexpr double kAsideM[] = {0.15, 0.4};  // a stop may stand so much farther off than the path
 
 // Peaks over [0, 1] of the degree-7 step s(x) = 35 x^4 - 84 x^5 + 70 x^6 - 20 x^7 (rest to rest,
@@ -27,8 +29,7 @@ double StopAndSpin::legDuration(double length_m) const {
   const vessel::PaperModel& m = vessel_.paper;
   const double force = 0.95 * safety_.thrust_share * 2.0 *
                        std::min(vessel_.thrusters.ahead_max_n, vessel_.thrusters.astern_max_n);
-  const double least =
-      std::max(kLeastLegS, kPeakSpeed * length_m / (0.95 * safety_.speed_max_mps));
+  const double least = std::max(kLeastLegS, kPeakSpeed * length_m / (0.95 * safety_.speed_max_mps));
   // d1 peak_v / T + m1 peak_a / T^2 <= force
   const double b = m.d1_kgps * kPeakSpeed * length_m;
   const double c = m.m1_kg * kPeakAcceleration * length_m;
@@ -72,6 +73,13 @@ std::vector<Eigen::Vector2d> StopAndSpin::quickestStops(const map::DistanceField
     }
   }
   places.push_back({goal.flat.position, path.size()});
+  std::array<double, kTurns + 1> turns_s{};
+  for (int k = 1; k <= kTurns; ++k) {
+    turns_s[static_cast<std::size_t>(k)] = spinDuration(kPi / kTurns * k, vessel_, spin_);
+  }
+  const auto spins_s = [&](double turn_rad) {
+    return turns_s[static_cast<std::size_t>(std::abs(wrapAngle(turn_rad)) / kPi * kTurns + 0.5)];
+  };
   for (std::size_t a = 0; a + 1 < places.size(); ++a) {
     const Place from = places[a];
     for (std::size_t b = a + 1; b < places.size() && std::isfinite(from.reached_s); ++b) {
@@ -80,11 +88,14 @@ std::vector<Eigen::Vector2d> StopAndSpin::quickestStops(const map::DistanceField
       if (to.order == from.order || leg.norm() < kSamePointM) {
         continue;
       }
+      double reached = from.reached_s + legDuration(leg.norm());
+      if (reached >= to.reached_s) {
+        continue;
+      }
       const double psi = std::atan2(leg.y(), leg.x());
-      double reached = from.reached_s + legDuration(leg.norm()) +
-                       spinDuration(wrapAngle(psi - from.psi_rad), vessel_, spin_);
+      reached += spins_s(psi - from.psi_rad);
       if (b + 1 == places.size()) {
-        reached += spinDuration(wrapAngle(goal.psi_rad - psi), vessel_, spin_);
+        reached += spins_s(goal.psi_rad - psi);
       }
       if (reached < to.reached_s &&
           map::segmentIsClear(field, from.position, to.position, safety_.clearance_m)) {

@@ -29,7 +29,7 @@ constexpr double kThrustShare = 0.95 / 0.97;
 constexpr double kSpeedShare = 4.85 / 4.9;
 constexpr double kYawRateShare = 1.8 / 1.989;
 constexpr double kHeadingForceShare = 0.08;  // least |w| while turning, of both thrusters ahead
-constexpr double kSwayDragShare = 0.5;       // and of what holds it at the speed limit, at most
+constexpr double kSwayDragShare = 0.5;       // of what holds |w| at the speed limit
 
 struct Care {
   bool careful;
@@ -63,7 +63,7 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   limits.slowing_from_s = safety.slowing_from_s;
   limits.yaw_rate_radps = kYawRateShare * safety.yaw_rate_max_radps / slow;
   limits.heading_force_n = std::min(kHeadingForceShare * 2.0 * vessel.thrusters.ahead_max_n,
-                                    kSwayDragShare * vessel.paper.d2_kgps * safety.speed_max_mps);
+                                    mostHeadingForce(vessel, safety));
   return limits;
 }
 
@@ -103,6 +103,10 @@ EndOptions endsOf(const Care& care, const vessel::Parameters& vessel,
 }
 
 }  // namespace
+
+double mostHeadingForce(const vessel::Parameters& vessel, const feasibility::SafetyLimits& safety) {
+  return kSwayDragShare * vessel.paper.d2_kgps * safety.speed_max_mps;
+}
 
 Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parameters& vessel,
                   const feasibility::SafetyLimits& safety, double cell_m) {

@@ -18,6 +18,11 @@ struct Attempt {
   EndOptions ends;
 };
 
+// The most that may be wanted of the force |w| by which a vessel turns, N: more would ask it to
+// speed up all along.
+[[nodiscard]] double mostHeadingForce(const vessel::Parameters& vessel,
+                                      const feasibility::SafetyLimits& safety);
+
 // Limits and weights are those of the spline, whose time runs slow by feasibility::speedShare.
 // `number` counts from 0; `cell_m` is the map's resolution.
 [[nodiscard]] Attempt attemptOf(int number, const GlobalOptions& options,
