@@ -14,18 +14,17 @@ Demand atRest(const ManoeuvringModel& model, const Disturbance& disturbance, dou
 
 }  // namespace
 
-double setAside(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad) {
+double driftAbeam(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad) {
   const double cosine = std::cos(psi_rad);
   const double sine = std::sin(psi_rad);
-  const double abeam = std::abs(outsideForce(cosine, sine, model, disturbance).sway);
-  const bool to_port = outsideForce(cosine, sine, model, disturbance).sway > 0.0;
+  const double pushed = outsideForce(cosine, sine, model, disturbance).sway;
+  const double abeam = std::abs(pushed);
   // d v + q v^2 = |Y|
   const double d = model.sway_drag_kgps;
   const double q = model.sway_drag_quadratic_kgpm;
   const double through = 2.0 * abeam / (d + std::sqrt(d * d + 4.0 * q * abeam) + 1e-12);
   const Eigen::Vector2d& current = disturbance.current_mps;
-  return std::abs((to_port ? through : -through) +
-                  portPart(cosine, sine, current.x(), current.y()));
+  return std::copysign(through, pushed) + portPart(cosine, sine, current.x(), current.y());
 }
 
 double headingIntoLoad(const ManoeuvringModel& model, const Disturbance& disturbance,

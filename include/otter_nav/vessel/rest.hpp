@@ -3,6 +3,8 @@
 // load always, as long as the thrust lasts.
 #pragma once
 
+#include <cmath>
+
 #include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -11,10 +13,15 @@ namespace otter_nav::vessel {
 // Faster is not at rest.
 constexpr double kRestMps = 0.25;
 
-// At which speed over ground, m/s, a hull that makes no way along its heading is set aside: its
-// sway drag balances the load abeam, and the current carries it.
-[[nodiscard]] double setAside(const ManoeuvringModel& model, const Disturbance& disturbance,
-                              double psi_rad);
+// The speed over ground, m/s and to port, of a hull that makes no way along its heading: its sway
+// drag balances the load abeam, and the current carries it.
+[[nodiscard]] double driftAbeam(const ManoeuvringModel& model, const Disturbance& disturbance,
+                                double psi_rad);
+// How fast that sets it aside, to whichever side.
+[[nodiscard]] inline double setAside(const ManoeuvringModel& model, const Disturbance& disturbance,
+                                     double psi_rad) {
+  return std::abs(driftAbeam(model, disturbance, psi_rad));
+}
 // Whether it lies on that heading: set aside by no more than `most_mps`.
 [[nodiscard]] inline bool canLie(const ManoeuvringModel& model, const Disturbance& disturbance,
                                  double psi_rad, double most_mps = kRestMps) {

@@ -8,6 +8,7 @@
 #include "optimizer/ends/forced_motion.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
+#include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -24,8 +25,6 @@ constexpr double kBrakeSpeedShare = 0.9;
 constexpr double kAheadShare = 0.5;       // of the full force, before that
 constexpr double kDriftForceShare = 0.4;  // of full astern, at most, while turning at the goal
 constexpr double kLeastBrakeShare = 0.1;  // of the force astern, that is left against a load
-constexpr double kFastestDriftMps = 3.0;
-constexpr int kHalvings = 30;
 constexpr double kLongAgoS = -1e3;
 // Of full ahead against full astern: less is left to turn by only where no turn would verify.
 constexpr double kLeastMomentShare = 0.02;
@@ -151,20 +150,13 @@ double driftForce(double turn_rad, const vessel::Parameters& vessel, const Manoe
   return force;
 }
 
-// With which a hull lies ahead along the x axis under a load from abeam: by the manoeuvring model
-// it comes to rest ahead and drifts on so. By the paper's it is led to rest on both axes.
-Eigen::Vector2d driftAbeam(const vessel::Parameters& vessel,
-                           const vessel::Disturbance& disturbance) {
-  double low = -kFastestDriftMps;
-  double high = kFastestDriftMps;
-  for (int i = 0; i < kHalvings && !vessel::paperHolds(vessel); ++i) {
-    const double v = 0.5 * (low + high);
-    const double missing = vessel::demandOf(vessel.manoeuvring, disturbance, 0.0, 0.0, 0.0,
-                                            {0.0, v}, Eigen::Vector2d::Zero())
-                               .sway_n;
-    (missing < 0.0 ? low : high) = v;
-  }
-  return {0.0, low + high == 0.0 ? 0.0 : 0.5 * (low + high)};
+// Over ground, of a hull that lies along the x axis under a load from abeam: by the manoeuvring
+// model it comes to rest ahead and drifts on so. By the paper's it is led to rest on both axes.
+Eigen::Vector2d restingDrift(const vessel::Parameters& vessel,
+                             const vessel::Disturbance& disturbance) {
+  return {0.0, vessel::paperHolds(vessel)
+                   ? 0.0
+                   : vessel::driftAbeam(vessel.manoeuvring, disturbance, 0.0)};
 }
 
 // A turn on the spot to `position`, followed forward from rest: what the turn and the load push
@@ -296,7 +288,7 @@ Manoeuvre arrival(const Eigen::Vector2d& position, double psi_rad, double turn_r
     ramps.push_back({kLongAgoS, kLongAgoS, -brake_n, -brake_n});
   }
   ForcedMotion forced(vessel, disturbance, turn ? &*turn : nullptr, std::move(ramps));
-  const Eigen::Vector2d drift = driftAbeam(vessel, disturbance);
+  const Eigen::Vector2d drift = restingDrift(vessel, disturbance);
   BackwardMotion back(forced, end_s, drift);
   back.reach(braked_s);
   // Full astern: v = (v_0 + F / d1) exp(-(t - t_0) d1 / m1) - F / d1, here backward; F is what the
