@@ -33,6 +33,9 @@ constexpr double kWindMostMps = 20.0;
 // The middle of the waves' band and their relative damping.
 constexpr double kWaveRadps = 2.0;
 constexpr double kWaveDamping = 0.2;
+// Hull's lengths a second, at which waves begin to be steered against, and are altogether.
+constexpr double kCrawlingPerS = 0.6;
+constexpr double kSailingPerS = 0.9;
 
 }  // namespace
 
@@ -42,7 +45,10 @@ using vessel::kSway;
 using vessel::kYawRate;
 
 Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel)
-    : options_(options), model_(vessel.manoeuvring), thrusters_(vessel.thrusters) {
+    : options_(options),
+      length_m_(vessel.hull.length_m),
+      model_(vessel.manoeuvring),
+      thrusters_(vessel.thrusters) {
   const auto& o = options_;
   measurement_variance_ << o.position_sigma_m, o.position_sigma_m, o.heading_sigma_rad,
       o.velocity_sigma_mps, o.velocity_sigma_mps, o.yaw_rate_sigma_radps;
@@ -115,6 +121,21 @@ vessel::State Estimator::innovation(const vessel::State& measured) const {
   difference[kYawRate] -= wave_rate_[2];
   difference[kPsi] = wrapAngle(difference[kPsi]);
   return difference;
+}
+
+vessel::State Estimator::steered() const {
+  const double pace = std::abs(state_[kSurge]) / length_m_;
+  const double x = std::clamp((pace - kCrawlingPerS) / (kSailingPerS - kCrawlingPerS), 0.0, 1.0);
+  const double share = x * x * (3.0 - 2.0 * x);
+  const double c = std::cos(state_[kPsi]);
+  const double s = std::sin(state_[kPsi]);
+  vessel::State steered = state_;
+  steered.head<2>() += share * wave_.head<2>();
+  steered[kPsi] += wave_[2];
+  steered[kSurge] += share * (c * wave_rate_[0] + s * wave_rate_[1]);
+  steered[kSway] += share * (-s * wave_rate_[0] + c * wave_rate_[1]);
+  steered[kYawRate] += wave_rate_[2];
+  return steered;
 }
 
 // Loads k |q_i| q_i / |q| and k q_x q_y / |q| over q, seen from the body.

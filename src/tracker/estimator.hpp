@@ -26,7 +26,12 @@ class Estimator {
   // psi of `measured` is taken modulo a turn.
   void update(const vessel::State& measured);
 
+  // Without the motion with the waves.
   [[nodiscard]] const vessel::State& state() const { return state_; }
+  // What to steer by: at crawling pace where it would be without the waves, against which a hull
+  // without a side thruster could only swing; with them at speed, where a small turn makes up for
+  // what they do. The heading is with them always.
+  [[nodiscard]] vessel::State steered() const;
   [[nodiscard]] const vessel::Disturbance& disturbance() const { return disturbance_; }
   // The same with its covariance; that of the wind, whose state is another, to first order.
   [[nodiscard]] vessel::DisturbanceEstimate disturbanceEstimate() const;
@@ -38,7 +43,7 @@ class Estimator {
   // the loads are of the first degree in it, so it has no dead spot in calm air.
   static constexpr int kForce = 6, kMoment = 8, kCurrent = 9, kWind = 11;
   // Motion with the waves, x, y, psi, and its rates: an oscillator each, driven by noise (Fossen
-  // 2021, section 13.3). It is measured and not steered against.
+  // 2021, section 13.3).
   static constexpr int kWave = 13, kWaveRate = 16, kSize = 19;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
 
@@ -50,6 +55,7 @@ class Estimator {
   void limit();
 
   EstimatorOptions options_;
+  double length_m_;
   vessel::ManoeuvringModel model_;
   vessel::Thrusters thrusters_;
   vessel::State state_ = vessel::State::Zero();

@@ -129,7 +129,7 @@ Fix Navigator::fix(double now_s) const {
 }
 
 vessel::State Navigator::predict(double time_s) const {
-  vessel::State x = estimator_.state();
+  vessel::State x = estimator_.steered();
   vessel::Thrusts acting = acting_;
   const double until = std::min(time_s, stamp_s_ + 5.0);
   forEachPiece(until, acting, [&](const vessel::Thrusts& thrusts, double dt) {

@@ -49,8 +49,8 @@ struct EstimatorOptions {
   double velocity_sigma_mps = 0.02;
   double yaw_rate_sigma_radps = 0.01;
   double current_walk_mps = 0.0;
-  double wave_velocity_mps = 0.0;
-  double wave_yaw_rate_radps = 0.0;
+  double wave_velocity_mps = 0.1;
+  double wave_yaw_rate_radps = 0.05;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
@@ -64,7 +64,7 @@ struct EstimatorOptions {
     fields("current_walk_mps", o.current_walk_mps, kNotNegative,
            "per sqrt(s); 0: no current is estimated, the force carries it");
     fields("wave_velocity_mps", o.wave_velocity_mps, kNotNegative,
-           "of motion with the waves that the propellers leave alone; 0: none");
+           "of motion with the waves, which the propellers leave alone at crawling pace; 0: none");
     fields("wave_yaw_rate_radps", o.wave_yaw_rate_radps, kNotNegative, "of the same");
   }
 };

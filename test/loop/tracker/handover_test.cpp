@@ -1,4 +1,5 @@
 // The tracker against the plant at the ends of trajectories: starts, takeovers, station keeping.
+#include "otter_nav/base/angles.hpp"
 #include "vessel_at_sea.hpp"
 
 namespace otter_nav::tracker {
@@ -80,6 +81,32 @@ TEST(Handover, HoldsTheSpotInTheWeatherOfThePaper) {
     }
     EXPECT_LT(std::sqrt(squares / seconds), most_m) << vessel;
   }
+}
+
+// At crawling pace a hull without a side thruster could only swing against waves from abeam.
+TEST(Handover, CrawlsWithoutSwingingAgainstTheWaves) {
+  constexpr double kSpeedMps = 0.6;
+  constexpr double kDurationS = 130.0;
+  VesselAtSea sea("paper", 0.0, "otter");
+  sea.plant().placeAt({0.0, 0.0}, 0.5 * kPi);
+  vessel::FlatPoint start;
+  vessel::FlatPoint end;
+  start.velocity = end.velocity = {0.0, kSpeedMps};
+  end.position = {0.0, kSpeedMps * kDurationS};
+  ASSERT_TRUE(sea.tracker().setTrajectory(
+      trajectory::Trajectory({trajectory::hermitePiece(start, end, kDurationS)}), sea.now()));
+  sea.sail(20.0);
+  double headings = 0.0;
+  double corners = 0.0;  // the farthest one's distance beside the way
+  constexpr int kTimes = 400;
+  for (int i = 0; i < kTimes; ++i) {
+    sea.sail(0.25);
+    const double off = sea.truth()[vessel::kPsi] - 0.5 * kPi;
+    headings += off * off / kTimes;
+    corners += std::pow(std::abs(sea.truth()[0]) + std::abs(std::sin(off)), 2) / kTimes;
+  }
+  EXPECT_LT(std::sqrt(headings), 0.08);
+  EXPECT_LT(std::sqrt(corners), 0.16);
 }
 
 // A fresh wind on the beam: the hull cannot push sideways, so it turns along the load.

@@ -33,7 +33,9 @@ struct Sea {
   double wave_m = 0.0;
   double wave_radps = 2.0;
 
-  vessel::Thrusts thrusts() const { return {20.0, 24.0}; }
+  double push_n = 22.0;  // of each thruster, more or less
+
+  vessel::Thrusts thrusts() const { return {push_n - 2.0, push_n + 2.0}; }
   void advance() {
     x = rk4Step(
         [&](double, const vessel::State& s) {
@@ -120,6 +122,30 @@ TEST(Estimator, LeavesWaveMotionAside) {
   const double with = worstVelocityError(options);
   EXPECT_GT(without, 0.05);
   EXPECT_LT(with, 0.25 * without);
+}
+
+// How far what is steered by is off the measured position at most, in waves of 0.1 m.
+double worstPositionLeftOut(double push_n) {
+  Sea sea;
+  sea.push_n = push_n;
+  sea.wave_m = 0.1;
+  Estimator estimator(shipped(), sea.vessel);
+  estimator.reset(sea.measured());
+  double worst = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    sea.advance();
+    estimator.predict(sea.thrusts(), kStepS);
+    estimator.update(sea.measured());
+    if (i > 4000) {
+      worst = std::max(worst, (estimator.steered() - sea.measured()).head<2>().norm());
+    }
+  }
+  return worst;
+}
+
+TEST(Estimator, IsSteeredAgainstWavesAtSpeedAlone) {
+  EXPECT_GT(worstPositionLeftOut(10.0), 0.06);
+  EXPECT_LT(worstPositionLeftOut(90.0), 0.03);
 }
 
 }  // namespace
