@@ -63,6 +63,9 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   const double clearance =
       planClearance(options_, levels_.level(), weather_.gustReach(), vessel_.hull, room_m);
   auto limits = feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
+  if (weather_.isKnown()) {
+    limits.speed_max_mps = weather_.sailingSpeed(limits.speed_max_mps);
+  }
   constexpr double kLeeShares[] = {1.0, 0.5, 0.25, 0.1};  // by level
   limits.drift_m =
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();

@@ -258,9 +258,14 @@ class Supervisor::Impl {
   // Broadside to where it should point and carried off.
   bool hasLostItsHeading(const Moment& m) {
     constexpr double kLostRad = 0.8;
+    constexpr double kFirmShare = 0.25;  // of the thrust; with less the path wants no heading
     const trajectory::Sample wanted =
         sailed_.trajectory.sample(sailed_.elapsed(m.now_s), vessel_, planned_disturbance_);
-    return weather().isKnown() &&
+    const bool spins = std::isinf(wanted.heading_force_n);
+    const bool firm =
+        spins ? vessel::canLie(vessel_.manoeuvring, weather().mean(), wanted.state[vessel::kPsi])
+              : wanted.heading_force_n > kFirmShare * 2.0 * vessel_.thrusters.ahead_max_n;
+    return weather().isKnown() && firm &&
            m.situation.tracking_error_m > 0.5 * options_.tracking_error_max_m &&
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
                kLostRad;
@@ -278,19 +283,21 @@ class Supervisor::Impl {
     if (!isFarOff(m)) {
       off_since_s_ = m.now_s;
     }
-    // Where the wind can take the heading a plan from there leads nowhere: at rest, bow to it,
-    // there is a better.
+    // Where the wind can take the heading, with something near, a plan from there leads nowhere: at
+    // rest, bow to it, there is a better.
     constexpr double kStrongShare = 0.4;  // of the thrusters' moment
+    constexpr double kNearShare = 0.5;    // of what a lost heading takes
+    const vessel::State& x = m.situation.state;
+    const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
     const double moment_nm = vessel::greatestMoment(vessel_.thrusters);
-    const double patience_s =
-        weather().greatestMoment() > kStrongShare * moment_nm ? 0.0 : kPatienceS;
+    const bool hurries = weather().greatestMoment() > kStrongShare * moment_nm &&
+                         here < kNearShare * weather().drift().norm();
+    const double patience_s = hurries ? 0.0 : kPatienceS;
     if (isFarOff(m) && m.now_s - off_since_s_ >= patience_s) {
       return true;
     }
-    const vessel::State& x = m.situation.state;
     const Eigen::Vector2d velocity =
         Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
-    const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
     for (double later = kStepS; later <= kAheadS; later += kStepS) {
       const double there = m.obstacles.clearance(x.head<2>() + later * velocity, m.now_s + later);
       if (there < safety().critical() && there < here) {

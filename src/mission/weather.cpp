@@ -6,6 +6,7 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/rest.hpp"
+#include "otter_nav/vessel/steady_motion.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::mission {
@@ -20,6 +21,11 @@ constexpr double kDeviations = 2.0;
 constexpr double kPriorGust = 0.2;  // of the mean, while little was seen
 constexpr double kNextS = 6.0;      // how long a gust may last
 constexpr int kHeadings = 36;
+constexpr double kThrustShare = 0.95;  // of the limits, that the mean may take
+// Of the thrust: with less no heading follows from the path. A gust may have the hull astern by as
+// much for a while.
+constexpr double kAheadShare = 0.15;
+constexpr double kNotHeld = 2.0;  // a turning share of what isn't possible at all
 
 // A force `f` on a mass `m` with linear drag `d`, from rest, for `t` seconds: distance and speed.
 struct Push {
@@ -36,6 +42,10 @@ Push push(double force_n, double mass_kg, double drag_kgps, double time_s) {
 double dragAt(const vessel::ManoeuvringModel& m, double force_n) {
   const double d = m.sway_drag_kgps;
   return 0.5 * (d + std::sqrt(d * d + 4.0 * m.sway_drag_quadratic_kgpm * force_n));
+}
+
+double courseOf(const Eigen::Vector2d& velocity) {
+  return std::atan2(velocity.y(), velocity.x());
 }
 
 template <typename Visit>
@@ -132,6 +142,64 @@ double Weather::gustShare() const {
     most = std::max(most, each_n / t.ahead_max_n);
   });
   return std::min(1.0, most);
+}
+
+double Weather::turningShare(const Eigen::Vector2d& velocity, const Disturbance& hard) const {
+  const vessel::Thrusters& t = vessel_.thrusters;
+  double least = kNotHeld;
+  for (const vessel::SteadyMotion& motion :
+       vessel::steadyHeadings(velocity, courseOf(velocity), vessel_, hard)) {
+    if (motion.thrusts.sum() > -kAheadShare * 2.0 * t.ahead_max_n) {
+      const double difference = motion.thrusts[vessel::kRight] - motion.thrusts[vessel::kLeft];
+      least = std::min(least, std::abs(difference) * t.lever_arm_m / vessel::greatestMoment(t));
+    }
+  }
+  return least;
+}
+
+bool Weather::hasThrustFor(const Eigen::Vector2d& velocity) const {
+  const auto motions = vessel::steadyHeadings(velocity, courseOf(velocity), vessel_, mean_);
+  return std::any_of(motions.begin(), motions.end(), [&](const auto& motion) {
+    return motion.thrust_share <= kThrustShare &&
+           motion.thrusts.sum() > kAheadShare * 2.0 * vessel_.thrusters.ahead_max_n;
+  });
+}
+
+double Weather::sailingSpeed(double usual_mps) const {
+  constexpr double kEnough = 0.75;   // of the thrusters' moment, for the gust
+  constexpr double kSlowest = 0.12;  // of the top speed; slower, the hull hardly answers
+  constexpr double kFastest = 0.8;
+  constexpr double kStep = 0.04;
+  constexpr double kWorth = 0.02;  // of the moment, for going slower
+  constexpr int kCourses = 12;
+  const Disturbance hard = gust();
+  const auto worst = [&](double speed, bool with_thrust) {
+    double share = 0.0;
+    for (int k = 0; k < kCourses; ++k) {
+      const double course = k * 2.0 * kPi / kCourses;
+      const Eigen::Vector2d velocity = speed * Eigen::Vector2d(std::cos(course), std::sin(course));
+      share = std::max(
+          share, with_thrust && !hasThrustFor(velocity) ? kNotHeld : turningShare(velocity, hard));
+    }
+    return share;
+  };
+  double least = worst(usual_mps, false);
+  if (least <= kEnough) {
+    return usual_mps;
+  }
+  double best = usual_mps;
+  for (double at = kFastest; at >= kSlowest - 1e-9; at -= kStep) {
+    const double speed = at * vessel_.top_speed_mps;
+    const double share = speed < usual_mps ? worst(speed, true) : kNotHeld;
+    if (share <= kEnough) {
+      return speed;
+    }
+    if (share < least - kWorth) {
+      least = share;
+      best = speed;
+    }
+  }
+  return best;
 }
 
 // The gust's force beside the mean's comes all at once and lasts. The hull answers by turning

@@ -31,6 +31,10 @@ class Weather {
   // Of a thruster's limit that the gust takes beside the mean, at the heading where it is most:
   // what plans leave over. In [0, 1].
   [[nodiscard]] double gustShare() const;
+  // The speed over ground, m/s, to sail at: `usual_mps` where the gust leaves moment enough to hold
+  // the headings of all courses, else the fastest that does, or the one that leaves most
+  // (docs/weather.md).
+  [[nodiscard]] double sailingSpeed(double usual_mps) const;
   // How far, m, the gust sets a tracked hull aside at most (docs/weather.md).
   [[nodiscard]] double gustReach() const;
   // How far a hull that lost its heading is set aside in gusts until it lies into the wind, and
@@ -47,6 +51,13 @@ class Weather {
     // The mean scaled by this is the gust's.
     [[nodiscard]] double extreme(double prior) const;
   };
+
+  // Of the thrusters' moment, what `hard` takes at this velocity over ground on the heading that
+  // suits it best; more than 1 where the path says nothing of the heading.
+  [[nodiscard]] double turningShare(const Eigen::Vector2d& velocity,
+                                    const vessel::Disturbance& hard) const;
+  // Whether the mean leaves thrust for it.
+  [[nodiscard]] bool hasThrustFor(const Eigen::Vector2d& velocity) const;
 
   vessel::Parameters vessel_;
   vessel::Disturbance mean_;

@@ -310,6 +310,38 @@ TEST(SupervisorInWind, AHeadingLostInAGustEndsBowToTheWind) {
   }
 }
 
+// 60 N from astern leave the path 20 N to point the bow with: it may lie as it likes.
+TEST(SupervisorInWind, NoHeadingIsLostWhereThePathWantsNone) {
+  for (const double push_n : {0.0, 60.0}) {
+    ScriptedMission mission;
+    blow(mission, 60.0, [&](double) { return Vector2d(push_n, 0.0); });
+    mission.setOut(6.0);
+    Situation turned = mission.situation();
+    turned.state[vessel::kPsi] += 1.4;
+    turned.tracking_error_m = 1.0;
+    const Orders orders = mission.supervisor.update(mission.now_s, turned, mission.field);
+    EXPECT_EQ(orders.stop, push_n == 0.0);
+  }
+}
+
+// Half of the thrusters' moment is taken, and 30 N set a lost hull aside by 4.5 m in three seconds.
+TEST(SupervisorInWind, HasNoPatienceOffItsTrajectoryWithSomethingNear) {
+  for (const bool near : {true, false}) {
+    ScriptedMission mission;
+    mission.disturbance.moment_nm = 20.0;
+    blow(mission, 5.0, [](double) { return Vector2d(-30.0, 0.0); });
+    mission.setOut(6.0);
+    Situation aside = mission.situation();
+    aside.tracking_error_m = 2.0;
+    if (near) {
+      const Vector2d here = aside.state.head<2>();
+      mission.put(here + Vector2d(-2.0, 1.8), here + Vector2d(2.0, 3.0));
+    }
+    const Orders orders = mission.supervisor.update(mission.now_s, aside, mission.field);
+    EXPECT_EQ(orders.stop, near);
+  }
+}
+
 TEST(SupervisorInWind, HoldsAndRefusesWhereTheThrustDoesNotSuffice) {
   ScriptedMission mission;
   const Force gale = [](double) { return Vector2d(0.0, 120.0); };

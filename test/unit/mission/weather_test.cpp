@@ -8,6 +8,8 @@
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/base/rk4.hpp"
 #include "otter_nav/vessel/model.hpp"
+#include "otter_nav/vessel/steady_motion.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -61,6 +63,40 @@ TEST(Weather, CalmAsksForNothing) {
   EXPECT_EQ(weather.gustShare(), 0.0);
   EXPECT_EQ(weather.gustReach(), 0.0);
   EXPECT_EQ(weather.drift().norm(), 0.0);
+}
+
+// The least share of the thrusters' moment that holds a heading on the worst course.
+double worstMoment(const vessel::Parameters& vessel, const vessel::Disturbance& wind,
+                   double speed_mps) {
+  double worst = 0.0;
+  for (double course = 0.0; course < 2.0 * kPi; course += 0.1) {
+    const Vector2d velocity = speed_mps * Vector2d(std::cos(course), std::sin(course));
+    double least = 10.0;
+    for (const vessel::SteadyMotion& motion :
+         vessel::steadyHeadings(velocity, course, vessel, wind)) {
+      const double moment_nm = vessel::tauFromThrusts(motion.thrusts, vessel.thrusters).yaw_nm;
+      if (motion.thrusts.sum() > 0.0) {
+        least = std::min(least, std::abs(moment_nm) / vessel::greatestMoment(vessel.thrusters));
+      }
+    }
+    worst = std::max(worst, least);
+  }
+  return worst;
+}
+
+TEST(Weather, SailsSlowlyWhereGustsTakeTheMomentThatHoldsTheHeadings) {
+  const vessel::Parameters vessel = windy();
+  const auto gusty = [](double mean) {
+    return [mean](double t) { return mean * (1.0 + 0.2 * std::sin(t)); };
+  };
+  const Weather light = felt(vessel, 60.0, gusty(4.0));
+  EXPECT_EQ(light.sailingSpeed(4.0), 4.0);
+  const Weather strong = felt(vessel, 60.0, gusty(8.0));
+  const double speed = strong.sailingSpeed(2.0);
+  EXPECT_LT(speed, 1.0);
+  EXPECT_GT(speed, 0.5);
+  EXPECT_GT(worstMoment(vessel, strong.gust(), 2.0), 0.9);
+  EXPECT_LT(worstMoment(vessel, strong.gust(), speed), 0.8);
 }
 
 TEST(Weather, GustsAskForMoreTheFasterTheyAre) {
