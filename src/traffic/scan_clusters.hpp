@@ -12,11 +12,20 @@ namespace otter_nav::traffic {
 
 class ScanClusters {
  public:
+  struct Echo {
+    std::size_t beam = 0;
+    Eigen::Vector2d point;
+    double range_m = 0.0;  // over ground
+    bool is_new = false;
+    bool stands = false;
+  };
   ScanClusters(const map::OccupancyGrid& chart, const vessel::Hull& own_hull);
 
   // In the order of the beams. The reference stays valid until the next scan.
   const std::vector<Cluster>& gather(double stamp_s, const map::SensorPose& sensor,
                                      const map::HullPose& own, const map::Scan& scan);
+  // All that the scan gathered last has met, but for charted land and the own hull.
+  [[nodiscard]] const std::vector<Echo>& echoes() const { return echoes_; }
   // How much of something at `position` could be seen in the scan gathered last: all of it (1), a
   // part (0.5: its far end is out of range), or nothing (0: it is out of range, behind something
   // nearer, or where the waves hide it). What is met up to `near_m` before it is the thing itself;
@@ -25,13 +34,6 @@ class ScanClusters {
                                double beam_m) const;
 
  private:
-  struct Echo {
-    std::size_t beam = 0;
-    Eigen::Vector2d point;
-    double range_m = 0.0;  // over ground
-    bool is_new = false;
-    bool stands = false;
-  };
   [[nodiscard]] bool isCharted(const Eigen::Vector2d& point) const;
   void readEchoes(const map::SensorPose& sensor, const map::HullPose& own, const map::Scan& scan);
   void remember();

@@ -127,7 +127,7 @@ class Tracker::Impl {
     }
     unite();
     judge(stamp_s);
-    findOnVessels(clusters);
+    findOnVessels();
     return verdict_;
   }
 
@@ -521,7 +521,8 @@ class Tracker::Impl {
     }
   }
 
-  void findOnVessels(const std::vector<Cluster>& clusters) {
+  // Also echoes too few to be a thing: of a hull that comes into range, or dips behind a wave.
+  void findOnVessels() {
     for (const TrackedVessel& vessel : vessels_) {
       if (!vessel.confirmed || !vessel.has_moved) {
         continue;
@@ -529,11 +530,9 @@ class Tracker::Impl {
       PredictionOptions now;
       now.horizon_s = 0.0;
       const Outline outline = PredictedWay(vessel.track(), now).at(vessel.motion.stamp());
-      for (const Cluster& cluster : clusters) {
-        for (std::size_t k = 0; k < cluster.points.size(); ++k) {
-          if (outline.distanceTo(cluster.points[k]).distance_m < kOutlineMarginM) {
-            verdict_.on_vessel[cluster.beams[k]] = true;
-          }
+      for (const ScanClusters::Echo& echo : clusters_.echoes()) {
+        if (outline.distanceTo(echo.point).distance_m < kOutlineMarginM) {
+          verdict_.on_vessel[echo.beam] = true;
         }
       }
     }

@@ -256,6 +256,29 @@ std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double k
   return encode(m, 'A', 0).value().front();
 }
 
+// Of a hull that just comes into range two beams may tell: hers too, not a thing that stands.
+TEST(TrafficTracker, TellsTheMapOfSingleEchoes) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  for (int k = 0; k <= 20; ++k) {
+    ASSERT_TRUE(tracker.addAis(k, report(257000004, {2.0 * k, 0.0}, 2.0 / ais::kKnotMps, 90.0)));
+  }
+  map::Scan scan;
+  scan.angle_min_rad = -kPi;
+  scan.angle_increment_rad = 2.0 * kPi / 720.0;
+  scan.range_min_m = 0.2;
+  scan.range_max_m = 25.0;
+  scan.ranges_m.assign(720, std::numeric_limits<float>::infinity());
+  scan.ranges_m[360] = scan.ranges_m[361] = 24.0F;
+  scan.ranges_m[180] = scan.ranges_m[181] = 24.0F;  // likewise, where nobody is
+  const Eigen::Vector2d eye(40.0 - 1.0 - 24.0, 0.0);
+  map::SensorPose sensor;
+  sensor.position = {eye.x(), eye.y(), 0.8};
+  const ScanVerdict& verdict = tracker.addScan(20.01, sensor, {eye, 0.0}, scan);
+  for (std::size_t i = 0; i < 720; ++i) {
+    EXPECT_EQ(verdict.on_vessel[i], i == 360 || i == 361) << i;
+  }
+}
+
 TEST(TrafficTracker, KeepsAnAnchoredVesselTenMinutesWithTheReachOfItsDimensions) {
   Tracker tracker(Options{}, {}, {2.0, 1.08});
   ais::Message dimensions;
