@@ -54,6 +54,7 @@ void slowed(const Course& sailed, double wait, double share, double hold, Course
     }
   }
   course.end_s = sailed.end_s + late;
+  course.arrives_s = sailed.arrives_s + late;
 }
 
 }  // namespace

@@ -71,6 +71,13 @@ class SteadyLine {
   Eigen::Vector2d cross_ = Eigen::Vector2d::Zero();
 };
 
+// Where we were, and how we sailed.
+struct Past {
+  double time_s = 0.0;
+  Motion own;
+  bool under_way = false;
+};
+
 // What is remembered of a track.
 struct Memory {
   traffic::Track track;
@@ -82,7 +89,27 @@ struct Memory {
   SteadyLine line;
   double off_since_s = -1.0;  // since when its velocity isn't the line's; negative: it is
   double changed_s = -1.0;    // when it last left a line; negative: never since it was first seen
+  double heard_s = 0.0;       // first
+  bool met = false;           // there was a risk of collision once
 };
+
+// When a trajectory begins to brake for its end, where it may turn at rest for a while.
+double arrivesFrom(const trajectory::Trajectory& sailed) {
+  constexpr double kStepS = 0.25;
+  constexpr double kRestMps = 0.1;
+  constexpr double kSteadyMps = 0.01;
+  double t = sailed.duration();
+  double speed = 0.0;
+  while (t > kStepS) {
+    const double before = sailed.flat(t - kStepS).velocity.norm();
+    if (before > kRestMps && before < speed + kSteadyMps) {
+      break;
+    }
+    t -= kStepS;
+    speed = before;
+  }
+  return t;
+}
 
 // A course of straight legs along a trajectory, from `from_s` on, times from `zero_s`.
 Course along(const trajectory::TimedTrajectory& sailed, double from_s, double zero_s) {
@@ -92,14 +119,16 @@ Course along(const trajectory::TimedTrajectory& sailed, double from_s, double ze
   const double start = sailed.elapsed(from_s);
   const double end = sailed.trajectory.duration();
   const double shift = from_s - zero_s - start;
+  const double arrives = arrivesFrom(sailed.trajectory);
   double t = std::clamp(start, 0.0, end);
   Eigen::Vector2d p = sailed.trajectory.flat(t).position;
   while (t < end - 1e-6) {
-    double next = std::min(end, t + kStepS);
+    const double limit = t < arrives - 1e-6 ? arrives : end;
+    double next = std::min(limit, t + kStepS);
     Eigen::Vector2d q = sailed.trajectory.flat(next).position;
     // Doubled as long as the middle stays near.
-    while (next < end) {
-      const double further = std::min(end, t + 2.0 * (next - t));
+    while (next < limit) {
+      const double further = std::min(limit, t + 2.0 * (next - t));
       const Eigen::Vector2d r = sailed.trajectory.flat(further).position;
       const double share = (next - t) / (further - t);
       const double quarter = 0.5 * (t + next);
@@ -115,6 +144,7 @@ Course along(const trajectory::TimedTrajectory& sailed, double from_s, double ze
     p = q;
   }
   course.end_s = t + shift;
+  course.arrives_s = arrives + shift;
   return course;
 }
 
@@ -137,6 +167,7 @@ class Pilot::Impl {
       : options_(options), vessel_(vessel), chooser_(options, vessel) {}
 
   void newGoal(double now_s) {
+    past_.clear();
     goal_time_s_ = now_s;
     under_way_ = false;
     decided_s_ = -1e9;
@@ -147,6 +178,7 @@ class Pilot::Impl {
                const Eigen::Vector2d& goal, double cruise_mps) {
     now_s_ = now_s;
     remember(now_s, own, goal, cruise_mps);
+    const Past now{now_s, own_, under_way_};
     for (const traffic::Track& track : tracks) {
       see(now_s, track);
     }
@@ -155,7 +187,17 @@ class Pilot::Impl {
       it = now_s - it->second.seen_s > kForgottenS ? memories_.erase(it) : std::next(it);
     }
     for (auto& [id, memory] : memories_) {
-      follow(now_s, memory);
+      if (!memory.met && now_s - memory.heard_s < kPastS) {
+        recall(memory);
+      }
+      follow(now, memory.motion, memory);
+      memory.met = memory.met || memory.record.role != Role::kNone;
+    }
+    if (past_.empty() || now_s - past_.back().time_s >= kPastStepS - 1e-6) {
+      past_.push_back(now);
+    }
+    while (now_s - past_.front().time_s > kPastS) {
+      past_.pop_front();
     }
   }
 
@@ -264,6 +306,7 @@ class Pilot::Impl {
     Memory& memory = place->second;
     if (first) {
       memory.line.restart(now_s);
+      memory.heard_s = now_s;
     }
     memory.track = track;
     memory.seen_s = now_s;
@@ -299,10 +342,19 @@ class Pilot::Impl {
            std::clamp(memory.line.span(), kLineS, kLineMaxS);
   }
 
-  void follow(double now_s, Memory& memory) const {
+  // Whoever is first heard of was there before: a report of hers comes but every half minute, and
+  // the first tell little of her course. So what we did meanwhile counts, against our course of
+  // then.
+  void recall(Memory& memory) const {
+    for (const Past& then : past_) {
+      follow(then, memory.motion.after(then.time_s - now_s_), memory);
+    }
+  }
+
+  static void follow(const Past& now, const Motion& she, Memory& memory) {
     Record& record = memory.record;
-    const Approach approach = nearestApproach(own_, memory.motion);
-    const double range = (memory.motion.position - own_.position).norm();
+    const Approach approach = nearestApproach(now.own, she);
+    const double range = (she.position - now.own.position).norm();
     if (record.role == Role::kNone) {
       // Whoever may have to stand on does so before it is certain: acting early can't be undone.
       constexpr double kUnsureMaxM = 15.0;
@@ -310,33 +362,33 @@ class Pilot::Impl {
           std::min(kUnsureMaxM, velocityDeviation(memory) * std::max(0.0, approach.time_s));
       const bool may_stand_on = approach.time_s > 0.0 && approach.time_s < kRiskS &&
                                 approach.distance_m < kRiskM + unsure &&
-                                standsOn(classify(own_, memory.motion));
-      if (own_.velocity.norm() > 0.3 && (riskOfCollision(approach) || may_stand_on)) {
+                                standsOn(classify(now.own, she));
+      if (now.own.velocity.norm() > 0.3 && (riskOfCollision(approach) || may_stand_on)) {
         record = Record();
-        record.role = classify(own_, memory.motion);
-        record.kept_velocity = own_.velocity;
-        record.bearing_rad = bearing(own_, memory.motion);
-        memory.began_s = now_s;
-        memory.aspect_rad = aspect(own_, memory.motion);
+        record.role = classify(now.own, she);
+        record.kept_velocity = now.own.velocity;
+        record.bearing_rad = bearing(now.own, she);
+        memory.began_s = now.time_s;
+        memory.aspect_rad = aspect(now.own, she);
       }
       return;
     }
     constexpr double kClearM = 40.0;
     // Slowing down behind her is not past and clear: would our course and speed of then be?
     const bool then_clear =
-        nearestApproach({own_.position, record.kept_velocity}, memory.motion).time_s < 0.0;
+        nearestApproach({now.own.position, record.kept_velocity}, she).time_s < 0.0;
     if (approach.time_s < 0.0 && then_clear && range > kClearM) {
       record = Record();
       return;
     }
-    if (!under_way_ || approach.time_s < 0.0) {
+    if (!now.under_way || approach.time_s < 0.0) {
       return;
     }
-    const double speed = own_.velocity.norm();
+    const double speed = now.own.velocity.norm();
     const double share = speed / std::max(0.1, record.kept_velocity.norm());
     const double turn = speed > 0.3
-                            ? -wrapAngle(own_.course() - std::atan2(record.kept_velocity.y(),
-                                                                    record.kept_velocity.x()))
+                            ? -wrapAngle(now.own.course() - std::atan2(record.kept_velocity.y(),
+                                                                       record.kept_velocity.x()))
                             : 0.0;
     const bool turns = std::abs(turn) > kActionRad;
     if (turns || std::abs(share - 1.0) > kActionShare) {
@@ -498,6 +550,9 @@ class Pilot::Impl {
   Chooser chooser_;
   std::map<int, Memory> memories_;
   std::deque<std::pair<double, Eigen::Vector2d>> trail_;
+  static constexpr double kPastS = 40.0;  // between two reports of a slow vessel, and some
+  static constexpr double kPastStepS = 0.5;
+  std::deque<Past> past_;
   Motion own_;
   double cruise_mps_ = 0.0;
   double now_s_ = 0.0;

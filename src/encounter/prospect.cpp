@@ -138,7 +138,8 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
   bool settling = record.role != Role::kNone && !record.acted;
   double speed_before = 0.0;
   Eigen::Vector2d before = own.legs.empty() ? Eigen::Vector2d(0.0, 0.0) : own.legs[0].velocity;
-  for (std::size_t k = 0; k < own.legs.size() && own.legs[k].from_s < end && !past; ++k) {
+  const double decides = std::min(end, own.arrives_s);
+  for (std::size_t k = 0; k < own.legs.size() && own.legs[k].from_s < decides && !past; ++k) {
     const Leg& leg = own.legs[k];
     const double to = std::min(own.endOf(k), end);
     const Motion she = other.motion.after(leg.from_s);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "otter_nav/encounter/rules.hpp"
@@ -19,6 +20,9 @@ struct Leg {
 struct Course {
   std::vector<Leg> legs;
   double end_s = 0.0;
+  // From then on it comes to rest at the goal: slowing down there is no action, and brings no risk
+  // that the mission could still decide about.
+  double arrives_s = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] double endOf(std::size_t leg) const {
     return leg + 1 < legs.size() ? legs[leg + 1].from_s : end_s;

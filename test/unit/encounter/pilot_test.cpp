@@ -105,6 +105,51 @@ TEST_F(PilotTest, StandsOnUntilSheHasNotActed) {
   EXPECT_LE(now, 80.0);
 }
 
+// She reports but every half minute; meanwhile we have turned for somebody else. What counts is
+// the course from which we turned.
+TEST_F(PilotTest, WhoIsHeardOfLateWasThereBefore) {
+  const Eigen::Vector2d goal(0.0, 200.0);
+  const Eigen::Vector2d aside = 2.0 * Eigen::Vector2d(std::sin(0.7), std::cos(0.7));
+  Eigen::Vector2d position(0.0, -200.0);
+  for (double t = 0.0; t <= 18.0; t += 0.5) {
+    const Eigen::Vector2d velocity = t < 10.0 ? Eigen::Vector2d(0.0, 2.0) : aside;
+    std::vector<traffic::Track> tracks;
+    if (t > 17.0) {
+      tracks.push_back(trackAt(270.0, 2.0, t));
+    }
+    pilot_.observe(t, {position, velocity}, tracks, goal, 1.98);
+    position += 0.5 * velocity;
+  }
+  const auto encounters = pilot_.encounters();
+  ASSERT_EQ(encounters.size(), 1U);
+  EXPECT_EQ(encounters[0].role, Role::kGiveWay);
+  EXPECT_LT(encounters[0].since_s, 5.0);
+  EXPECT_NEAR(encounters[0].bearing_rad, 45.0 * kDegree, 3.0 * kDegree);
+  EXPECT_TRUE(encounters[0].acted);
+}
+
+// Slowing down at the goal makes her faster than us, and brings a risk: no ground to turn away.
+TEST_F(PilotTest, ArrivesAheadOfWhoFollows) {
+  vessel::FlatPoint start;
+  start.position = {0.0, -20.0};
+  start.velocity = {0.0, 2.0};
+  Change stop;
+  stop.at_s = 8.0;
+  stop.duration_s = 4.0;
+  stop.velocity = {0.0, 0.02};
+  sailed_ = {steer(start, {stop}, 12.0), 0.0};
+  const Eigen::Vector2d goal = sailed_.trajectory.flat(12.0).position;
+  for (const double now : {2.0, 4.0, 5.0, 6.0, 7.0, 8.0}) {
+    for (double t = now - 1.0; t <= now; t += 0.5) {
+      const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+      traffic::Track track = trackAt(0.0, 1.4, t);
+      track.position = {0.0, -60.0 + 1.4 * t};
+      pilot_.observe(t, {z.position, z.velocity}, {track}, goal, 1.98);
+    }
+    EXPECT_FALSE(pilot_.decide({now, sailed_, goal, now + 0.3, limits_, water_})) << now;
+  }
+}
+
 TEST_F(PilotTest, NobodyNearNothingToDo) {
   EXPECT_FALSE(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}));
   traffic::Track far = trackAt(180.0, 2.0, 10.0);
