@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
+#include <functional>
+#include <iterator>
 #include <map>
 
 #include "encounter/candidates.hpp"
@@ -179,14 +181,25 @@ class Pilot::Impl {
     now_s_ = now_s;
     remember(now_s, own, goal, cruise_mps);
     const Past now{now_s, own_, under_way_};
+    const auto known = [&](const traffic::Track& track) { return memories_.count(track.id) > 0; };
+    std::vector<traffic::Track> fresh;
+    std::copy_if(tracks.begin(), tracks.end(), std::back_inserter(fresh), std::not_fn(known));
     for (const traffic::Track& track : tracks) {
+      if (known(track)) {
+        see(now_s, track);
+      }
+    }
+    for (const traffic::Track& track : fresh) {
       see(now_s, track);
     }
     for (auto it = memories_.begin(); it != memories_.end();) {
-      constexpr double kForgottenS = 5.0;
+      constexpr double kForgottenS = 30.0;
       it = now_s - it->second.seen_s > kForgottenS ? memories_.erase(it) : std::next(it);
     }
     for (auto& [id, memory] : memories_) {
+      if (isLost(memory)) {
+        continue;
+      }
       if (!memory.met && now_s - memory.heard_s < kPastS) {
         recall(memory);
       }
@@ -254,7 +267,7 @@ class Pilot::Impl {
   std::vector<Encounter> encounters() const {
     std::vector<Encounter> all;
     for (const auto& [id, memory] : memories_) {
-      if (memory.record.role == Role::kNone) {
+      if (memory.record.role == Role::kNone || isLost(memory)) {
         continue;
       }
       Encounter e;
@@ -304,7 +317,12 @@ class Pilot::Impl {
     }
     const auto [place, first] = memories_.try_emplace(track.id);
     Memory& memory = place->second;
-    if (first) {
+    const auto was = first ? lostAs(now_s, track) : memories_.end();
+    if (was != memories_.end()) {
+      memory = was->second;
+      memories_.erase(was);
+      memory.line.restart(now_s);
+    } else if (first) {
       memory.line.restart(now_s);
       memory.heard_s = now_s;
     }
@@ -331,6 +349,35 @@ class Pilot::Impl {
       return;
     }
     memory.motion.velocity = *steady;
+  }
+
+  // Unseen for a while, she is nobody to decide about.
+  [[nodiscard]] bool isLost(const Memory& memory) const {
+    constexpr double kUnseenS = 5.0;
+    return now_s_ - memory.seen_s > kUnseenS;
+  }
+
+  // A vessel that two others have passed close by may come out of it as another track: what was
+  // between us and her goes on.
+  std::map<int, Memory>::iterator lostAs(double now_s, const traffic::Track& track) {
+    constexpr double kApartM = 10.0;
+    constexpr double kApartMps = 0.7;
+    const Motion motion = Motion{track.position, track.velocity}.after(now_s - track.stamp_s);
+    auto nearest = memories_.end();
+    double least = kApartM;
+    for (auto it = memories_.begin(); it != memories_.end(); ++it) {
+      const Memory& memory = it->second;
+      if (it->first == track.id || memory.seen_s >= now_s) {
+        continue;
+      }
+      const double apart =
+          (memory.motion.after(now_s - memory.seen_s).position - motion.position).norm();
+      if (apart < least && (memory.motion.velocity - motion.velocity).norm() < kApartMps) {
+        nearest = it;
+        least = apart;
+      }
+    }
+    return nearest;
   }
 
   // The line's falls with the time it has been kept.
@@ -441,6 +488,9 @@ class Pilot::Impl {
   std::vector<Other> othersNow(const map::DistanceField& field) const {
     std::vector<Other> others;
     for (const auto& [id, memory] : memories_) {
+      if (isLost(memory)) {
+        continue;
+      }
       const traffic::Track& track = memory.track;
       Other other;
       other.id = id;

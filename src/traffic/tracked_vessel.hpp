@@ -38,6 +38,7 @@ struct TrackedVessel {
 
   std::uint32_t mmsi = 0;
   double last_ais_s = -1e9;
+  std::optional<Measurement> reported;  // by AIS, then
   bool keeps_place = false;  // at anchor, moored, or an aid to navigation
   std::optional<ais::Message> dimensions;
 

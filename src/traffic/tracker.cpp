@@ -19,6 +19,7 @@ constexpr double kGate2 = 16.0;      // squared Mahalanobis distance
 constexpr double kLivesS = 300.0;    // a vessel is there for so long on average
 constexpr double kConfirmed = 0.98;  // existence
 constexpr double kGone = 0.02;
+constexpr double kReportedAtLeast = 0.5;  // by AIS not long ago
 constexpr int kFewestHits = 2;
 
 // Lidar.
@@ -292,7 +293,10 @@ class Tracker::Impl {
     for (const double probability : probabilities) {
       exists += probability;
     }
-    vessel.existence = std::clamp(exists, 0.0, vessel.confirmed ? 0.9999 : kUnconfirmedAtMost);
+    // Whoever reports herself is there, though another may hide her from every sensor.
+    const bool reports = look.stamp_s - vessel.last_ais_s < kAisKeptS;
+    vessel.existence = std::clamp(exists, reports ? kReportedAtLeast : 0.0,
+                                  vessel.confirmed ? 0.9999 : kUnconfirmedAtMost);
     const bool in_doubt = !vessel.confirmed && vessel.sources == kLidar;
     vessel.missed += concluded > 0.5 ? 1 : 0;
     if (in_doubt && vessel.missed > kMostMissed) {
@@ -377,9 +381,14 @@ class Tracker::Impl {
     if (std::isfinite(m.heading_deg)) {
       vessel.heading_rad = radiansFromEast(m.heading_deg);
     }
+    vessel.reported = measured(m, vessel);
     if (vessel.motion.stamp() < stamp_s) {
       vessel.motion.predict(stamp_s);
-      vessel.motion.update(measured(m, vessel));
+      if (vessel.motion.distance2(*vessel.reported) < kAisGate2) {
+        vessel.motion.update(*vessel.reported);
+      } else {
+        vessel.motion = MotionFilter(*vessel.reported, stamp_s);
+      }
     }
     vessel.followCourse();
     if (m.type == 21 && !m.hasDimensions()) {
@@ -453,11 +462,13 @@ class Tracker::Impl {
       for (std::size_t b = a + 1; b < vessels_.size(); ++b) {
         TrackedVessel& first = vessels_[a];
         TrackedVessel& second = vessels_[b];
-        if ((first.mmsi != 0 && second.mmsi != 0) || second.existence == 0.0 ||
-            first.existence == 0.0) {
+        if (second.existence == 0.0 || first.existence == 0.0 || !areAlike(first, second)) {
           continue;
         }
-        if (areAlike(first, second)) {
+        if (first.mmsi != 0 && second.mmsi != 0) {
+          backToReported(first);
+          backToReported(second);
+        } else {
           TrackedVessel& stays = second.mmsi != 0 ? second : first;
           TrackedVessel& goes = second.mmsi != 0 ? first : second;
           stays.sources |= goes.sources;
@@ -467,6 +478,26 @@ class Tracker::Impl {
       }
     }
   }
+  // Two vessels on one track: after they passed close by, one's has followed the other. It has left
+  // the course that was reported, and goes on from there.
+  static void backToReported(TrackedVessel& vessel) {
+    constexpr double kStrayedMps = 0.6;
+    constexpr double kStraysMps = 0.1;
+    if (!vessel.reported || !vessel.reported->has_velocity) {
+      return;
+    }
+    Measurement now = *vessel.reported;
+    const Eigen::Vector2d velocity = now.value.segment<2>(2);
+    const double since = vessel.motion.stamp() - vessel.last_ais_s;
+    if (since > kAisKeptS ||
+        (vessel.motion.state().segment<2>(2) - velocity).norm() < kStrayedMps) {
+      return;
+    }
+    now.value.head<2>() += since * velocity;
+    now.covariance.diagonal().head<2>().array() += std::pow(kStraysMps * since, 2);
+    vessel.motion = MotionFilter(now, vessel.motion.stamp());
+  }
+
   static bool areAlike(const TrackedVessel& a, const TrackedVessel& b) {
     const MotionState off = a.motion.state() - b.motion.state();
     const double apart = off.head<2>().norm();

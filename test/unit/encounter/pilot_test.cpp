@@ -128,6 +128,29 @@ TEST_F(PilotTest, WhoIsHeardOfLateWasThereBefore) {
   EXPECT_TRUE(encounters[0].acted);
 }
 
+// Under another number she is who she was: since when we give way to her, and what we did, stays.
+TEST_F(PilotTest, KnowsWhoComesBackAsAnotherTrack) {
+  EXPECT_TRUE(decideAt(10.0, 270.0, 2.0));
+  ASSERT_EQ(pilot_.encounters().size(), 1U);
+  const double since = pilot_.encounters()[0].since_s;
+  for (double t = 10.5; t <= 20.0; t += 0.5) {
+    const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+    std::vector<traffic::Track> tracks;
+    if (t > 18.0) {
+      tracks.push_back(trackAt(270.0, 2.0, t));
+      tracks.back().id = 8;
+      tracks.back().position.x() += 3.0;
+    }
+    pilot_.observe(t, {z.position, z.velocity}, tracks, {0.0, 200.0}, 1.98);
+    if (t > 16.0 && t <= 18.0) {
+      EXPECT_TRUE(pilot_.encounters().empty());
+    }
+  }
+  ASSERT_EQ(pilot_.encounters().size(), 1U);
+  EXPECT_EQ(pilot_.encounters()[0].id, 8);
+  EXPECT_EQ(pilot_.encounters()[0].since_s, since);
+}
+
 // Slowing down at the goal makes her faster than us, and brings a risk: no ground to turn away.
 TEST_F(PilotTest, ArrivesAheadOfWhoFollows) {
   vessel::FlatPoint start;

@@ -350,6 +350,36 @@ TEST(TrafficTracker, TellsVesselsApartThatPassClose) {
   EXPECT_LE(swapped, 2);
 }
 
+// Two who report themselves pass through each other, as nobody does and charts of encounters have
+// it: for seconds all sensors see but one. Both stay who they are.
+TEST(TrafficTracker, KeepsBothWhereTwoLookLikeOne) {
+  map::OccupancyGrid world;
+  world.geometry = {160, 160, 2.0, {-160.0, -160.0}};
+  world.cells.assign(25600, map::Cell::kFree);
+  int kept = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const vessel::Hull hull{6.0, 2.0};
+    Sea sea(test::plantOptions("none"), world,
+            {{1, hull, true, {{-16.0, -140.0}, {-16.0, 200.0}}, {1.4}},
+             {2, hull, true, {{125.4, -141.4}, {-300.0, 284.0}}, {2.0}}},
+            seed);
+    sea.run(85.0, {0.0, 0.0});
+    const std::optional<Track> slow = sea.trackOf(0);
+    const std::optional<Track> fast = sea.trackOf(1);
+    ASSERT_TRUE(slow && fast) << seed;
+    EXPECT_NE(slow->id, fast->id) << seed;
+    sea.run(112.0, {0.0, 0.0});
+    const std::optional<Track> slow_after = sea.trackOf(0);
+    const std::optional<Track> fast_after = sea.trackOf(1);
+    kept += slow_after && fast_after && slow_after->id == slow->id && fast_after->id == fast->id &&
+                    (slow_after->velocity - Eigen::Vector2d(0.0, 1.4)).norm() < 0.5 &&
+                    (fast_after->velocity - Eigen::Vector2d(-1.414, 1.414)).norm() < 0.5
+                ? 1
+                : 0;
+  }
+  EXPECT_GE(kept, 5);
+}
+
 // The same calls give the same tracks.
 TEST(TrafficTracker, IsTheSameEveryTime) {
   const auto run = [] {
