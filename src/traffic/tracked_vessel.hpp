@@ -12,6 +12,8 @@
 
 namespace otter_nav::traffic {
 
+constexpr double kLongAgoS = -1e9;
+
 struct TrackedVessel {
   TrackedVessel(int the_id, const Measurement& first, double time_s, Source source)
       : id(the_id), motion(first, time_s), first_s(time_s), last_s(time_s), sources(source) {}
@@ -37,9 +39,9 @@ struct TrackedVessel {
   std::optional<double> heading_rad;
 
   std::uint32_t mmsi = 0;
-  double last_ais_s = -1e9;
+  double last_ais_s = kLongAgoS;
   std::optional<Measurement> reported;  // by AIS, then
-  bool keeps_place = false;  // at anchor, moored, or an aid to navigation
+  bool keeps_place = false;             // at anchor, moored, or an aid to navigation
   std::optional<ais::Message> dimensions;
 
   std::vector<Eigen::Vector2d> unconfirmed_points;  // echoes that went into the map meanwhile

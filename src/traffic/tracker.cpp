@@ -367,7 +367,14 @@ class Tracker::Impl {
       }
       return;
     }
-    TrackedVessel& vessel = known != vessels_.end() ? *known : matching(stamp_s, m);
+    const bool fits = known != vessels_.end() && fitsReport(stamp_s, m, *known);
+    if (known != vessels_.end() && !fits) {
+      // Something else is tracked there, for sensors saw it; it has no name.
+      known->mmsi = 0;
+      known->reported.reset();
+      known->last_ais_s = kLongAgoS;
+    }
+    TrackedVessel& vessel = fits ? *known : matching(stamp_s, m);
     vessel.takeDimensions(m);
     vessel.mmsi = m.mmsi;
     vessel.sources |= kAis;
@@ -384,11 +391,7 @@ class Tracker::Impl {
     vessel.reported = measured(m, vessel);
     if (vessel.motion.stamp() < stamp_s) {
       vessel.motion.predict(stamp_s);
-      if (vessel.motion.distance2(*vessel.reported) < kAisGate2) {
-        vessel.motion.update(*vessel.reported);
-      } else {
-        vessel.motion = MotionFilter(*vessel.reported, stamp_s);
-      }
+      vessel.motion.update(*vessel.reported);
     }
     vessel.followCourse();
     if (m.type == 21 && !m.hasDimensions()) {
@@ -413,6 +416,16 @@ class Tracker::Impl {
     measurement.covariance.diagonal() << deviation * deviation, deviation * deviation,
         kAisVelocityMps * kAisVelocityMps, kAisVelocityMps * kAisVelocityMps;
     return measurement;
+  }
+
+  [[nodiscard]] bool fitsReport(double stamp_s, const ais::Message& m,
+                                const TrackedVessel& vessel) const {
+    if ((vessel.sources & ~kAis) == 0) {
+      return true;  // nothing but what she says herself
+    }
+    MotionFilter moved = vessel.motion;
+    moved.predict(stamp_s);
+    return moved.distance2(measured(m, vessel)) < kAisGate2;
   }
 
   // A vessel that is tracked without an identity and fits, or a new one.

@@ -324,6 +324,25 @@ TEST(TrafficTracker, JoinsAisWithWhatTheRadarSees) {
   EXPECT_EQ(tracker.tracks().size(), 2U);
 }
 
+// A report that places her elsewhere takes nothing from what the radar sees: there are two.
+TEST(TrafficTracker, AReportFromElsewhereIsAnotherVessel) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  for (int k = 0; k < 20; ++k) {
+    tracker.addRadar(k, {{100.0 - 2.0 * k, 30.0}}, {0.0, 0.0});
+    if (k == 10) {
+      ASSERT_TRUE(tracker.addAis(k, report(257000005, {80.0, 30.0}, 2.0 / ais::kKnotMps, 270.0)));
+      ASSERT_EQ(tracker.tracks().size(), 1U);
+    }
+  }
+  ASSERT_TRUE(tracker.addAis(19.5, report(257000005, {20.0, 90.0}, 2.0 / ais::kKnotMps, 270.0)));
+  ASSERT_EQ(tracker.tracks().size(), 2U);
+  EXPECT_NEAR(tracker.tracks()[0].position.x(), 62.0, 2.0);
+  EXPECT_NEAR(tracker.tracks()[0].position.y(), 30.0, 2.0);
+  EXPECT_EQ(tracker.tracks()[0].mmsi, 0U);
+  EXPECT_NEAR(tracker.tracks()[1].position.y(), 90.0, 2.0);
+  EXPECT_EQ(tracker.tracks()[1].mmsi, 257000005U);
+}
+
 // Two vessels that pass each other at four metres stay who they are.
 TEST(TrafficTracker, TellsVesselsApartThatPassClose) {
   int swapped = 0;
