@@ -73,7 +73,12 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
   request.query.start.flat = sample.flat;
   request.query.start.psi_rad = sample.state[vessel::kPsi];
   request.start_time_s = sailed.start_time_s + *at;
-  request.query.warm_start = stopping::remainder(sailed.trajectory, *at);
+  // One that leads elsewhere helps nobody.
+  constexpr double kSameGoalM = 0.5;
+  const trajectory::Trajectory& path = sailed.trajectory;
+  if ((path.flat(path.duration()).position - goal.position).norm() < kSameGoalM) {
+    request.query.warm_start = stopping::remainder(path, *at);
+  }
   // The force it begins with is one of the plan being sailed.
   return ask(now_s, std::move(request), goal, thrust_share, From::kSailed, obstacles);
 }
@@ -136,6 +141,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   request.query.goal.psi_rad = safety.restHeading(goal.psi_rad);
   request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
   request.query.limits = safety.limits(thrust_share, room);
+  request.query.may_end_early = safety.atNarrowest();
   // A stop may have ended nearer to something than plans keep.
   const double around = std::min(roomAround(vessel_.hull, request.query.start, field),
                                  roomAround(vessel_.hull, request.query.goal, field));
@@ -150,8 +156,13 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
       std::max(safety.limits(safety.freeThrustShare(), room).speed_max_mps, kSlowsDown * speed));
   request.thrust_share = thrust_share;
   request.moving = from != From::kRest;
-  asked_ = Asked{request,        from, false, now_s, safety.speedMax(), safety.slowShare() < 1.0,
-                 safety.level(), {}};
+  asked_ = Asked{};
+  asked_->request = request;
+  asked_->from = from;
+  asked_->since_s = now_s;
+  asked_->speed_max_mps = safety.speedMax();
+  asked_->slow = safety.slowShare() < 1.0;
+  asked_->level = safety.level();
   return request;
 }
 

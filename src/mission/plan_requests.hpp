@@ -42,6 +42,7 @@ class PlanRequests {
     double speed_max_mps = 0.0;  // the mission's, when it was asked for
     bool slow = false;           // asked for because there was none at the usual speed
     std::size_t level = 0;       // of the clearances
+    double left_m = 0.0;         // what the answer leaves of the way to the goal
     // What the plan continues, from the sailed trajectory on; empty: that itself.
     trajectory::TimedTrajectory lead;
   };

@@ -17,10 +17,11 @@ constexpr double kLessThrust = 0.1;    // each time the vessel couldn't follow
 constexpr double kBlindReserve = 2.0;  // of the mean's share, for a plan that knows nothing of it
 constexpr int kRefusedMost = 2;
 constexpr double kMoreThrust = 0.2;  // each time there was no plan at any clearance
-// Around the discs that cover the hull. A plan keeps a little more than a stop, so that what the
-// map adds by cells on the way leaves the stops clear.
+// Around the discs that cover the hull, at least. A plan keeps a little more than a stop, so that
+// what the map adds by cells on the way leaves the stops clear.
 constexpr double kPlanMarginM = 0.05;
 constexpr double kOffTrajectoryM = 0.02;
+constexpr double kWanderM = 0.2;  // of what it wanders, kept on the narrow levels too
 
 }  // namespace
 
@@ -50,9 +51,16 @@ double Safety::narrowest() const {
   return centreClearance(vessel_.hull, options_.side_clearances_m.back());
 }
 
-stopping::StopLimits Safety::stop(const vessel::Disturbance& planned) const {
+stopping::StopLimits Safety::stop(const feasibility::SafetyLimits& planned) const {
+  stopping::StopLimits limits = leastStop(planned);
+  limits.hull_margin_m =
+      std::max(kOffTrajectoryM, planned.hull_margin_m - (kPlanMarginM - kOffTrajectoryM));
+  return limits;
+}
+
+stopping::StopLimits Safety::leastStop(const feasibility::SafetyLimits& planned) const {
   return {centreClearance(vessel_.hull, options_.critical_side_clearance_m), kOffTrajectoryM,
-          planned};
+          planned.disturbance};
 }
 
 feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
@@ -70,7 +78,10 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   limits.drift_m =
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
   limits.disturbance = planDisturbance();
-  limits.hull_margin_m = kPlanMarginM;
+  // What it wanders, as far as the level has room for it; half as much each time there was no plan.
+  const double most = std::max(kWanderM, options_.side_clearances_m[levels_.level()]);
+  limits.hull_margin_m =
+      std::max(kPlanMarginM, std::pow(0.5, times_refused_) * std::min(most, wander_.reach()));
   limits.limitSpeed(options_.speed_max_mps);
   limits.speed_max_mps *= slowShare();
   return limits;

@@ -10,6 +10,7 @@
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "wander.hpp"
 #include "weather.hpp"
 
 namespace otter_nav::mission {
@@ -60,8 +61,9 @@ class Safety {
   [[nodiscard]] double narrowest() const;
   // Of the hull's outline in its planned attitude, m: with less the vessel looks for another way.
   [[nodiscard]] double critical() const { return options_.critical_side_clearance_m; }
-  // What every stop keeps, from a trajectory planned with this disturbance.
-  [[nodiscard]] stopping::StopLimits stop(const vessel::Disturbance& planned) const;
+  // What a stop should keep, from a trajectory planned to these limits; and what every stop keeps.
+  [[nodiscard]] stopping::StopLimits stop(const feasibility::SafetyLimits& planned) const;
+  [[nodiscard]] stopping::StopLimits leastStop(const feasibility::SafetyLimits& planned) const;
 
   // The next request's limits: of the first level from the present one on that start and goal have
   // room for, and with `thrust_share`.
@@ -94,12 +96,17 @@ class Safety {
   // What wind and current are estimated to be.
   void feel(double now_s, const vessel::Disturbance& estimate) { weather_.feel(now_s, estimate); }
   [[nodiscard]] const Weather& weather() const { return weather_; }
+  // How far the vessel is off its trajectory.
+  void wander(double now_s, double off_m) { wander_.feel(now_s, off_m); }
+  // What it needs around it for that, m, where there is room.
+  [[nodiscard]] double reach() const { return wander_.reach(); }
   void leftBehind() { ++times_left_behind_; }
   // A plan failed: the next is tried narrower; false where all levels were tried.
   bool refused();
   void planTaken();
   void tryWidest() { levels_.widest(); }
   [[nodiscard]] std::size_t level() const { return levels_.level(); }
+  [[nodiscard]] bool atNarrowest() const { return levels_.atNarrowest(); }
   void tryLevel(std::size_t level) { levels_.begin(level); }
 
  private:
@@ -107,6 +114,7 @@ class Safety {
   vessel::Parameters vessel_;
   ClearanceLevels levels_;
   Weather weather_;
+  Wander wander_;
   int times_refused_ = 0;      // at all levels, from where the vessel is, in a row
   int times_left_behind_ = 0;  // on the way to this goal
 };

@@ -108,6 +108,7 @@ class Supervisor::Impl {
     cancelled_ = false;
     suspended_.reset();
     replans_ = 0;
+    nearest_left_m_ = std::numeric_limits<double>::infinity();
     pilot_.newGoal(m.now_s);
     return follow(kGoalRules, m);
   }
@@ -156,10 +157,11 @@ class Supervisor::Impl {
   }
 
   Orders planFinished(const Moment& m, int id, const planner::Plan& plan) {
-    const std::optional<PlanRequests::Asked> asked = plans_.take(id);
+    std::optional<PlanRequests::Asked> asked = plans_.take(id);
     if (!asked) {
       return {};
     }
+    asked->left_m = plan.left_m;
     if (plan.outcome != planner::Outcome::kSolved || plan.trajectory.empty()) {
       return planFailed(m, plan.reason, *asked);
     }
@@ -225,7 +227,7 @@ class Supervisor::Impl {
   }
   bool isClearAgain(const Moment& m) { return for_clearance_ && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
-  bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_.disturbance); }
+  bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_); }
   // The way to rest itself is not clear any more.
   bool isStopBlocked(const Moment& m) {
     const double at = sailed_.elapsed(m.now_s);
@@ -347,7 +349,9 @@ class Supervisor::Impl {
   // soon.
   bool mayImprove(const Moment& m) {
     constexpr double kLastResortS = 1.0;
-    const double period = is_last_resort_ ? kLastResortS : options_.improve_period_s;
+    constexpr double kPartS = 2.0;  // what leads a part of the way
+    const double last_resort = planned_left_m_ > 0.0 ? kPartS : kLastResortS;
+    const double period = is_last_resort_ ? last_resort : options_.improve_period_s;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
   }
 
@@ -401,6 +405,7 @@ class Supervisor::Impl {
     }
     plans_.drop();
     ++replans_;
+    planned_left_m_ = 0.0;
     sailed_ = stopping::splice(sailed_, m.now_s, path);
     sailed_.speed_max_mps = planned_limits_.speed_max_mps;
     enter(Phase::kSailing);
@@ -446,7 +451,13 @@ class Supervisor::Impl {
     return orders;
   }
   Orders planAnew(const Moment& m) {
+    constexpr double kNearerM = 1.0;
     plans_.drop();
+    if (planned_left_m_ > 0.0 && planned_left_m_ < nearest_left_m_ - kNearerM) {
+      nearest_left_m_ = planned_left_m_;  // as far as it was planned: no stop that counts
+      safety().tryWidest();
+      return enter(Phase::kStopped, text("%.0f m of the way are to be planned", planned_left_m_));
+    }
     const std::string why =
         text("not settled at the trajectory's end: %.2f m and %.2f rad from the goal, at %.2f m/s",
              (m.situation.state.head<2>() - goal_.position).norm(), headingOff(m),
@@ -496,8 +507,7 @@ class Supervisor::Impl {
     return {std::nullopt, sailed_, false};
   }
   Orders changeTheStop(const Moment& m) {
-    stopping::Braking other =
-        stop(m, sailed_, sailed_.elapsed(m.now_s), planned_limits_.disturbance);
+    stopping::Braking other = stopNow(m);
     const Obstacles later = m.obstacles.startingAt(m.now_s);
     const auto touches = [&](const Trajectory& path, double from_s, const Obstacles& obstacles) {
       const stopping::Conflict conflict =
@@ -703,6 +713,10 @@ class Supervisor::Impl {
     if (m.situation.odometry_stamp_s > felt_s_) {  // not twice the same
       felt_s_ = m.situation.odometry_stamp_s;
       safety().feel(felt_s_, m.situation.disturbance.mean);
+      if (!sailed_.trajectory.empty() && sailed_.elapsed(felt_s_) >= 0.0) {
+        const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(felt_s_)).position;
+        safety().wander(felt_s_, (m.situation.state.head<2>() - there).norm());
+      }
     }
   }
   double headingOff(const Moment& m) {
@@ -833,37 +847,45 @@ class Supervisor::Impl {
   Obstacles alongSailed(const Moment& m) { return m.obstacles.startingAt(sailed_.start_time_s); }
   // What is known ahead of a trajectory, on its clock: what nobody saw to be free stops there.
   stopping::Braking stop(const Moment& m, const TimedTrajectory& way, double at_s,
-                         const vessel::Disturbance& disturbance) {
+                         const stopping::StopLimits& limits) {
     return stopping::brakingTrajectory(way.trajectory, at_s,
                                        m.obstacles.inKnownWater().startingAt(way.start_time_s),
-                                       vessel_, safety().stop(disturbance));
+                                       vessel_, limits);
+  }
+  // With the plan's own margin if that can be had.
+  stopping::Braking stopNow(const Moment& m) {
+    const double at = sailed_.elapsed(m.now_s);
+    stopping::Braking found = stop(m, sailed_, at, safety().stop(planned_limits_));
+    return found.clear ? found : stop(m, sailed_, at, safety().leastStop(planned_limits_));
   }
   // A stop that begins a little later than now: when the next decision is due, there is time to
   // take it. Kept if there is one.
   bool findStop(const Moment& m, const TimedTrajectory& way,
-                const vessel::Disturbance& disturbance) {
+                const feasibility::SafetyLimits& planned) {
     constexpr double kReserveS = 0.25;
     const double at = way.elapsed(m.now_s) + kReserveS;
     if (at >= way.trajectory.duration()) {
       fallback_ = way;
       return true;
     }
-    stopping::Braking found = stop(m, way, at, disturbance);
+    const stopping::StopLimits limits = safety().stop(planned);
+    stopping::Braking found = stop(m, way, at, limits);
     if (found.clear) {
       fallback_ =
           stopping::splice(way, m.now_s, {std::move(found.trajectory), way.start_time_s + at});
     }
-    return found.clear || isClearInKnownWater(m, way, disturbance);
+    return found.clear || isClearInKnownWater(m, way, limits);
   }
   // For long enough to rest later. A launch, or sailing crabwise, may leave no stop that keeps to
   // the thrusters' limits at the moment; that alone is no ground to rest.
   bool isClearInKnownWater(const Moment& m, const TimedTrajectory& way,
-                           const vessel::Disturbance& disturbance) {
+                           const stopping::StopLimits& limits) {
     constexpr double kHorizonS = 8.0;
     const double at = way.elapsed(m.now_s);
     return !stopping::outlineConflict(way.trajectory, at, at + kHorizonS,
                                       m.obstacles.inKnownWater().startingAt(way.start_time_s),
-                                      vessel_, safety().critical(), true, disturbance)
+                                      vessel_, std::max(safety().critical(), limits.hull_margin_m),
+                                      true, limits.disturbance)
                 .found;
   }
 
@@ -874,12 +896,14 @@ class Supervisor::Impl {
   }
   // Only if a stop exists on it; else it is asked for again, or the vessel stops.
   Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequests::Asked& asked) {
-    if (!findStop(m, plan, asked.request.query.limits.disturbance)) {
+    if (!findStop(m, plan, asked.request.query.limits)) {
       return asked.improves ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
     }
     replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;
     sailed_ = std::move(plan);
-    is_last_resort_ = asked.slow || stopping::restsOnTheWay(sailed_.trajectory);
+    planned_left_m_ = asked.left_m;
+    is_last_resort_ =
+        asked.slow || asked.left_m > 0.0 || stopping::restsOnTheWay(sailed_.trajectory);
     planned_level_ = asked.level;
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
     planned_limits_ = asked.request.query.limits;
@@ -916,10 +940,7 @@ class Supervisor::Impl {
     return manoeuvre(m, Phase::kStopping, {}, std::move(reason));
   }
   Orders brakeFor(const Moment& m, std::string reason) {
-    return manoeuvre(
-        m, Phase::kStopping,
-        stop(m, sailed_, sailed_.elapsed(m.now_s), planned_limits_.disturbance).trajectory,
-        std::move(reason));
+    return manoeuvre(m, Phase::kStopping, stopNow(m).trajectory, std::move(reason));
   }
   // Plans from rest come next, unless there were too many stops.
   Orders rest(const Moment& m, const std::string& reason, const std::string& last) {
@@ -948,6 +969,7 @@ class Supervisor::Impl {
   Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
     constexpr double kLateM = 0.3;
     constexpr double kImproveShare = 0.05;  // of the time left, that an improvement saves
+    constexpr double kFurtherM = 2.0;       // or leads so much nearer to the goal
     TimedTrajectory next{plan.trajectory, asked.request.start_time_s};
     if (!asked.lead.trajectory.empty()) {
       std::vector<trajectory::Piece> pieces = asked.lead.trajectory.pieces();
@@ -961,8 +983,11 @@ class Supervisor::Impl {
       plans_.latency.late(late);
       return asked.improves ? Orders{} : planFromSailed(m);
     }
-    if (asked.improves &&
-        late + next.trajectory.duration() > (1.0 - kImproveShare) * sailed_.left(m.now_s)) {
+    const bool saves_time =
+        late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.left(m.now_s);
+    const bool leads_on = asked.left_m < planned_left_m_ - kFurtherM ||
+                          (asked.left_m == 0.0 && planned_left_m_ > 0.0);
+    if (asked.improves && !leads_on && (asked.left_m > planned_left_m_ || !saves_time)) {
       return {};
     }
     plans_.latency.onTime();
@@ -982,7 +1007,7 @@ class Supervisor::Impl {
     if (!hasFault(m)) {
       if (std::optional<Trajectory> path =
               stopping::backOff(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_,
-                                m.situation.disturbance.mean)) {
+                                m.situation.disturbance.mean, safety().reach())) {
         return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why);
       }
     }
@@ -1004,6 +1029,8 @@ class Supervisor::Impl {
   // From it to rest in known water, as last verified.
   std::optional<TimedTrajectory> fallback_;
   bool is_last_resort_ = false;
+  double planned_left_m_ = 0.0;  // of the way, from the sailed trajectory's end to the goal
+  double nearest_left_m_ = std::numeric_limits<double>::infinity();  // where a part of it ended
   std::size_t planned_level_ = 0;
   double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;         // and with

@@ -28,7 +28,11 @@ constexpr double kSlowedShares[] = {0.9, 0.0};
 constexpr double kSlowingShares[] = {1.0, 1.6, 0.7, 2.5};
 constexpr double kNearlyAtRestShare = 0.1;
 constexpr double kPauseS = 0.5;
-constexpr double kNearM = 0.3;  // a goal nearer than this needs no search
+// Of the guide path, where a plan that may end early does.
+constexpr double kWholeShare = 0.6;  // of the time, for the whole way
+constexpr double kPartsOfTheWay[] = {0.5, 0.25};
+constexpr double kStretchShare = 0.6;  // a place is looked for from so much of that on
+constexpr double kNearM = 0.3;         // a goal nearer than this needs no search
 
 std::string describe(const Eigen::Vector2d& p) {
   std::ostringstream text;
@@ -101,10 +105,17 @@ class Planner::Pipeline {
   // so first, straight ahead.
   Plan planInTime(const feasibility::Obstacles& obstacles, const Query& query,
                   const Termination& termination) {
-    Plan plan = planAmong(obstacles, query, termination);
+    Termination whole = termination;
+    whole.budget_s *= query.may_end_early ? kWholeShare : 1.0;
+    Plan plan = planAmong(obstacles, query, whole);
     const double speed = query.start.flat.velocity.norm();
-    if (plan.outcome == Outcome::kSolved || speed <= query.limits.speed_max_mps) {
+    if (plan.outcome == Outcome::kSolved) {
       return plan;
+    }
+    if (speed <= query.limits.speed_max_mps) {
+      return query.may_end_early && !guide_.points.empty()
+                 ? planPartOfTheWay(obstacles, query, termination, std::move(plan))
+                 : plan;
     }
     for (const double share : kSlowedShares) {
       for (const double longer : kSlowingShares) {
@@ -117,6 +128,64 @@ class Planner::Pipeline {
       }
     }
     return plan;
+  }
+
+  // To the place with most room on a stretch of the guide path, the farther ones first; else `none`
+  // stays the answer.
+  Plan planPartOfTheWay(const feasibility::Obstacles& obstacles, const Query& query,
+                        const Termination& termination, Plan none) {
+    const std::vector<OnGuide> way = placesOnGuide(obstacles.field());
+    const double length = way.empty() ? 0.0 : way.back().along_m;
+    Termination once = termination;
+    once.max_iterations = std::min(once.max_iterations, options_.attempt_samples);
+    for (const double share : kPartsOfTheWay) {
+      const bool in_time = !termination.elapsed_s || termination.elapsed_s() < termination.budget_s;
+      const OnGuide* best = nullptr;
+      for (const OnGuide& place : way) {
+        const bool on_stretch = place.along_m <= share * length &&
+                                place.along_m >= kStretchShare * share * length &&
+                                place.along_m >= vessel_.hull.length_m;
+        if (on_stretch && (best == nullptr || place.clearance_m > best->clearance_m)) {
+          best = &place;
+        }
+      }
+      if (!in_time || best == nullptr || best->clearance_m < query.limits.clearance_m) {
+        continue;
+      }
+      Query part = query;
+      part.warm_start = {};
+      part.goal = {};
+      part.goal.flat.position = best->position;
+      part.goal.psi_rad = best->course_rad;
+      Plan plan = planAmong(obstacles, part, once);
+      if (plan.outcome == Outcome::kSolved) {
+        plan.left_m = length - best->along_m;
+        return plan;
+      }
+    }
+    return none;
+  }
+
+  struct OnGuide {
+    double along_m;
+    Eigen::Vector2d position;
+    double course_rad;
+    double clearance_m;
+  };
+  [[nodiscard]] std::vector<OnGuide> placesOnGuide(const map::DistanceField& field) const {
+    constexpr double kStepM = 0.2;
+    std::vector<OnGuide> places;
+    double before = 0.0;
+    for (std::size_t k = 1; k < guide_.points.size(); ++k) {
+      const Eigen::Vector2d leg = guide_.points[k] - guide_.points[k - 1];
+      const double length = leg.norm();
+      for (double s = 0.5 * kStepM; s < length; s += kStepM) {
+        const Eigen::Vector2d p = guide_.points[k - 1] + s / length * leg;
+        places.push_back({before + s, p, std::atan2(leg.y(), leg.x()), field.clearance(p)});
+      }
+      before += length;
+    }
+    return places;
   }
 
   // Down to `share` of the limit, in `longer` times what the drag alone would take.
@@ -168,6 +237,7 @@ class Planner::Pipeline {
     Run run{obstacles, query, termination, {}};
     run.samples_left = termination.max_iterations;
     const double began = run.now();
+    guide_.points.clear();
     if (checkEnds(run) && !planNearby(run) && findGuide(run)) {
       tryWarmStart(run);
       buildLine(run);

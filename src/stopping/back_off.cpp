@@ -68,7 +68,8 @@ bool canFollow(const Trajectory& path, const Obstacles& obstacles,
 class BackingOff {
  public:
   BackingOff(const vessel::State& state, const Obstacles& obstacles,
-             const vessel::Parameters& vessel, const vessel::Disturbance& disturbance)
+             const vessel::Parameters& vessel, const vessel::Disturbance& disturbance,
+             double reach_m)
       : obstacles_(obstacles),
         vessel_(vessel),
         disturbance_(disturbance),
@@ -78,7 +79,7 @@ class BackingOff {
     keep_m_ = std::clamp(
         feasibility::outlineClearance(vessel.hull, nodes_[0].position, nodes_[0].psi_rad, near) -
             kTouchesM,
-        kTightM, kClearM);
+        kTightM, std::max(kClearM, reach_m));
   }
 
   std::optional<Trajectory> find() {
@@ -243,8 +244,8 @@ double turningRoom(const vessel::Hull& hull) {
 
 std::optional<Trajectory> backOff(const vessel::State& state, const Obstacles& obstacles,
                                   const vessel::Parameters& vessel,
-                                  const vessel::Disturbance& disturbance) {
-  return BackingOff(state, obstacles, vessel, disturbance).find();
+                                  const vessel::Disturbance& disturbance, double reach_m) {
+  return BackingOff(state, obstacles, vessel, disturbance, reach_m).find();
 }
 
 std::optional<Trajectory> turnBack(const vessel::State& state, const Obstacles& obstacles,

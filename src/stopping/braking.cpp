@@ -244,16 +244,17 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
   Braking best;
   best.clearance_m = -1.0;
   double best_way_m = 0.0;
-  if (here.flat.velocity.norm() <= kUnderWayMps) {
+  const bool under_way = here.flat.velocity.norm() > kUnderWayMps;
+  if (!under_way) {
     Trajectory held = halt(sailed, at_s, vessel, stop.disturbance);
     if (!outlineConflict(held, 0.0, held.duration(), ahead, vessel, stop.hull_margin_m).found) {
       return {std::move(held), true, stop.clearance_m};
     }
     best = {std::move(held), false, 0.0};
   }
-  const auto keeps = [&](const Trajectory& candidate) {
+  const auto keeps = [&](const Trajectory& candidate, bool own) {
     return !firstConflict(candidate, 0.0, ahead, centre_m).found &&
-           goesOnFrom(here, candidate, vessel) && keepsAsternShare(candidate, vessel) &&
+           goesOnFrom(here, candidate, vessel) && (own || keepsAsternShare(candidate, vessel)) &&
            feasibility::verify(candidate, ahead, vessel, limits, tolerances).ok;
   };
   // No more than what is left of an acceleration as it dies out; of a hard one that is more, where
@@ -274,7 +275,8 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
       }
       continue;
     }
-    if (keeps(candidate)) {
+    const bool own = k + 1 == candidates.count();
+    if (keeps(candidate, own)) {
       return {std::move(candidate), true, stop.clearance_m};
     }
     const double clearance = leastClearance(candidate, ahead);
@@ -285,7 +287,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     }
   }
   for (Trajectory& candidate : faster) {
-    if (keeps(candidate)) {
+    if (keeps(candidate, false)) {
       return {std::move(candidate), true, stop.clearance_m};
     }
   }

@@ -34,6 +34,9 @@ struct Query {
   // What is being sailed, cut to begin at `start`: tried first, kept where nothing better is
   // found. May be empty.
   trajectory::Trajectory warm_start;
+  // Where there is no plan to the goal, one to a place on the way to it will do, for the vessel to
+  // see further from there.
+  bool may_end_early = false;
   // Key points from start to goal found elsewhere (a topology node); empty: found here.
   std::vector<Eigen::Vector2d> guide_path;
 
@@ -81,6 +84,7 @@ struct Plan {
   Outcome outcome = Outcome::kNoPath;
   std::string reason;  // a sentence; empty when solved
   trajectory::Trajectory trajectory;
+  double left_m = 0.0;  // of the guide path, from the trajectory's end on; 0: it leads to the goal
   Figures figures;
   // For people to look at: filled when Options::keep_trees is set.
   std::vector<Eigen::Vector2d> guide_path;

@@ -18,12 +18,14 @@ namespace otter_nav::stopping {
 
 // From rest at `state` to a place with more room, at best enough to turn on the spot: by legs
 // straight astern or ahead with turns on the spot between them, the quickest; rest to rest.
-// Verified like a plan, but for the clearance: the hull's exact outline keeps 0.1 m, and what
-// `disturbance` sets it aside during a leg. None where no better place is within four lengths.
+// Verified like a plan, but for the clearance: the hull's exact outline keeps 0.1 m, or what the
+// vessel is off its trajectory (`reach_m`), and what `disturbance` sets it aside during a leg; less
+// where it begins with less. None where no better place is within four lengths.
 [[nodiscard]] std::optional<trajectory::Trajectory> backOff(const vessel::State& state,
                                                             const feasibility::Obstacles& obstacles,
                                                             const vessel::Parameters& vessel,
-                                                            const vessel::Disturbance& disturbance);
+                                                            const vessel::Disturbance& disturbance,
+                                                            double reach_m = 0.0);
 
 // From rest over the map's edge, or close to it, to the nearest place inside with room to turn: a
 // turn on the spot towards or away from it, whichever is less, then straight; rest to rest. Nothing

@@ -139,6 +139,35 @@ TEST(Planner, SaysThatThereIsNoWay) {
   EXPECT_TRUE(plan.trajectory.empty());
 }
 
+// The goal lies across a channel narrower than the hull is long: there is no turning there.
+TEST(Planner, EndsEarlyWhereItMayAndTheWholeWayCantBePlanned) {
+  map::OccupancyGrid grid = test::openGrid();
+  test::fill(grid, 10.0, -40.0, 30.0, 39.0);
+  test::fill(grid, 10.0, 1.0, 30.0, 39.0);
+  const map::DistanceField field(grid, map::DistanceFieldOptions{});
+  Query query;
+  query.start.flat.position = {-20.0, 0.0};
+  query.goal.flat.position = {30.0, 0.0};
+  query.goal.psi_rad = 1.5707963;
+  query.limits.clearance_m = 0.65;
+  Planner planner(Options{}, vessel::Parameters{});
+  EXPECT_NE(planner.plan(field, query, byIterations()).outcome, Outcome::kSolved);
+  query.may_end_early = true;
+  const Plan part = planner.plan(field, query, byIterations());
+  ASSERT_EQ(part.outcome, Outcome::kSolved) << part.reason;
+  EXPECT_GT(part.left_m, 15.0);
+  EXPECT_LT(part.left_m, 45.0);
+  Query ends = query;
+  ends.goal.flat = part.trajectory.flat(part.trajectory.duration());
+  EXPECT_LT(ends.goal.flat.velocity.norm(), 1e-3);
+  EXPECT_GT(ends.goal.flat.position.x(), query.start.flat.position.x() + 5.0);
+  // What can be planned is planned whole.
+  query.goal.psi_rad = 0.0;
+  const Plan whole = planner.plan(field, query, byIterations());
+  ASSERT_EQ(whole.outcome, Outcome::kSolved) << whole.reason;
+  EXPECT_EQ(whole.left_m, 0.0);
+}
+
 TEST(Planner, SaysThatTheTimeIsUp) {
   const map::DistanceField field = islands();
   Planner planner(Options{}, vessel::Parameters{});

@@ -44,6 +44,30 @@ TEST(Safety, AsksForNoMoreThanStartAndGoalHave) {
   EXPECT_DOUBLE_EQ(planClearance(options, 3, 1.0, hull, 0.5), 0.64);
 }
 
+// Around the hull plans keep what the vessel wanders, half as much where there was none with that;
+// stops nearly as much.
+TEST(Safety, MarginsGrowWithWhatTheVesselWanders) {
+  Safety safety(SupervisorOptions{}, vessel::Parameters{});
+  const auto margin = [&] { return safety.limits(0.95, kWideWater).hull_margin_m; };
+  for (int k = 0; k < 100; ++k) {
+    safety.wander(0.1 * k, 0.01);
+  }
+  const double steady = margin();
+  EXPECT_LT(steady, 0.06);
+  EXPECT_NEAR(safety.stop(safety.limits(0.95, kWideWater)).hull_margin_m, 0.02, 0.01);
+  for (int k = 100; k < 400; ++k) {
+    safety.wander(0.1 * k, k % 2 == 0 ? 0.1 : 0.06);
+  }
+  const double wide = margin();
+  EXPECT_NEAR(wide, 0.16, 0.02);
+  EXPECT_NEAR(safety.stop(safety.limits(0.95, kWideWater)).hull_margin_m, wide - 0.03, 1e-9);
+  while (safety.refused()) {
+    EXPECT_NEAR(margin(), wide, 1e-9);
+  }
+  EXPECT_NEAR(margin(), 0.5 * wide, 1e-9);
+  EXPECT_EQ(safety.leastStop(safety.limits(0.95, kWideWater)).hull_margin_m, 0.02);
+}
+
 // A wider hull is kept as far from everything, beside it.
 TEST(Safety, ClearancesGrowWithTheBeam) {
   vessel::Parameters wam_v;

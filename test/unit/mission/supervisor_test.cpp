@@ -249,5 +249,46 @@ TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
                   .sail);
 }
 
+// A plan that leads a part of the way is sailed; one that leads on is taken though it takes longer,
+// and where none came the way is planned on from its end, which is no stop that counts.
+TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {
+  ScriptedMission m;
+  m.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto part = [&](const PlanRequest& request, double length_m, double left_m) {
+    planner::Plan plan;
+    plan.outcome = planner::Outcome::kSolved;
+    plan.trajectory = eastward({-40.0, 0.0}, length_m, 4.0);
+    plan.left_m = left_m;
+    return m.supervisor.planFinished(m.now_s, request.id, plan, m.situation(), m.obstacles());
+  };
+  std::optional<PlanRequest> asked = m.goTo({40.0, 0.0})->plan;
+  for (int k = 0; k < 10 && asked && !asked->query.may_end_early; ++k) {
+    (void)m.refuse(*asked, "none");
+    asked = m.update(0.1).plan;
+  }
+  ASSERT_TRUE(asked);
+  ASSERT_TRUE(asked->query.may_end_early);
+  EXPECT_EQ(asked->query.limits.clearance_m, m.clearance(3));
+  ASSERT_TRUE(part(*asked, 40.0, 40.0).sail);
+  EXPECT_EQ(m.supervisor.phase(), Phase::kSailing);
+  // Improvements are asked for; what leads no further is left.
+  std::optional<PlanRequest> better;
+  for (int k = 0; k < 40 && !better; ++k) {
+    better = m.update(0.1).plan;
+  }
+  ASSERT_TRUE(better);
+  EXPECT_TRUE(better->query.warm_start.empty());
+  EXPECT_FALSE(part(*better, 40.0, 39.0).sail);
+  for (int k = 0; k < 400 && m.supervisor.phase() != Phase::kStopped; ++k) {
+    if (const Orders later = m.update(0.1); later.plan) {
+      (void)m.refuse(*later.plan, "none");
+    }
+  }
+  ASSERT_EQ(m.supervisor.phase(), Phase::kStopped);
+  EXPECT_EQ(m.supervisor.stops(), 0);
+  EXPECT_NE(m.supervisor.reason().find("40 m of the way"), std::string::npos);
+  EXPECT_TRUE(m.update(0.1).plan);
+}
+
 }  // namespace
 }  // namespace otter_nav::mission

@@ -214,5 +214,36 @@ TEST(OutlineConflict, SeesTheHullInItsPlannedAttitude) {
   EXPECT_FALSE(outlineConflict(turn, 0.0, 0.5, field, vessel::Parameters{}, 0.03).found);
 }
 
+// The end of a plan brakes with what plans may take; harder stops than that are not planned.
+TEST(Braking, TakesTheWaysOwnRestAsHardAsThePlanBrakes) {
+  const vessel::Parameters vessel;
+  const auto astern = [&](const Trajectory& path) {
+    double least = 0.0;
+    for (double t = 0.0; t < path.duration(); t += 0.05) {
+      least = std::min(least, path.sample(t, vessel).thrusts.minCoeff());
+    }
+    return -least / vessel.thrusters.astern_max_n;
+  };
+  vessel::FlatPoint from;
+  from.velocity.x() = 2.0;
+  Trajectory sailed;
+  for (double duration = 6.0; duration > 1.0; duration -= 0.02) {
+    vessel::FlatPoint to;
+    to.position.x() = 0.5 * from.velocity.x() * duration;
+    sailed = Trajectory({trajectory::hermitePiece(from, to, duration)});
+    if (astern(sailed) > 0.92) {
+      break;
+    }
+  }
+  ASSERT_LT(astern(sailed), 0.99);
+  const double end = sailed.flat(sailed.duration()).position.x();
+  map::OccupancyGrid water = openWater();
+  block(water, {end + 1.6, -20.0}, {end + 3.0, 20.0});
+  const map::DistanceField field = fieldOf(water);
+  const Braking stop = brakingTrajectory(sailed, 0.0, field, vessel, {kClearanceM});
+  EXPECT_TRUE(stop.clear);
+  EXPECT_NEAR(stop.trajectory.flat(stop.trajectory.duration()).position.x(), end, 0.05);
+}
+
 }  // namespace
 }  // namespace otter_nav::stopping
