@@ -18,6 +18,14 @@ if(NOT DEFINED PYTHON_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python for catkin")
 endif()
 
+# Names of a room's anonymous namespaces differ for this.
+set(CMAKE_UNITY_BUILD ${OTTER_NAV_UNITY})
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+if(OTTER_NAV_UNITY)
+  # What lies hidden in a source counts as a header's here.
+  add_compile_options(-Wno-subobject-linkage)
+endif()
+
 find_program(OTTER_NAV_CCACHE ccache)
 if(OTTER_NAV_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${OTTER_NAV_CCACHE})

@@ -1,6 +1,6 @@
 # Headers that most sources include, compiled once: half of the build's time without them is spent
 # reading Eigen, the standard library and gtest again for each source. Targets of one kind share
-# one compilation (libraries and executables differ in their position-independent code).
+# one compilation; for that, programs and nodes have a library's position-independent code.
 find_package(Eigen3 REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(yaml-cpp REQUIRED)
@@ -14,22 +14,22 @@ set(OTTER_NAV_PRECOMPILED_ROS
     <nav_msgs/Odometry.h> <ros/node_handle.h>)
 
 function(otter_nav_add_precompiled kind main headers)
-  if(kind STREQUAL "library" OR kind STREQUAL "ros")
-    add_library(otter_nav_precompiled_${kind} STATIC ${main})
-  else()
-    add_executable(otter_nav_precompiled_${kind} ${main})
-  endif()
   set(target otter_nav_precompiled_${kind})
+  if(kind STREQUAL "test")
+    add_executable(${target} ${main})
+  else()
+    add_library(${target} STATIC ${main})
+  endif()
   target_include_directories(${target} SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIR})
   target_link_libraries(${target} PRIVATE tl::expected yaml-cpp ${ARGN})
-  if(kind MATCHES "ros|node")
+  if(kind STREQUAL "ros")
     target_include_directories(${target} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
     target_link_libraries(${target} PRIVATE ${catkin_LIBRARIES})
   endif()
   target_precompile_headers(${target} PRIVATE ${headers})
 endfunction()
 
-# otter_nav_precompiled(target kind): kind is library, program or test; ros or node for what knows ROS.
+# otter_nav_precompiled(target kind): kind is library (programs too), ros or test.
 function(otter_nav_precompiled target kind)
   if(NOT OTTER_NAV_PRECOMPILE)
     return()
@@ -44,12 +44,16 @@ function(otter_nav_precompiled target kind)
     if(kind STREQUAL "test")
       list(APPEND headers <gtest/gtest.h>)
       set(libraries GTest::gtest)
-    elseif(kind MATCHES "ros|node")
+    elseif(kind STREQUAL "ros")
       set(headers ${OTTER_NAV_PRECOMPILED_ROS})
     endif()
     otter_nav_add_precompiled(${kind} ${main} "${headers}" ${libraries})
   endif()
-  if(kind MATCHES "ros|node")
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "EXECUTABLE" AND NOT kind STREQUAL "test")
+    target_compile_options(${target} PRIVATE -fPIC)
+  endif()
+  if(kind STREQUAL "ros")
     # A compiler that can't use so large a file reads the headers themselves.
     target_compile_options(${target} PRIVATE -Wno-error=invalid-pch)
   endif()

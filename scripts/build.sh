@@ -17,10 +17,10 @@ for option in "$@"; do
   esac
 done
 
-# On a terminal: make's percentage on one refreshed line, so a newcomer sees that it goes on.
+# On a terminal: how much is done on one refreshed line, so a newcomer sees that it goes on.
 show_progress() {
   if [ -t 1 ]; then
-    awk '/^\[ *[0-9]+%\]/ {printf "\r%.78s\033[K", $0; fflush()} END {printf "\r\033[K"}'
+    awk '/^\[ *[0-9]+(%|\/[0-9]+)\]/ {printf "\r%.78s\033[K", $0; fflush()} END {printf "\r\033[K"}'
   else
     cat >/dev/null
   fi
@@ -31,10 +31,15 @@ mkdir -p build
 if grep -qs '^OTTER_NAV_PROGRAMS:BOOL=ON' build/otter_nav/CMakeCache.txt; then
   programs=ON
 fi
+# Ninja starts what can be started; a build/ that make began stays make's.
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' build/otter_nav/CMakeCache.txt 2>/dev/null || true)
 # Left to itself colcon also bounds the load, and what else runs here would halve the build's pace.
-export MAKEFLAGS=${MAKEFLAGS:--j$(nproc)}
+export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
+export MAKEFLAGS=${MAKEFLAGS:--j$CMAKE_BUILD_PARALLEL_LEVEL}
+# Nobody here speaks Lisp.
+export ROS_LANG_DISABLE=${ROS_LANG_DISABLE:-genlisp}
 if ! colcon --log-base log build --base-paths "$top" --build-base build --install-base install \
-  --merge-install --cmake-args -DCMAKE_BUILD_TYPE=Release \
+  --merge-install --cmake-args -G "${generator:-Ninja}" -DCMAKE_BUILD_TYPE=Release -DOTTER_NAV_UNITY=ON \
   -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=$testing -DOTTER_NAV_PROGRAMS=$programs "${strict[@]}" 2>&1 |
   tee build/build.log | show_progress; then
   tail -n 60 build/build.log >&2

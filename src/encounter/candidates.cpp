@@ -8,8 +8,6 @@
 namespace otter_nav::encounter {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 Eigen::Vector2d toStarboard(const Eigen::Vector2d& v, double turn_rad) {
   const double c = std::cos(turn_rad);
   const double s = std::sin(turn_rad);

@@ -35,9 +35,9 @@ Eigen::Vector3d smoothStep(double x) {
 }
 
 // Course and speed as sums of steps; turns are taken the short way.
-class Course {
+class CourseMade {
  public:
-  Course(const Eigen::Vector2d& velocity, const std::vector<Change>& changes)
+  CourseMade(const Eigen::Vector2d& velocity, const std::vector<Change>& changes)
       : course_(std::atan2(velocity.y(), velocity.x())), speed_(velocity.norm()) {
     double course = course_;
     double speed = speed_;
@@ -112,7 +112,7 @@ double Handling::changeDuration(const Eigen::Vector2d& from, const Eigen::Vector
 }
 
 Trajectory steer(const FlatPoint& start, const std::vector<Change>& changes, double end_s) {
-  const Course course(start.velocity, changes);
+  const CourseMade course(start.velocity, changes);
   // What the start has of acceleration and jerk beyond the course's, led to nothing.
   Eigen::Vector2d v, a, j;
   course.at(0.0, v, a, j);

@@ -18,7 +18,6 @@
 namespace otter_nav::encounter {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
 constexpr double kCourseS = 2.0;  // courses over ground are means over this
 // A candidate must be better than what is being sailed by this, s: its polyline is only roughly
 // what would be sailed, and tracks wander.

@@ -7,7 +7,6 @@
 namespace otter_nav::encounter {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
 constexpr double kAbaftTheBeam = 112.5 * kDegree;
 constexpr double kHeadOn = 12.0 * kDegree;
 

@@ -13,9 +13,9 @@ constexpr double kInstantsPerSecond = 5.0;
 constexpr int kFewestInstants = 4;
 // Bent edges.
 constexpr double kBentStepS = 0.1;
-constexpr double kSlowMps = 0.3;        // slower, the pieces at start and goal are rebuilt anyway
+constexpr double kRebuiltMps = 0.3;        // slower, the pieces at start and goal are rebuilt anyway
 constexpr double kTurningRadps = 0.15;  // a course turning less counts as straight
-constexpr double kYawRateShare = 0.75;  // of the limit
+constexpr double kTurnShare = 0.75;  // of the limit
 constexpr double kLeastForceShare = 0.02;  // |w| while turning, of both thrusters ahead
 
 }  // namespace
@@ -82,7 +82,7 @@ EdgeFault EdgeCheck::check(const trajectory::Piece& piece, double start_s) const
 EdgeFault EdgeCheck::checkTurning(const vessel::FlatPoint& z) const {
   const Eigen::Vector2d through = inverse_.throughWater(z.velocity);
   const double speed = z.velocity.norm();
-  if (speed < kSlowMps) {
+  if (speed < kRebuiltMps) {
     return EdgeFault::kNone;
   }
   const double floor = least_force_n_;
@@ -90,7 +90,7 @@ EdgeFault EdgeCheck::checkTurning(const vessel::FlatPoint& z) const {
   const Eigen::Vector2d w1 = inverse_.headingForceRate(z.acceleration, z.jerk);
   const double force2 = w.squaredNorm();
   if (std::abs(cross(w, w1)) >
-      kYawRateShare * limits_.yaw_rate_max_radps * std::max(force2, floor * floor)) {
+      kTurnShare * limits_.yaw_rate_max_radps * std::max(force2, floor * floor)) {
     return EdgeFault::kYawRate;
   }
   const double turning = std::abs(cross(z.velocity, z.acceleration)) / (speed * speed);

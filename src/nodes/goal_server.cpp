@@ -10,7 +10,7 @@
 namespace otter_nav::nodes {
 namespace {
 
-using Result = move_base_msgs::MoveBaseResult;
+using Outcome = move_base_msgs::MoveBaseResult;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void GoalServer::retryWaiting() {
 
 void GoalServer::abortWaiting(const std::string& reason) {
   if (waiting_) {
-    waiting_->setRejected(Result(), reason);
+    waiting_->setRejected(Outcome(), reason);
     waiting_.reset();
   }
 }
@@ -62,22 +62,22 @@ void GoalServer::take(Handle handle) {
           .and_then([&](const vessel::Pose& pose) { return on_goal_(pose); });
   if (!taken) {
     ROS_WARN_STREAM("Refused the goal: " << taken.error().message);
-    handle.setAborted(Result(), taken.error().message);
+    handle.setAborted(Outcome(), taken.error().message);
     return;
   }
   if (under_way_) {
-    under_way_->setCanceled(Result(), kReplaced);
+    under_way_->setCanceled(Outcome(), kReplaced);
   }
   under_way_ = handle;
 }
 
 void GoalServer::onActionCancel(const Handle& handle) {
   if (waiting_ && *waiting_ == handle) {
-    waiting_->setCanceled(Result(), "cancelled");
+    waiting_->setCanceled(Outcome(), "cancelled");
     waiting_.reset();
   }
   if (under_way_ && *under_way_ == handle) {
-    under_way_->setCanceled(Result(), "cancelled");
+    under_way_->setCanceled(Outcome(), "cancelled");
     under_way_.reset();
     on_cancel_();
   }
@@ -85,14 +85,14 @@ void GoalServer::onActionCancel(const Handle& handle) {
 
 void GoalServer::succeed(const std::string& text) {
   if (under_way_) {
-    under_way_->setSucceeded(Result(), text);
+    under_way_->setSucceeded(Outcome(), text);
     under_way_.reset();
   }
 }
 
 void GoalServer::abort(const std::string& reason) {
   if (under_way_) {
-    under_way_->setAborted(Result(), reason);
+    under_way_->setAborted(Outcome(), reason);
     under_way_.reset();
   }
 }

@@ -17,16 +17,16 @@ namespace {
 
 using ros_bridge::frames;
 
-constexpr int kQueue = 100;
+constexpr int kKept = 100;
 constexpr double kPathStepS = 0.25;
 
 }  // namespace
 
 PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel)
     : vessel_(std::move(vessel)),
-      trajectory_(node.advertise<Trajectory>("trajectory", kQueue, true)),
+      trajectory_(node.advertise<Trajectory>("trajectory", kKept, true)),
       path_(node.advertise<nav_msgs::Path>("path", 1, true)),
-      status_publisher_(node.advertise<PlannerStatus>("planner_status", kQueue)),
+      status_publisher_(node.advertise<PlannerStatus>("planner_status", kKept)),
       trajectory_markers_(
           node.advertise<visualization_msgs::MarkerArray>("trajectory_markers", 1, true)),
       tree_markers_(node.advertise<visualization_msgs::MarkerArray>("tree_markers", 1, true)) {

@@ -17,7 +17,7 @@ namespace {
 
 using namespace ros_bridge;  // NOLINT: the node is made of these
 
-constexpr int kQueue = 100;
+constexpr int kKept = 100;
 constexpr double kWeatherPeriodS = 0.1;
 
 geometry_msgs::TransformStamped transformOf(const std::string& parent, const std::string& child,
@@ -52,19 +52,19 @@ void set(const Eigen::Vector3d& v, geometry_msgs::Vector3& message) {
 }  // namespace
 
 PlantPublisher::PlantPublisher(ros::NodeHandle& node, const plant::LidarOptions& lidar)
-    : clock_(node.advertise<rosgraph_msgs::Clock>("/clock", kQueue)),
-      odometry_(node.advertise<nav_msgs::Odometry>("odom", kQueue)),
-      ground_truth_(node.advertise<nav_msgs::Odometry>("ground_truth", kQueue)),
-      state_(node.advertise<PlantState>("plant_state", kQueue)),
-      scan_(node.advertise<sensor_msgs::LaserScan>("scan", kQueue)),
-      radar_(node.advertise<geometry_msgs::PoseArray>("radar", kQueue)),
-      ais_(node.advertise<std_msgs::String>("ais", kQueue)),
-      vessels_(node.advertise<Tracks>("vessels", kQueue)),
-      contact_(node.advertise<ContactEvent>("contact", kQueue, true)),
-      wind_(node.advertise<geometry_msgs::Vector3Stamped>("wind", kQueue)),
-      current_(node.advertise<geometry_msgs::Vector3Stamped>("current", kQueue)),
+    : clock_(node.advertise<rosgraph_msgs::Clock>("/clock", kKept)),
+      odometry_(node.advertise<nav_msgs::Odometry>("odom", kKept)),
+      ground_truth_(node.advertise<nav_msgs::Odometry>("ground_truth", kKept)),
+      state_(node.advertise<PlantState>("plant_state", kKept)),
+      scan_(node.advertise<sensor_msgs::LaserScan>("scan", kKept)),
+      radar_(node.advertise<geometry_msgs::PoseArray>("radar", kKept)),
+      ais_(node.advertise<std_msgs::String>("ais", kKept)),
+      vessels_(node.advertise<Tracks>("vessels", kKept)),
+      contact_(node.advertise<ContactEvent>("contact", kKept, true)),
+      wind_(node.advertise<geometry_msgs::Vector3Stamped>("wind", kKept)),
+      current_(node.advertise<geometry_msgs::Vector3Stamped>("current", kKept)),
       trail_(node, "trail"),
-      transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", kQueue, true)) {
+      transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", kKept, true)) {
   // A GNSS-aided navigation system is simulated, so odom and map coincide.
   static_transforms_.sendTransform(
       {transformOf(frames().map, frames().odom, Eigen::Vector3d::Zero(), ros::Time()),

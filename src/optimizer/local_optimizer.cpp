@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "optimizer/objective/cost.hpp"
 #include "otter_nav/trajectory/polynomial/block_tridiagonal.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 
@@ -14,14 +15,13 @@ constexpr double kStretch = 1.15;  // of the edge's time when its dynamics fail
 constexpr double kLeastPushM = 0.1;
 constexpr double kPushMaxM = 6.0;  // farther from the edge than this no guidance point is sought
 constexpr double kMarginM = 0.2;   // beyond the clearance, that guidance points stand off
-constexpr int kAttempts = 4;       // solutions with raised weights
+constexpr int kSolutions = 4;      // with raised weights
 // The paper's weights.
-constexpr double kWeightSmooth = 0.02;
-constexpr double kWeightClearance = 10.0;
-constexpr double kWeightDynamics = 2.0;
-constexpr double kWeightOriginal = 0.05;
-constexpr double kWeightGrowth = 4.0;  // of clearance and dynamics, from attempt to attempt
-constexpr double kSquareCells = 0.7;   // from a cell's centre to what its square reaches
+constexpr double kSmooth = 0.02;
+constexpr double kClearance = 10.0;
+constexpr double kDynamics = 2.0;
+constexpr double kOriginal = 0.05;
+constexpr double kRaise = 4.0;  // of clearance and dynamics, from solution to solution
 
 // T^k of the end values [p v a p v a].
 Eigen::Matrix<double, 6, 1> powers(double T) {
@@ -102,24 +102,24 @@ void LocalOptimizer::pullTowards(const feasibility::EdgeCheck& check, const Knot
     z.col(1) /= step_s;
     z.col(2) /= step_s * step_s;
     Pull& pull = pulls[segment][point];
-    pull.weight[0] = std::max(pull.weight[0], kWeightOriginal);
+    pull.weight[0] = std::max(pull.weight[0], kOriginal);
     const bool collides = field.smooth(z.col(0)).distance_m < need;
     if (collides && stretch < 0) {
       stretch = i;
     }
     if (stretch >= 0 && (!collides || i + 1 == count)) {
-      guideStretch(check, states, stretch, collides ? i : i - 1, kWeightClearance * growth, pulls);
+      guideStretch(check, states, stretch, collides ? i : i - 1, kClearance * growth, pulls);
       stretch = -1;
     }
     const double speed = z.col(1).norm();
     if (speed > check.speedMaxEver()) {
       pull.target.col(1) = 0.95 * check.speedMaxEver() / speed * z.col(1);
-      pull.weight[1] = kWeightDynamics * growth;
+      pull.weight[1] = kDynamics * growth;
     }
     const double asked = inverse.push(inverse.throughWater(z.col(1)), z.col(1), z.col(2)).norm();
     if (asked > force) {
       pull.target.col(2) = z.col(2) * (force / asked);
-      pull.weight[2] = kWeightDynamics * growth;
+      pull.weight[2] = kDynamics * growth;
     }
   }
 }
@@ -132,7 +132,7 @@ void LocalOptimizer::solve(const Pulls& pulls, double step_s, Knots& knots) cons
   const Eigen::Matrix<double, 6, 1> scale = powers(step_s);
   const Eigen::Vector3d rate(1.0, 1.0 / step_s, 1.0 / (step_s * step_s));
   const Eigen::Matrix<double, 6, 6> smooth =
-      kWeightSmooth / std::pow(step_s, 5) * scale.asDiagonal() * jerk_ * scale.asDiagonal();
+      kSmooth / std::pow(step_s, 5) * scale.asDiagonal() * jerk_ * scale.asDiagonal();
   for (std::size_t i = 0; i < n; ++i) {
     Eigen::Matrix<double, 6, 6> hessian = smooth;
     Eigen::Matrix<double, 6, 2> linear = Eigen::Matrix<double, 6, 2>::Zero();
@@ -204,7 +204,7 @@ bool LocalOptimizer::repair(const feasibility::EdgeCheck& check, const trajector
     }
   }
   double growth = 1.0;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kSolutions; ++attempt) {
     pullTowards(check, knots, step, growth, pulls);
     solve(pulls, step, knots);
     const feasibility::EdgeFault fault = join(check, knots, start_s, step, repaired);
@@ -214,7 +214,7 @@ bool LocalOptimizer::repair(const feasibility::EdgeCheck& check, const trajector
     if (fault != feasibility::EdgeFault::kClearance) {
       step *= kStretch;
     }
-    growth *= kWeightGrowth;
+    growth *= kRaise;
   }
   return false;
 }

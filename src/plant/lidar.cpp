@@ -10,8 +10,6 @@
 namespace otter_nav::plant {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 Eigen::Matrix3d mapFromBody(const Truth& truth) {
   return (Eigen::AngleAxisd(truth.yaw_rad, Eigen::Vector3d::UnitZ()) *
           Eigen::AngleAxisd(truth.pitch_rad, Eigen::Vector3d::UnitY()) *
@@ -24,7 +22,7 @@ double rangeToWater(double height_m, double rise) {
   if (height_m <= 0.0) {
     return 0.0;
   }
-  return rise < 0.0 ? -height_m / rise : kInfinity;
+  return rise < 0.0 ? -height_m / rise : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace

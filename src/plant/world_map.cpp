@@ -8,13 +8,13 @@ namespace otter_nav::plant {
 namespace {
 
 constexpr int kSaturation = 255;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kOpenCells = std::numeric_limits<double>::infinity();
 
 // Where a ray, in cells, enters and leaves the strip [low, high] of one axis.
 void clip(double from, double direction, double low, double high, double& enter, double& leave) {
   if (direction == 0.0) {
     if (from < low || from > high) {
-      leave = -kInfinity;
+      leave = -kOpenCells;
     }
     return;
   }
@@ -38,7 +38,7 @@ struct Axis {
   // The ray's parameter where it leaves the square of free cells around the present one.
   [[nodiscard]] double exit(int free_cells) const {
     if (direction == 0.0) {
-      return kInfinity;
+      return kOpenCells;
     }
     const int edge = direction > 0.0 ? cell + free_cells : cell - free_cells + 1;
     return (edge - from) * inverse;
@@ -85,7 +85,7 @@ WorldMap::WorldMap(const map::OccupancyGrid& grid) : geometry_(grid.geometry) {
 double WorldMap::castRay(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
                          double range_m) const {
   if (distance_.empty()) {
-    return kInfinity;
+    return kOpenCells;
   }
   const Eigen::Vector2d start = (from - geometry_.origin) / geometry_.resolution_m;
   double t = 0.0;
@@ -116,7 +116,7 @@ double WorldMap::castRay(const Eigen::Vector2d& from, const Eigen::Vector2d& dir
       y.leave(free_cells);
     }
   }
-  return kInfinity;
+  return kOpenCells;
 }
 
 }  // namespace otter_nav::plant

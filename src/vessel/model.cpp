@@ -16,7 +16,7 @@ State stateOf(const Position& position, double r, const Acceleration& accelerati
 }
 
 // Directions beside the state's own.
-enum Direction : int { kByCurrentX = kStateSize, kByCurrentY };
+enum CurrentDirection : int { kByCurrentX = kStateSize, kByCurrentY };
 
 template <int Direction, typename Acceleration>
 Eigen::Vector3d slopes(const Acceleration& a) {

@@ -11,7 +11,7 @@ namespace otter_nav::vessel {
 namespace {
 
 constexpr int kHeadings = 144;  // between which the sway force is looked at for changes of sign
-constexpr int kHalvings = 40;
+constexpr int kHeadingHalvings = 40;
 constexpr double kNothingN = 1e-6;
 
 }  // namespace
@@ -44,7 +44,7 @@ std::vector<SteadyMotion> steadyHeadings(const Eigen::Vector2d& velocity, double
     const SteadyMotion after = on(high);
     const bool either = std::min(std::abs(before.sway_n), std::abs(after.sway_n)) <= kNothingN;
     if (!either && before.sway_n * after.sway_n < 0.0) {
-      for (int i = 0; i < kHalvings; ++i) {
+      for (int i = 0; i < kHeadingHalvings; ++i) {
         const double middle = 0.5 * (low + high);
         (on(middle).sway_n * before.sway_n > 0.0 ? low : high) = middle;
       }

@@ -6,9 +6,12 @@
 
 #include <Eigen/Core>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/config/fields.hpp"
 
 namespace otter_nav::encounter {
+
+constexpr double kDegree = kPi / 180.0;
 
 // What we are to another vessel (rules 13 to 15, 17).
 enum class Role {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kStepS = 0.02;      // of Runge and Kutta's method
 constexpr double kPieceS = 0.25;     // a piece lasts no longer
-constexpr double kShortestS = 1e-4;  // joints nearer than this are one
+constexpr double kOneJointS = 1e-4;  // joints nearer than this are one
 
 }  // namespace
 
@@ -92,7 +92,7 @@ std::vector<double> ForcedMotion::joints(double from_s, double to_s) const {
   std::vector<double> times = {from_s};
   for (const double change : changes) {
     const double length = change - times.back();
-    if (change > to_s || length < kShortestS || (change < to_s && to_s - change < kShortestS)) {
+    if (change > to_s || length < kOneJointS || (change < to_s && to_s - change < kOneJointS)) {
       continue;
     }
     const double start = times.back();

@@ -18,7 +18,7 @@ constexpr double kSlowestShare = 0.4;
 constexpr double kReachRad = 0.3;  // steps of a manoeuvre's parameters that are still nearly linear
 constexpr double kReachMps = 0.8;
 constexpr double kStep = 1e-3;          // of parameters, for differences
-constexpr double kLeastTurnRad = 0.02;  // that a turn shrinks to
+constexpr double kShrunkTurnRad = 0.02;  // that a turn shrinks to
 constexpr double kLongestShare = 0.3;   // of the path, for the arrival
 
 double angleOf(const Eigen::Vector2d& v) {
@@ -214,7 +214,7 @@ void EndChooser::follow(Knot& knot, End& end) const {
   // A turn keeps its side, and does not vanish.
   const double side = end.turn_rad < 0.0 ? -1.0 : 1.0;
   if (end.turn_rad != 0.0) {
-    end.turn_rad = side * std::max(side * (end.turn_rad + knot.family->moved[0]), kLeastTurnRad);
+    end.turn_rad = side * std::max(side * (end.turn_rad + knot.family->moved[0]), kShrunkTurnRad);
   }
   end.speed_mps = std::clamp(end.speed_mps + knot.family->moved[1], slowest(),
                              std::max(slowest(), options_.arrival_speed_max_mps));

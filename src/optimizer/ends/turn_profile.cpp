@@ -6,7 +6,7 @@
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr int kHalvings = 60;
+constexpr int kPeakHalvings = 60;
 // Without a moment the yaw rate shall die away in no more than this.
 constexpr double kLooseLagS = 0.6;
 
@@ -19,7 +19,7 @@ template <typename Function>
 double solveRising(double high, double wanted, const Function& reach) {
   double low = 0.0;
   double middle = 0.0;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kPeakHalvings; ++i) {
     middle = 0.5 * (low + high);
     (reach(middle) < wanted ? low : high) = middle;
   }

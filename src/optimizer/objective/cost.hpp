@@ -16,6 +16,10 @@
 
 namespace otter_nav::optimizer {
 
+// A cell's square reaches this far beyond its centre, in cells (DistanceField::smooth measures to
+// centres), as seen from most directions.
+constexpr double kSquareCells = 0.7;
+
 struct SplineWeights {
   double time = 1.0;
   double length = 0.1;

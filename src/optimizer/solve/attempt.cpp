@@ -10,9 +10,6 @@
 namespace otter_nav::optimizer {
 namespace {
 
-// A cell's square reaches this far beyond its centre, in cells (DistanceField::smooth measures to
-// centres), as seen from most directions.
-constexpr double kSquareCells = 0.7;
 constexpr double kHullMarginM = 0.03;
 constexpr double kClearanceMarginM = 0.05;
 constexpr double kPieceLengthM = 17.0;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastForceN = 1e-6;  // above rounding
 constexpr double kSpacingM = 1.0;
 constexpr int kBandSteps = 60;
-constexpr double kSlowestMps = 0.8;
+constexpr double kSlowestBandMps = 0.8;
 constexpr int kMostArcPoints = 12;
 constexpr double kTurnRadiusM = 2.5;  // of turns at speed next to the ends
 constexpr double kArcReachM = 12.0;   // an arc ends heading for the path this far on
@@ -60,7 +60,7 @@ double InitialSpline::speedIn(double curvature_per_m) const {
     const double need = tau.surge_n + tau.yaw_nm / vessel_.thrusters.lever_arm_m;
     (need < force ? low : high) = v;
   }
-  return std::max(low, kSlowestMps);
+  return std::max(low, kSlowestBandMps);
 }
 
 void InitialSpline::setSpeeds(double speed_from, double speed_to) {
@@ -74,7 +74,7 @@ void InitialSpline::setSpeeds(double speed_from, double speed_to) {
       [&](double v) {
         return kRampShare * std::min(m.d2_kgps * v, m.d1_kgps * v + astern) / m.m1_kg;
       },
-      std::max(speed_from, kSlowestMps), std::max(speed_to, kSlowestMps));
+      std::max(speed_from, kSlowestBandMps), std::max(speed_to, kSlowestBandMps));
 }
 
 Knot InitialSpline::knotAt(double s) const {

@@ -14,7 +14,6 @@
 namespace otter_nav::mission {
 namespace {
 
-using Eigen::Vector2d;
 
 vessel::Parameters windy() {
   vessel::Parameters vessel;

@@ -20,7 +20,7 @@ void PrintTo(const Case& c, std::ostream* out) {
   *out << c.name;
 }
 
-Surroundings calm(const PlantState& /*x*/) {
+Surroundings stillWater(const PlantState& /*x*/) {
   return {};
 }
 
@@ -46,14 +46,14 @@ class EveryModel : public testing::TestWithParam<Case> {
 
 TEST_P(EveryModel, StaysWhereItIsSettled) {
   PlantState x = model_->settled();
-  for (int i = 0; i < 500; ++i) x = model_->step(x, model_->commandFor({0.0, 0.0}), 0.01, calm);
+  for (int i = 0; i < 500; ++i) x = model_->step(x, model_->commandFor({0.0, 0.0}), 0.01, stillWater);
   EXPECT_LT((x - model_->settled()).norm(), 1e-9);
 }
 
 TEST_P(EveryModel, ReachesItsFilesTopSpeed) {
   PlantState x = model_->settled();
   const Eigen::Vector2d full = model_->commandFor({1e4, 1e4});
-  for (int i = 0; i < 3000; ++i) x = model_->step(x, full, 0.01, calm);
+  for (int i = 0; i < 3000; ++i) x = model_->step(x, full, 0.01, stillWater);
   EXPECT_NEAR(x[kU], vessel_.top_speed_mps, 0.01 * vessel_.top_speed_mps);
 }
 
@@ -76,7 +76,7 @@ TEST_P(EveryModel, ItsPropellersLagAsTheFileSays) {
   const Eigen::Vector2d command =
       model_->commandFor({vessel_.thrusters.astern_max_n, -0.5 * vessel_.thrusters.astern_max_n});
   PlantState x = model_->settled();
-  for (int i = 0; i < 10; ++i) x = model_->step(x, command, 0.01, calm);
+  for (int i = 0; i < 10; ++i) x = model_->step(x, command, 0.01, stillWater);
   const double lag_s = vessel_.thrusters.lag_s;
   const double share = lag_s > 0.0 ? 1.0 - std::exp(-0.1 / lag_s) : 1.0;
   EXPECT_NEAR(x[kPropeller], share * command[0], 1e-5 * std::abs(command[0]));
@@ -118,7 +118,7 @@ TEST_P(EveryModel, StepsAlongItsDerivative) {
   const Eigen::Vector2d command = model_->commandFor({10.0, 30.0});
   x.tail<2>() = command;
   constexpr double kStep = 1e-6;
-  const PlantState rate = (model_->step(x, command, kStep, calm) - x) / kStep;
+  const PlantState rate = (model_->step(x, command, kStep, stillWater) - x) / kStep;
   EXPECT_LT((rate - model_->derivative(x, command, {})).norm(), 1e-3);
   EXPECT_LT((rate.segment<6>(kNorth) - model_->poseRate(x)).norm(), 1e-4);
 }
