@@ -13,9 +13,9 @@ constexpr double kInstantsPerSecond = 5.0;
 constexpr int kFewestInstants = 4;
 // Bent edges.
 constexpr double kBentStepS = 0.1;
-constexpr double kRebuiltMps = 0.3;        // slower, the pieces at start and goal are rebuilt anyway
+constexpr double kRebuiltMps = 0.3;     // slower, the pieces at start and goal are rebuilt anyway
 constexpr double kTurningRadps = 0.15;  // a course turning less counts as straight
-constexpr double kTurnShare = 0.75;  // of the limit
+constexpr double kTurnShare = 0.75;     // of the limit
 constexpr double kLeastForceShare = 0.02;  // |w| while turning, of both thrusters ahead
 
 }  // namespace

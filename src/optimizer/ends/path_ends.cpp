@@ -17,9 +17,9 @@ constexpr double kSlowestMps = 0.5;  // of an arrival, where the speed limit is 
 constexpr double kSlowestShare = 0.4;
 constexpr double kReachRad = 0.3;  // steps of a manoeuvre's parameters that are still nearly linear
 constexpr double kReachMps = 0.8;
-constexpr double kStep = 1e-3;          // of parameters, for differences
+constexpr double kStep = 1e-3;           // of parameters, for differences
 constexpr double kShrunkTurnRad = 0.02;  // that a turn shrinks to
-constexpr double kLongestShare = 0.3;   // of the path, for the arrival
+constexpr double kLongestShare = 0.3;    // of the path, for the arrival
 
 double angleOf(const Eigen::Vector2d& v) {
   return std::atan2(v.y(), v.x());

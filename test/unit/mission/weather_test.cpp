@@ -14,7 +14,6 @@
 namespace otter_nav::mission {
 namespace {
 
-
 vessel::Parameters windy() {
   vessel::Parameters vessel;
   vessel.manoeuvring.wind_surge_kgpm = 0.5;

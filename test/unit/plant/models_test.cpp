@@ -46,7 +46,8 @@ class EveryModel : public testing::TestWithParam<Case> {
 
 TEST_P(EveryModel, StaysWhereItIsSettled) {
   PlantState x = model_->settled();
-  for (int i = 0; i < 500; ++i) x = model_->step(x, model_->commandFor({0.0, 0.0}), 0.01, stillWater);
+  for (int i = 0; i < 500; ++i)
+    x = model_->step(x, model_->commandFor({0.0, 0.0}), 0.01, stillWater);
   EXPECT_LT((x - model_->settled()).norm(), 1e-9);
 }
 
