@@ -24,6 +24,7 @@ constexpr double kCourseS = 2.0;  // courses over ground are means over this
 constexpr double kBetterS = 6.0;
 constexpr double kPeriodS = 1.0;
 constexpr double kUnderWayS = 15.0;  // at most, until the cruising speed is reached
+constexpr double kSteadiesS = 8.0;   // at least, until a course is kept
 
 // A straight line through the positions of the last while: a track's own velocity follows each
 // scan and wanders more than a course kept does.
@@ -297,8 +298,9 @@ class Pilot::Impl {
       own_.velocity = (own.position - trail_.front().second) / span;
     }
     constexpr double kCruising = 0.92;
-    under_way_ = under_way_ || own_.velocity.norm() > kCruising * cruise_mps ||
-                 now_s - goal_time_s_ > kUnderWayS;
+    const double sails_s = now_s - goal_time_s_;
+    const bool cruises = own_.velocity.norm() > kCruising * cruise_mps && sails_s > kSteadiesS;
+    under_way_ = under_way_ || cruises || sails_s > kUnderWayS;
     if (!under_way_ && (goal - own.position).norm() > 1.0) {
       own_.velocity = cruise_mps * (goal - own.position).normalized();
     }

@@ -266,6 +266,8 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
   constexpr double kContactS = 1000.0;
   constexpr double kMoreM = 1.3;  // for the outlines' ways beside the polyline
   constexpr double kUncertainMaxM = 4.0;
+  // What is farther off counts less and less, and nothing in the end: there is time to decide.
+  constexpr double kSoonS = 90.0;
   constexpr double kDistantS = 150.0;
   constexpr double kContactM = 0.8;
   constexpr std::size_t kMost = 32;
@@ -287,7 +289,7 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
     near += kNearMissS * std::max(0.0, least - r);
     near += kTouchS * std::max(0.0, 3.0 - r);
     near += r < kContactM ? kContactS : 0.0;
-    price += near / (1.0 + std::pow(look.nearest_s / kDistantS, 2));
+    price += near * std::clamp((kDistantS - look.nearest_s) / (kDistantS - kSoonS), 0.0, 1.0);
     for (unsigned bits = look.broken & ~(kActedEarly | kToPort); bits != 0; bits &= bits - 1) {
       price += kRuleS;
     }
