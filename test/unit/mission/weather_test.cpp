@@ -68,7 +68,8 @@ double worstMoment(const vessel::Parameters& vessel, const vessel::Disturbance& 
                    double speed_mps) {
   double worst = 0.0;
   for (double course = 0.0; course < 2.0 * kPi; course += 0.1) {
-    const Vector2d velocity = speed_mps * Vector2d(std::cos(course), std::sin(course));
+    const Eigen::Vector2d velocity =
+        speed_mps * Eigen::Vector2d(std::cos(course), std::sin(course));
     double least = 10.0;
     for (const vessel::SteadyMotion& motion :
          vessel::steadyHeadings(velocity, course, vessel, wind)) {
