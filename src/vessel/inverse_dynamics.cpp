@@ -19,6 +19,8 @@ constexpr double kSingularShare = 5e-4;
 // the least the position hardly says where the bow should point. Under more than a light load the
 // heading found is only a wish, and trusted more and more as the slope grows to the steady one.
 constexpr double kLeastSlopeShare = 0.1;
+constexpr double kLeastSlowShare = 0.02;  // of a slow hull, as far as
+constexpr double kLeastDragShare = 0.5;   // so much of the drag at its speed goes
 constexpr double kSteadySlopeShare = 0.3;
 constexpr double kLightLoadShare = 0.05;
 constexpr double kRoundingMps = 1e-9;  // of D over the sway inertia
@@ -224,7 +226,9 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
                         double psi_before_rad, double psi_path_rad, double dt_s) {
   const ManoeuvringModel& m = vessel.manoeuvring;
   const double thrust_n = 2.0 * vessel.thrusters.ahead_max_n;
-  const double least_slope_n = kLeastSlopeShare * thrust_n;
+  const double drag_n = m.surge_drag_kgps * (velocity - disturbance.current_mps).norm();
+  const double least_slope_n =
+      std::clamp(kLeastDragShare * drag_n, kLeastSlowShare * thrust_n, kLeastSlopeShare * thrust_n);
   double psi = unwrapNear(psi_before_rad, psi_path_rad);
   const double before = psi;
   double slope_n = 0.0;

@@ -207,7 +207,12 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
   const double speed = kLaunchSpeedShare * limits.speed_max_mps;
   const double steady_n = steadyForce(vessel, disturbance, std::abs(turn_rad), speed);
   const double full_n = share * thrust.leftAhead();
-  const double most = std::min(full_n, steady_n + vessel.paper.m1_kg * speed / kGentleLaunchS);
+  // From a speed to the one wanted.
+  const auto push = [&](double from_mps) {
+    const double lacking = std::max(0.0, speed - from_mps);
+    return std::min(full_n, steady_n + vessel.paper.m1_kg * lacking / kGentleLaunchS);
+  };
+  double most = push(0.0);
   const bool gentle = most < full_n;
   std::vector<SurgeRamp> ramps = {{kLongAgoS, kLongAgoS, most, most}};
   double turning_n = 0.0;
@@ -233,6 +238,10 @@ Manoeuvre launch(const Eigen::Vector2d& position, double psi_rad, double turn_ra
       turn = std::move(loose.profile);
       ahead_s = loose.moment_ends_s;
     }
+    const double turned_mps =
+        turning_n / vessel.paper.d1_kgps *
+        (1.0 - std::exp(-ahead_s * vessel.paper.d1_kgps / vessel.paper.m1_kg));
+    most = gentle ? push(turned_mps) : most;
     ramps = {{ahead_s, ahead_s + limits.surge_ramp_s, turning_n, most}};
     if (turning_n != 0.0) {
       ramps.insert(ramps.begin(), {0.0, limits.surge_ramp_s, 0.0, turning_n});

@@ -82,15 +82,6 @@ class SpeedLimit : public ::testing::TestWithParam<Case> {
     }
   }
 
-  // Plans by the manoeuvring model are slowed down as a whole where a part asks for too much, and
-  // manoeuvres take more of a passage the slower it is.
-  [[nodiscard]] double leastShare(double of_the_paper_model) const {
-    if (vessel::paperHolds(vessel_)) {
-      return of_the_paper_model;
-    }
-    return GetParam().limit_mps > 0.4 ? 0.85 : 0.35;
-  }
-
   vessel::Parameters vessel_;
 };
 
@@ -100,7 +91,7 @@ TEST_P(SpeedLimit, IsKeptAndUsedOnOpenWater) {
   query.start.psi_rad = 2.0;
   query.goal.flat.position = {35.0, 30.0};
   query.goal.psi_rad = -2.0;
-  expectNearTheLimit(test::openWater(), query, leastShare(0.95));
+  expectNearTheLimit(test::openWater(), query, 0.95);
 }
 
 TEST_P(SpeedLimit, IsKeptAndUsedAmongIslands) {
@@ -109,7 +100,7 @@ TEST_P(SpeedLimit, IsKeptAndUsedAmongIslands) {
   query.start.psi_rad = 1.0;
   query.goal.flat.position = {30.0, 5.0};
   query.goal.psi_rad = -2.0;
-  expectNearTheLimit(islands(), query, leastShare(0.9));
+  expectNearTheLimit(islands(), query, 0.95);
 }
 
 // A limit that fell under way: the plan slows down, and then keeps to it.
