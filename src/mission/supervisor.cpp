@@ -321,6 +321,14 @@ class Supervisor::Impl {
     return mayReplanForWeather(m) &&
            overtaxed(m.now_s, weather().mean()) > planned_overtaxed_s_ + kLongerS;
   }
+  // At this speed gusts by now take the moment that holds the headings.
+  bool isTooFastForGusts(const Moment& m) {
+    constexpr double kWorthShare = 0.7;  // of the speed: slowing down for less isn't worth it
+    constexpr double kLeftS = 5.0;
+    const double planned_mps = planned_limits_.speed_max_mps;
+    return mayReplanForWeather(m) && sailed_.left(m.now_s) > kLeftS &&
+           weather().sailingSpeed(planned_mps) < kWorthShare * planned_mps;
+  }
   // The plan ends on a heading that can't be held there, or not on the goal's though it can.
   bool endsOnAWrongHeading(const Moment& m) {
     constexpr double kWrongRad = 0.7;
@@ -428,6 +436,13 @@ class Supervisor::Impl {
       return enter(Phase::kSailing);
     }
     return orders;
+  }
+  Orders planForGusts(const Moment& m) {
+    enter(Phase::kReplanning, text("gusts take the moment that holds headings at %.1f m/s",
+                                   planned_limits_.speed_max_mps));
+    for_clearance_ = false;
+    Orders orders = planFromSailed(m);
+    return orders.plan ? orders : enter(Phase::kSailing);
   }
   Orders planForSpeedMax(const Moment& m) {
     if (!isTooFast()) {
@@ -676,6 +691,7 @@ class Supervisor::Impl {
       {kUnderWay, &Impl::shouldMakeWay, &Impl::makeWay},
       {kUnderWay, &Impl::isFarOff, &Impl::planFromFarOff},
       {kUnderWay, &Impl::lacksThrust, &Impl::planForWeather},
+      {kSailing, &Impl::isTooFastForGusts, &Impl::planForGusts},
       {kUnderWay, &Impl::endsOnAWrongHeading, &Impl::planForGoalHeading},
       {kUnderWay, &Impl::hasNewSpeedMax, &Impl::planForSpeedMax},
       {kReplanning, &Impl::always, &Impl::planFromSailed},

@@ -310,6 +310,32 @@ TEST(SupervisorInWind, AHeadingLostInAGustEndsBowToTheWind) {
   }
 }
 
+// Once the wind freshens to where a gust takes most of the moment at the speed of the plan.
+TEST(SupervisorInWind, SlowsDownForGustsThatTakeTheMoment) {
+  vessel::Parameters windy;
+  windy.manoeuvring.wind_surge_kgpm = 0.5;
+  windy.manoeuvring.wind_sway_kgpm = 0.5;
+  windy.manoeuvring.wind_yaw_kg = -0.66;
+  for (const double mean_mps : {4.0, 8.0}) {
+    ScriptedMission mission;
+    mission.supervisor = Supervisor(mission.options, windy, 1);
+    mission.knowWeather();
+    mission.setOut(4.0);
+    std::optional<PlanRequest> asked;
+    for (int k = 0; k < 80 && !asked; ++k) {
+      mission.disturbance.wind_mps = {0.0, mean_mps * (1.0 + 0.2 * std::sin(0.5 * k))};
+      asked = mission.update(0.1).plan;
+    }
+    ASSERT_EQ(asked.has_value(), mean_mps > 6.0);
+    if (asked) {
+      EXPECT_TRUE(asked->moving);
+      EXPECT_LT(asked->query.limits.speed_max_mps, 2.5);
+      EXPECT_NE(mission.supervisor.reason().find("gusts take"), std::string::npos)
+          << mission.supervisor.reason();
+    }
+  }
+}
+
 // 60 N from astern leave the path 20 N to point the bow with: it may lie as it likes.
 TEST(SupervisorInWind, NoHeadingIsLostWhereThePathWantsNone) {
   for (const double push_n : {0.0, 60.0}) {
