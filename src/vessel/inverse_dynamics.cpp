@@ -25,6 +25,8 @@ constexpr double kSteadySlopeShare = 0.3;
 constexpr double kLightLoadShare = 0.05;
 constexpr double kRoundingMps = 1e-9;  // of D over the sway inertia
 constexpr int kSwayIterations = 3;
+// After a step of less the heading is exact to its square.
+constexpr double kSmallSwayStepRad = 1e-4;
 constexpr int kBowIterations = 6;
 constexpr double kLongestBowStepRad = 0.5;
 
@@ -243,9 +245,14 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
       psi = psi_path_rad;
       break;
     }
-    psi -= (turns * (psi - before) / dt_s + lacking.value) / (turns / dt_s - slope_n);
+    const double step = (turns * (psi - before) / dt_s + lacking.value) / (turns / dt_s - slope_n);
+    psi -= step;
+    if (std::abs(step) < kSmallSwayStepRad) {
+      break;
+    }
   }
-  const OutsideLoad load = outsideLoad(psi, m, disturbance);
+  const bool loaded = !disturbance.wind_mps.isZero(0.0) || !disturbance.force_n.isZero(0.0);
+  const OutsideLoad load = loaded ? outsideLoad(psi, m, disturbance) : OutsideLoad{};
   const double calm = 2.0 - std::hypot(load.surge_n, load.sway_n) / (kLightLoadShare * thrust_n);
   const double steady = (slope_n - least_slope_n) / (kSteadySlopeShare * thrust_n);
   return {psi, std::clamp(std::max(calm, steady), 0.0, 1.0)};

@@ -6,7 +6,7 @@
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr double kStepS = 0.02;      // of Runge and Kutta's method
+constexpr double kStepS = 0.05;      // of Runge and Kutta's method
 constexpr double kPieceS = 0.25;     // a piece lasts no longer
 constexpr double kOneJointS = 1e-4;  // joints nearer than this are one
 
