@@ -24,7 +24,7 @@ constexpr int kHeadings = 36;
 constexpr double kThrustShare = 0.95;  // of the limits, that the mean may take
 // Of the thrust: with less no heading follows from the path. A gust may have the hull astern by as
 // much for a while.
-constexpr double kAheadShare = 0.15;
+constexpr double kAheadShare = 0.05;
 constexpr double kNotHeld = 2.0;  // a turning share of what isn't possible at all
 
 // A force `f` on a mass `m` with linear drag `d`, from rest, for `t` seconds: distance and speed.
@@ -99,7 +99,11 @@ bool Weather::isKnown() const {
 }
 
 Disturbance Weather::gust() const {
-  const double prior = kPriorGust * std::max(0.0, 1.0 - felt_s_ / kMemoryS);
+  return gust(kPriorGust);
+}
+
+Disturbance Weather::gust(double prior) const {
+  prior *= std::max(0.0, 1.0 - felt_s_ / kMemoryS);
   const auto along = [](const Eigen::Vector2d& mean, double size) {
     const double norm = mean.norm();
     return norm > 0.0 ? (mean * (std::max(norm, size) / norm)).eval() : mean;
@@ -166,13 +170,15 @@ bool Weather::hasThrustFor(const Eigen::Vector2d& velocity) const {
 }
 
 double Weather::sailingSpeed(double usual_mps) const {
-  constexpr double kEnough = 0.75;   // of the thrusters' moment, for the gust
+  constexpr double kEnough = 0.7;    // of the thrusters' moment, for the gust
   constexpr double kSlowest = 0.12;  // of the top speed; slower, the hull hardly answers
   constexpr double kFastest = 0.8;
   constexpr double kStep = 0.04;
   constexpr double kWorth = 0.02;  // of the moment, for going slower
   constexpr int kCourses = 12;
-  const Disturbance hard = gust();
+  // Too slow at first costs seconds, too fast the heading.
+  constexpr double kPriorForSpeed = 0.45;
+  const Disturbance hard = gust(kPriorForSpeed);
   const auto worst = [&](double speed, bool with_thrust) {
     double share = 0.0;
     for (int k = 0; k < kCourses; ++k) {

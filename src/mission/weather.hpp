@@ -52,6 +52,8 @@ class Weather {
     [[nodiscard]] double extreme(double prior) const;
   };
 
+  // The same with another gust taken for granted before much was seen, of the mean.
+  [[nodiscard]] vessel::Disturbance gust(double prior) const;
   // Of the thrusters' moment, what `hard` takes at this velocity over ground on the heading that
   // suits it best; more than 1 where the path says nothing of the heading.
   [[nodiscard]] double turningShare(const Eigen::Vector2d& velocity,

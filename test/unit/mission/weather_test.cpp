@@ -98,6 +98,13 @@ TEST(Weather, SailsSlowlyWhereGustsTakeTheMomentThatHoldsTheHeadings) {
   EXPECT_LT(worstMoment(vessel, strong.gust(), speed), 0.8);
 }
 
+// Seven metres a second seen for three seconds may be the lull of a wind that gusts to ten.
+TEST(Weather, SailsSlowlyUntilGustsAreKnown) {
+  const auto steady = [](double) { return 7.0; };
+  EXPECT_LT(felt(windy(), 3.0, steady).sailingSpeed(2.0), 1.0);
+  EXPECT_EQ(felt(windy(), 60.0, steady).sailingSpeed(2.0), 2.0);
+}
+
 TEST(Weather, GustsAskForMoreTheFasterTheyAre) {
   const auto gusts = [](double by) { return [by](double t) { return 6.0 + by * std::sin(t); }; };
   const Weather light = felt(windy(), 60.0, gusts(0.5));
