@@ -21,6 +21,8 @@ constexpr double kMoreThrust = 0.2;  // each time there was no plan at any clear
 // what the map adds by cells on the way leaves the stops clear.
 constexpr double kPlanMarginM = 0.05;
 constexpr double kOffTrajectoryM = 0.02;
+constexpr double kMostOfRoom = 0.75;
+constexpr double kSlower = 0.65;
 constexpr double kWanderM = 0.2;  // of what it wanders, kept on the narrow levels too
 
 }  // namespace
@@ -79,11 +81,16 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
   limits.disturbance = planDisturbance();
   // What it wanders, as far as the level has room for it; half as much each time there was no plan.
-  const double most = std::max(kWanderM, options_.side_clearances_m[levels_.level()]);
+  const double beside = options_.side_clearances_m[levels_.level()];
+  const double most = std::max(kWanderM, beside);
   limits.hull_margin_m =
       std::max(kPlanMarginM, std::pow(0.5, times_refused_) * std::min(most, wander_.reach()));
   limits.limitSpeed(options_.speed_max_mps);
   limits.speed_max_mps *= slowShare();
+  // Where it wanders by most of the room it has, a slower plan leaves thrust to keep it on its way.
+  if (wander_.reach() > kMostOfRoom * beside) {
+    limits.speed_max_mps *= kSlower;
+  }
   return limits;
 }
 

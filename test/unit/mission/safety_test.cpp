@@ -61,8 +61,12 @@ TEST(Safety, MarginsGrowWithWhatTheVesselWanders) {
   const double wide = margin();
   EXPECT_NEAR(wide, 0.16, 0.02);
   EXPECT_NEAR(safety.stop(safety.limits(0.95, kWideWater)).hull_margin_m, wide - 0.03, 1e-9);
+  const double fast = safety.limits(0.95, kWideWater).speed_max_mps;
   while (safety.refused()) {
     EXPECT_NEAR(margin(), wide, 1e-9);
+    // Slower where that is most of the room.
+    const double speed = safety.limits(0.95, kWideWater).speed_max_mps;
+    EXPECT_NEAR(speed, (safety.level() >= 2 ? 0.65 : 1.0) * fast, 1e-9);
   }
   EXPECT_NEAR(margin(), 0.5 * wide, 1e-9);
   EXPECT_EQ(safety.leastStop(safety.limits(0.95, kWideWater)).hull_margin_m, 0.02);
