@@ -286,20 +286,22 @@ class Supervisor::Impl {
       off_since_s_ = m.now_s;
     }
     // Where the wind can take the heading, with something near, a plan from there leads nowhere: at
-    // rest, bow to it, there is a better.
+    // rest, bow to it, there is a better. Unless the vessel is coming back.
     constexpr double kStrongShare = 0.4;  // of the thrusters' moment
     constexpr double kNearShare = 0.5;    // of what a lost heading takes
     const vessel::State& x = m.situation.state;
     const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
     const double moment_nm = vessel::greatestMoment(vessel_.thrusters);
+    const Eigen::Vector2d velocity =
+        Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
+    const vessel::FlatPoint wanted = sailed_.trajectory.flat(sailed_.elapsed(m.now_s));
+    const bool comes_back = (x.head<2>() - wanted.position).dot(velocity - wanted.velocity) < 0.0;
     const bool hurries = weather().greatestMoment() > kStrongShare * moment_nm &&
-                         here < kNearShare * weather().drift().norm();
+                         here < kNearShare * weather().drift().norm() && !comes_back;
     const double patience_s = hurries ? 0.0 : kPatienceS;
     if (isFarOff(m) && m.now_s - off_since_s_ >= patience_s) {
       return true;
     }
-    const Eigen::Vector2d velocity =
-        Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
     for (double later = kStepS; later <= kAheadS; later += kStepS) {
       const double there = m.obstacles.clearance(x.head<2>() + later * velocity, m.now_s + later);
       if (there < safety().critical() && there < here) {

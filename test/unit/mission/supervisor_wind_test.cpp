@@ -352,19 +352,25 @@ TEST(SupervisorInWind, NoHeadingIsLostWhereThePathWantsNone) {
 
 // Half of the thrusters' moment is taken, and 30 N set a lost hull aside by 4.5 m in three seconds.
 TEST(SupervisorInWind, HasNoPatienceOffItsTrajectoryWithSomethingNear) {
-  for (const bool near : {true, false}) {
+  struct Case {
+    bool near;
+    double away_mps;
+  };
+  for (const auto [near, away_mps] : {Case{true, 0.3}, Case{true, -0.3}, Case{false, 0.3}}) {
     ScriptedMission mission;
     mission.disturbance.moment_nm = 20.0;
     blow(mission, 5.0, [](double) { return Vector2d(-30.0, 0.0); });
     mission.setOut(6.0);
     Situation aside = mission.situation();
+    aside.state.y() -= 2.0;
+    aside.state[vessel::kSway] = -away_mps;
     aside.tracking_error_m = 2.0;
     if (near) {
       const Vector2d here = aside.state.head<2>();
-      mission.put(here + Vector2d(-2.0, 1.8), here + Vector2d(2.0, 3.0));
+      mission.put(here + Vector2d(-2.0, -3.0), here + Vector2d(2.0, -1.8));
     }
     const Orders orders = mission.supervisor.update(mission.now_s, aside, mission.field);
-    EXPECT_EQ(orders.stop, near);
+    EXPECT_EQ(orders.stop, near && away_mps > 0.0);
   }
 }
 
