@@ -215,7 +215,7 @@ class Pilot::Impl {
   }
 
   std::optional<Manoeuvre> decide(const Outset& outset) {
-    if (memories_.empty() || outset.now_s - decided_s_ < kPeriodS) {
+    if (memories_.empty() || outset.now_s - decided_s_ < kPeriodS || listens()) {
       return std::nullopt;
     }
     decided_s_ = outset.now_s;
@@ -350,6 +350,20 @@ class Pilot::Impl {
       return;
     }
     memory.motion.velocity = *steady;
+  }
+
+  // Where one is heard of others are soon: who turns for the first at once may turn the wrong way
+  // for the next. Only what presses is answered at once.
+  [[nodiscard]] bool listens() const {
+    constexpr double kListensS = 4.0;
+    constexpr double kPressesS = 20.0;
+    return std::all_of(memories_.begin(), memories_.end(), [&](const auto& known) {
+      const Memory& memory = known.second;
+      const Approach approach = nearestApproach(own_, memory.motion);
+      const bool presses =
+          approach.time_s > 0.0 && approach.time_s < kPressesS && approach.distance_m < kRiskM;
+      return now_s_ - memory.heard_s < kListensS && !presses;
+    });
   }
 
   // Unseen for a while, she is nobody to decide about.

@@ -43,7 +43,7 @@ class PilotTest : public ::testing::Test {
   }
 
   std::optional<Manoeuvre> decideAt(double now, double heading_deg, double speed) {
-    for (double t = now - 3.0; t <= now; t += 0.5) {
+    for (double t = now - 5.0; t <= now; t += 0.5) {
       const vessel::FlatPoint z = sailed_.trajectory.flat(t);
       pilot_.observe(t, {z.position, z.velocity}, {trackAt(heading_deg, speed, t)}, {0.0, 200.0},
                      1.98);
@@ -171,6 +171,27 @@ TEST_F(PilotTest, ArrivesAheadOfWhoFollows) {
     }
     EXPECT_FALSE(pilot_.decide({now, sailed_, goal, now + 0.3, limits_, water_})) << now;
   }
+}
+
+// A moment to hear who else is there, unless it presses.
+TEST_F(PilotTest, ListensBeforeItTurnsForTheFirst) {
+  for (const double since : {1.0, 5.0}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    for (double t = 10.0 - since; t <= 10.0; t += 0.5) {
+      const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+      pilot_.observe(t, {z.position, z.velocity}, {trackAt(180.0, 2.0, t)}, {0.0, 200.0}, 1.98);
+    }
+    EXPECT_EQ(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}).has_value(),
+              since > 4.0);
+  }
+  pilot_ = Pilot(Options(), vessel_);
+  pilot_.newGoal(-60.0);
+  for (double t = 89.0; t <= 90.0; t += 0.5) {
+    const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+    pilot_.observe(t, {z.position, z.velocity}, {trackAt(270.0, 2.0, t)}, {0.0, 200.0}, 1.98);
+  }
+  EXPECT_TRUE(pilot_.decide({90.0, sailed_, {0.0, 200.0}, 90.3, limits_, water_}));
 }
 
 TEST_F(PilotTest, NobodyNearNothingToDo) {
