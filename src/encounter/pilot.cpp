@@ -23,6 +23,7 @@ constexpr double kCourseS = 2.0;  // courses over ground are means over this
 // what would be sailed, and tracks wander.
 constexpr double kBetterS = 6.0;
 constexpr double kPeriodS = 1.0;
+constexpr double kNever = 1e18;
 constexpr double kUnderWayS = 15.0;  // at most, until the cruising speed is reached
 constexpr double kSteadiesS = 8.0;   // at least, until a course is kept
 
@@ -93,6 +94,7 @@ struct Memory {
   double changed_s = -1.0;    // when it last left a line; negative: never since it was first seen
   double heard_s = 0.0;       // first
   bool met = false;           // there was a risk of collision once
+  double acts_since_s = kNever;  // off the course or speed kept
 };
 
 // When a trajectory begins to brake for its end, where it may turn at rest for a while.
@@ -453,7 +455,13 @@ class Pilot::Impl {
                                                                        record.kept_velocity.x()))
                             : 0.0;
     const bool turns = std::abs(turn) > kActionRad;
-    if (turns || std::abs(share - 1.0) > kActionShare) {
+    const bool acts = turns || std::abs(share - 1.0) > kActionShare;
+    memory.acts_since_s = !acts                           ? kNever
+                          : memory.acts_since_s == kNever ? now.time_s
+                                                          : memory.acts_since_s;
+    // Waves push a course aside for moments.
+    constexpr double kActionS = 1.0;
+    if (acts && now.time_s - memory.acts_since_s >= kActionS - 1e-6) {
       record.acted = true;
       if (turns && record.first_turn == 0) {
         record.first_turn = turn > 0.0 ? 1 : -1;
@@ -622,7 +630,6 @@ class Pilot::Impl {
   double cruise_mps_ = 0.0;
   double now_s_ = 0.0;
   double goal_time_s_ = 0.0;
-  static constexpr double kNever = 1e18;
   double decided_s_ = -1e9;
   double act_by_s_ = kNever;  // when a course that was put off begins
   bool under_way_ = false;

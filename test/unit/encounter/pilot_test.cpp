@@ -173,6 +173,26 @@ TEST_F(PilotTest, ArrivesAheadOfWhoFollows) {
   }
 }
 
+// Waves that set the course aside for moments are no action of ours; a course kept up is.
+TEST_F(PilotTest, ActsOnlyByWhatLasts) {
+  constexpr double kAsideRad = 0.175;
+  constexpr double kWaveS = 4.0;
+  for (const bool waves : {true, false}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    Eigen::Vector2d position(0.0, -180.0);
+    for (double t = 10.0; t <= 40.0; t += 0.1) {
+      const double shape = waves ? std::sin(2.0 * kPi * t / kWaveS) : 1.0;
+      const double aside = t > 20.0 ? kAsideRad * shape : 0.0;
+      const Eigen::Vector2d velocity = 2.0 * Eigen::Vector2d(std::sin(aside), std::cos(aside));
+      pilot_.observe(t, {position, velocity}, {trackAt(67.5, 2.0, t)}, {0.0, 200.0}, 1.98);
+      position += 0.1 * velocity;
+    }
+    ASSERT_EQ(pilot_.encounters().size(), 1U);
+    EXPECT_EQ(pilot_.encounters()[0].acted, !waves);
+  }
+}
+
 // A moment to hear who else is there, unless it presses.
 TEST_F(PilotTest, ListensBeforeItTurnsForTheFirst) {
   for (const double since : {1.0, 5.0}) {
