@@ -171,7 +171,7 @@ double Chooser::price(const Course& course, const std::vector<Other>& others,
 }
 
 std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>& others,
-                                    std::size_t count, bool may_wait) const {
+                                    std::size_t count, bool may_wait, bool may_turn_to_port) const {
   constexpr double kTurnsDeg[] = {14.0, 24.0, 36.0, 48.0, 62.0, 80.0, 100.0, 130.0};
   constexpr double kShares[] = {1.0, 0.72, 0.45, 0.2};
   constexpr double kHoldsS[] = {0.5, 3.0, 6.0, 10.0, 15.0, 22.0, 31.0, 43.0, 60.0, 85.0};
@@ -250,6 +250,9 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
             continue;
           }
           for (const double side : {1.0, -1.0}) {
+            if (side < 0.0 && !may_turn_to_port) {
+              break;
+            }
             for (const double then : kThenS) {
               if (then > 0.0 && (share < 1.0 || turn > 90.0)) {
                 break;
@@ -282,7 +285,7 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
           vary(&Intent::share, 0.1, 0.15, 0.95);
         }
         if (!i.alongTheWay()) {
-          vary(&Intent::turn_rad, 8.0 * kDegree, -kPi, kPi);
+          vary(&Intent::turn_rad, 8.0 * kDegree, may_turn_to_port ? -kPi : 0.0, kPi);
           if (i.share == 1.0) {
             vary(&Intent::then_s, 0.2 * i.then_s + 5.0, 0.0, 150.0);
           }

@@ -48,9 +48,10 @@ class Chooser {
       : vessel_(vessel), prospect_(options, vessel.hull), options_(options) {}
 
   // The cheapest, from cheapest on, at most `count` that differ; of those that begin at once
-  // unless one `may_wait`.
+  // unless one `may_wait`, and first to starboard unless one `may_turn_to_port`.
   [[nodiscard]] std::vector<Choice> choose(const Water& water, const std::vector<Other>& others,
-                                           std::size_t count, bool may_wait) const;
+                                           std::size_t count, bool may_wait,
+                                           bool may_turn_to_port) const;
   // False where what lies still is in the way.
   [[nodiscard]] bool build(const Water& water, const Handling& handling, const Intent& intent,
                            Course& course, std::size_t& tail) const;

@@ -217,7 +217,7 @@ class Pilot::Impl {
   }
 
   std::optional<Manoeuvre> decide(const Outset& outset) {
-    if (memories_.empty() || outset.now_s - decided_s_ < kPeriodS || listens()) {
+    if (memories_.empty() || outset.now_s - decided_s_ < kPeriodS) {
       return std::nullopt;
     }
     decided_s_ = outset.now_s;
@@ -249,7 +249,7 @@ class Pilot::Impl {
     water.way.push_back(outset.goal);
     constexpr std::size_t kTried = 4;
     const bool may_wait = outset.now_s < act_by_s_;
-    for (const Choice& choice : chooser_.choose(water, others, kTried, may_wait)) {
+    for (const Choice& choice : chooser_.choose(water, others, kTried, may_wait, !listens())) {
       if (choice.price + kBetterS >= keep) {
         break;  // not worth it
       }
@@ -354,10 +354,11 @@ class Pilot::Impl {
     memory.motion.velocity = *steady;
   }
 
-  // Where one is heard of others are soon: who turns for the first at once may turn the wrong way
-  // for the next. Only what presses is answered at once.
+  // Where one is heard of others are soon. Who turns to port for the first, as is fair for one that
+  // comes from abaft, may have to give way to the next by the other side: until then to starboard,
+  // or slower, unless it presses.
   [[nodiscard]] bool listens() const {
-    constexpr double kListensS = 4.0;
+    constexpr double kListensS = 6.0;
     constexpr double kPressesS = 20.0;
     return std::all_of(memories_.begin(), memories_.end(), [&](const auto& known) {
       const Memory& memory = known.second;

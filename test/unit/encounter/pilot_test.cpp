@@ -43,7 +43,7 @@ class PilotTest : public ::testing::Test {
   }
 
   std::optional<Manoeuvre> decideAt(double now, double heading_deg, double speed) {
-    for (double t = now - 5.0; t <= now; t += 0.5) {
+    for (double t = now - 3.0; t <= now; t += 0.5) {
       const vessel::FlatPoint z = sailed_.trajectory.flat(t);
       pilot_.observe(t, {z.position, z.velocity}, {trackAt(heading_deg, speed, t)}, {0.0, 200.0},
                      1.98);
@@ -193,25 +193,27 @@ TEST_F(PilotTest, ActsOnlyByWhatLasts) {
   }
 }
 
-// A moment to hear who else is there, unless it presses.
-TEST_F(PilotTest, ListensBeforeItTurnsForTheFirst) {
-  for (const double since : {1.0, 5.0}) {
+// For one from abaft of the beam a turn to port is fair, but not before there was a moment to hear
+// who else is there.
+TEST_F(PilotTest, TurnsToPortOnlyOnceItHasListened) {
+  constexpr double kNow = 9.0;
+  for (const double since : {1.0, 7.0}) {
     pilot_ = Pilot(Options(), vessel_);
     pilot_.newGoal(-60.0);
-    for (double t = 10.0 - since; t <= 10.0; t += 0.5) {
+    for (double t = kNow - since; t <= kNow; t += 0.5) {
       const vessel::FlatPoint z = sailed_.trajectory.flat(t);
-      pilot_.observe(t, {z.position, z.velocity}, {trackAt(180.0, 2.0, t)}, {0.0, 200.0}, 1.98);
+      pilot_.observe(t, {z.position, z.velocity}, {trackAt(340.0, 2.4, t)}, {0.0, 200.0}, 1.98);
     }
-    EXPECT_EQ(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}).has_value(),
-              since > 4.0);
+    const auto way = pilot_.decide({kNow, sailed_, {0.0, 200.0}, kNow + 0.3, limits_, water_});
+    ASSERT_TRUE(way) << since;
+    double to_port = 0.0;
+    for (double t = 0.0; t < std::min(10.0, way->path.trajectory.duration()); t += 0.5) {
+      const Eigen::Vector2d v = way->path.trajectory.flat(t).velocity;
+      to_port = std::max(to_port, std::atan2(-v.x(), v.y()));
+    }
+    EXPECT_EQ(to_port > 0.3, since > 6.0) << to_port;
+    EXPECT_TRUE(since > 6.0 || to_port < 0.02) << to_port;
   }
-  pilot_ = Pilot(Options(), vessel_);
-  pilot_.newGoal(-60.0);
-  for (double t = 89.0; t <= 90.0; t += 0.5) {
-    const vessel::FlatPoint z = sailed_.trajectory.flat(t);
-    pilot_.observe(t, {z.position, z.velocity}, {trackAt(270.0, 2.0, t)}, {0.0, 200.0}, 1.98);
-  }
-  EXPECT_TRUE(pilot_.decide({90.0, sailed_, {0.0, 200.0}, 90.3, limits_, water_}));
 }
 
 TEST_F(PilotTest, NobodyNearNothingToDo) {
