@@ -111,12 +111,12 @@ class Profile {
 }  // namespace
 
 trajectory::Trajectory straightStop(const FlatPoint& from, const StraightStop& stop) {
-  constexpr double kKnotS = 0.2;
+  constexpr double kPieceMostS = 0.2;
   const Profile profile(from, stop);
   std::vector<trajectory::Piece> pieces;
   FlatPoint previous = from;
   const auto append = [&](double begin_s, double duration_s) {
-    const int knots = static_cast<int>(std::ceil(duration_s / kKnotS));
+    const int knots = static_cast<int>(std::ceil(duration_s / kPieceMostS));
     const double step = duration_s / knots;
     for (int k = 1; k <= knots; ++k) {
       const double end = begin_s + k * step;
