@@ -33,7 +33,7 @@ $try || exit 0
 root=$(mktemp -d)
 trap 'umount "$root/proc" "$root/dev" 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
 mirror=$(sed -n 's/^\(deb\|URIs:\) *\(http[^ ]*\).*/\2/p' /etc/apt/sources.list \
-  /etc/apt/sources.list.d/* 2>/dev/null | head -n 1)
+  /etc/apt/sources.list.d/* 2>/dev/null | head -n 1 || true)
 debootstrap --variant=minbase bookworm "$root" ${mirror:+"$mirror"} >"$out/try.log"
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
