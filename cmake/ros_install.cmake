@@ -9,13 +9,8 @@ endif()
 install(PROGRAMS scripts/otter_nav DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 install(FILES packaging/otter_nav.bash
   DESTINATION ${CATKIN_GLOBAL_SHARE_DESTINATION}/bash-completion/completions RENAME otter_nav)
-# Of rosrun and roslaunch: with the workspace's setup.bash, or where bash looks for them.
-if(CATKIN_BUILD_BINARY_PACKAGE)
-  foreach(command rosrun roslaunch)
-    install(FILES packaging/50.ros_completion.bash
-      DESTINATION ${CATKIN_GLOBAL_SHARE_DESTINATION}/bash-completion/completions RENAME ${command})
-  endforeach()
-else()
+# Of rosrun and roslaunch with the workspace's setup.bash; a Debian package finds rosbash's own.
+if(NOT CATKIN_BUILD_BINARY_PACKAGE)
   catkin_add_env_hooks(50.ros_completion SHELLS bash DIRECTORY ${PROJECT_SOURCE_DIR}/packaging)
 endif()
 install(FILES plugin_description.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
