@@ -1,7 +1,9 @@
-# Seeded archipelagos (drawing, missions, other vessels' routes) and narrow fields of cylinders.
+# Seeded archipelagos (drawing, missions, other vessels' routes), narrow fields of cylinders, and
+# encounters in open water.
 otter_nav_room(archipelago
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/archipelago/archipelago.cpp
     ${CMAKE_CURRENT_LIST_DIR}/archipelago/cylinder_field.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/archipelago/encounters.cpp
     ${CMAKE_CURRENT_LIST_DIR}/archipelago/missions.cpp
     ${CMAKE_CURRENT_LIST_DIR}/archipelago/routes.cpp
   ROOMS scenario)

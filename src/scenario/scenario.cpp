@@ -122,7 +122,7 @@ Result<std::string> besideFile(const std::string& path, const std::string& key,
 
 std::string poseText(const vessel::Pose& pose) {
   char text[96];
-  std::snprintf(text, sizeof(text), "[%.2f, %.2f, %.3f]", pose.position.x(), pose.position.y(),
+  std::snprintf(text, sizeof(text), "[%.2f, %.2f, %.4f]", pose.position.x(), pose.position.y(),
                 pose.psi_rad);
   return text;
 }
@@ -183,24 +183,12 @@ Result<Mission> missionOf(const Scenario& scenario, int index) {
   return scenario.missions[static_cast<std::size_t>(index)];
 }
 
-Status saveScenario(const std::string& folder, const std::string& name,
-                    const map::OccupancyGrid& chart, const map::OccupancyGrid& world,
-                    const std::vector<Mission>& missions,
+Status saveMissions(const std::string& folder, const std::string& name, const std::string& chart,
+                    const std::string& world, const std::vector<Mission>& missions,
                     const std::vector<vessel::ScriptedVessel>& vessels) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    return failure("can't make folder " + folder + ": " + error.message());
-  }
-  const std::string path = (fs::path(folder) / name).string();
-  for (const auto& [grid, ending] :
-       {std::pair(&chart, "_chart.yaml"), std::pair(&world, "_world.yaml")}) {
-    if (Status status = map::saveChart(*grid, path + ending); !status) {
-      return status;
-    }
-  }
-  std::ofstream file(path + ".yaml");
-  file << "chart: " << name << "_chart.yaml\nworld: " << name << "_world.yaml\nmissions:\n";
+  const std::string path = (fs::path(folder) / name).string() + ".yaml";
+  std::ofstream file(path);
+  file << "chart: " << chart << "\nworld: " << world << "\nmissions:\n";
   for (const Mission& mission : missions) {
     file << "  - {kind: " << mission.kind << ", start: " << poseText(mission.start)
          << ", goal: " << poseText(mission.goal);
@@ -215,9 +203,28 @@ Status saveScenario(const std::string& folder, const std::string& name,
   }
   file.close();
   if (!file) {
-    return failure("can't write " + path + ".yaml");
+    return failure("can't write " + path);
   }
   return {};
+}
+
+Status saveScenario(const std::string& folder, const std::string& name,
+                    const map::OccupancyGrid& chart, const map::OccupancyGrid& world,
+                    const std::vector<Mission>& missions,
+                    const std::vector<vessel::ScriptedVessel>& vessels) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    return failure("can't make folder " + folder + ": " + error.message());
+  }
+  const std::string chart_file = name + "_chart.yaml";
+  const std::string world_file = name + "_world.yaml";
+  for (const auto& [grid, file] : {std::pair(&chart, chart_file), std::pair(&world, world_file)}) {
+    if (Status status = map::saveChart(*grid, (fs::path(folder) / file).string()); !status) {
+      return status;
+    }
+  }
+  return saveMissions(folder, name, chart_file, world_file, missions, vessels);
 }
 
 }  // namespace otter_nav::scenario

@@ -1,17 +1,24 @@
-// Writes a seeded archipelago, or a narrow field of uncharted cylinders, with chart, world and
-// missions: --help says how.
+// Writes a seeded archipelago, a narrow field of uncharted cylinders, or encounters in open water,
+// with chart, world and missions: --help says how.
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "archipelago/archipelago.hpp"
 #include "archipelago/cylinder_field.hpp"
+#include "archipelago/encounters.hpp"
+#include "otter_nav/map/chart.hpp"
 
 namespace {
 
 using otter_nav::failure;
 using otter_nav::Result;
+using otter_nav::scenario::Encounter;
 
 // What was written, or why nothing was.
 Result<std::string> writeCylinders(const otter_nav::scenario::CylinderFieldOptions& options,
@@ -27,6 +34,40 @@ Result<std::string> writeCylinders(const otter_nav::scenario::CylinderFieldOptio
         return std::to_string(field->cylinders) + " cylinders, the best way leaves " +
                std::to_string(field->best_m) + " m";
       });
+}
+
+struct Encounters {
+  std::vector<Encounter> (*make)();
+  double side_m;  // of their water
+};
+const std::map<std::string, Encounters> kEncounters = {
+    {"imazu", {otter_nav::scenario::imazuCases, 520.0}},
+    {"captains", {otter_nav::scenario::stubbornCaptains, 520.0}},
+    {"moving", {otter_nav::scenario::movingFields, 80.0}}};
+
+// One scenario a case, all in one open water; how many, or why not.
+Result<std::size_t> writeEncounters(const std::string& set, const std::string& folder) {
+  const Encounters& encounters = kEncounters.at(set);
+  const std::string water = set + "_water.yaml";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (const auto saved =
+          otter_nav::map::saveChart(otter_nav::scenario::openWater(encounters.side_m),
+                                    (std::filesystem::path(folder) / water).string());
+      !saved) {
+    return failure(saved.error().message);
+  }
+  std::size_t count = 0;
+  for (const Encounter& encounter : encounters.make()) {
+    char number[24];
+    std::snprintf(number, sizeof(number), "_%02zu", ++count);
+    if (const auto saved = otter_nav::scenario::saveMissions(
+            folder, set + number, water, water, {encounter.mission}, encounter.vessels);
+        !saved) {
+      return failure(saved.error().message);
+    }
+  }
+  return count;
 }
 
 }  // namespace
@@ -67,7 +108,23 @@ int main(int argc, char** argv) {
   app.add_option("--best-max", narrow.best_max_m, "likewise")
       ->capture_default_str()
       ->needs(cylinders);
+  std::string encounters;
+  app.add_option("--encounters", encounters,
+                 "instead: SET_01.yaml and so on, other vessels in open water: 'imazu', his 22 "
+                 "cases; 'captains' who never give way; 'moving', squares that go round on circles")
+      ->check(CLI::IsMember(kEncounters))
+      ->excludes(cylinders);
   CLI11_PARSE(app, argc, argv);
+
+  if (!encounters.empty()) {
+    const auto written = writeEncounters(encounters, folder);
+    if (!written) {
+      std::cerr << "scenario_generator: " << written.error().message << '\n';
+      return 1;
+    }
+    std::cout << folder << ": " << *written << " scenarios\n";
+    return 0;
+  }
 
   if (*cylinders) {
     const auto written = writeCylinders(narrow, seed, folder, name);

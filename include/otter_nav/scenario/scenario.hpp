@@ -52,4 +52,10 @@ struct Scenario {
                                   const std::vector<Mission>& missions,
                                   const std::vector<vessel::ScriptedVessel>& vessels = {});
 
+// NAME.yaml alone, on a chart and a world that are in `folder` already.
+[[nodiscard]] Status saveMissions(const std::string& folder, const std::string& name,
+                                  const std::string& chart, const std::string& world,
+                                  const std::vector<Mission>& missions,
+                                  const std::vector<vessel::ScriptedVessel>& vessels);
+
 }  // namespace otter_nav::scenario

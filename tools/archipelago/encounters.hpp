@@ -1,0 +1,31 @@
+// Encounters in open water. Imazu's and the captains': everybody meets at the map's origin after
+// 100 s if we sail our speed from the first second on.
+#pragma once
+
+#include <vector>
+
+#include "otter_nav/map/occupancy_grid.hpp"
+#include "otter_nav/scenario/scenario.hpp"
+
+namespace otter_nav::scenario {
+
+struct Encounter {
+  Mission mission;
+  std::vector<vessel::ScriptedVessel> vessels;
+};
+
+// Imazu's 22 cases (1987), by the headings in Sawada, Sato and Majima (2021).
+[[nodiscard]] std::vector<Encounter> imazuCases();
+
+// Eight who never give way: four from port, slow and fast, at 60, 90, 120 and 45 degrees to our
+// course; two that overtake; one head-on who turns to port; one from port who turns after us.
+[[nodiscard]] std::vector<Encounter> stubbornCaptains();
+
+// Seven waters of 80 m by 80 m to cross at up to 4 m/s, four with five and three with twelve
+// squares of 4 m that go round on circles at 1 to 2.5 m/s, clear of where we start and end.
+[[nodiscard]] std::vector<Encounter> movingFields();
+
+// A square around the origin, free all over.
+[[nodiscard]] map::OccupancyGrid openWater(double side_m);
+
+}  // namespace otter_nav::scenario
