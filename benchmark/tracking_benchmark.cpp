@@ -103,6 +103,10 @@ Result<benchmark::RunSetup> buildSetup(const Arguments& a) {
 }
 
 nlohmann::json toJson(const Arguments& a, const benchmark::RunFigures& f) {
+  nlohmann::json capsized_at_s;
+  if (f.capsized_at_s >= 0.0) {
+    capsized_at_s = f.capsized_at_s;
+  }
   return {{"vessel", a.vessel},
           {"path", a.path},
           {"disturbance", a.disturbance},
@@ -120,6 +124,7 @@ nlohmann::json toJson(const Arguments& a, const benchmark::RunFigures& f) {
           {"thrust_rate_rms_nps", f.thrust_rate_rms_nps},
           {"saturation_share", f.saturation_share},
           {"unsolved_share", f.unsolved_share},
+          {"capsized_at_s", capsized_at_s},
           {"solver_us",
            {{"median", f.step_us.median}, {"p99", f.step_us.p99}, {"max", f.step_us.max}}}};
 }
@@ -144,6 +149,9 @@ void printTable(const Arguments& a, const benchmark::RunFigures& f) {
       "mean speed planned %.2f m/s; control step median %.1f us, 99 %% %.1f us, max %.1f us\n",
       f.planned_mean_speed, f.step_us.median, f.step_us.p99, f.step_us.max);
 }
+
+// Exit code of a run that ended so; other errors have 1.
+constexpr int kCapsizedExit = 2;
 
 int fail(const std::string& message) {
   std::cerr << "tracking_benchmark: " << message << "\n";
@@ -180,6 +188,11 @@ int runOnce(const Arguments& a) {
     if (!out) {
       return fail(a.out + ": cannot be written");
     }
+  }
+  if (figures->capsized_at_s >= 0.0) {
+    std::fprintf(stderr, "tracking_benchmark: capsized at %.1f s; the figures end there\n",
+                 figures->capsized_at_s);
+    return kCapsizedExit;
   }
   return 0;
 }

@@ -99,6 +99,7 @@ Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
   Tally tally(setup.vessel.thrusters);
   std::vector<double> step_us;
   step_us.reserve(static_cast<std::size_t>(cycles));
+  double capsized_at_s = -1.0;
   for (int i = 0; i < cycles; ++i) {
     const double now = simulator->time();
     tracker.addOdometry(simulator->odometry().stamp_s, simulator->odometry().state,
@@ -115,12 +116,17 @@ Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
       dumpRow(*dump, simulator->truth(), reference.state, command);
     }
     simulator->step(command.thrusts, period);
+    if (plant::capsized(simulator->truth().roll_rad, simulator->truth().pitch_rad)) {
+      capsized_at_s = now - began;
+      break;
+    }
     if (progress && i % 200 == 0) {
       progress(static_cast<double>(i) / cycles);
     }
   }
   RunFigures figures = tally.figures();
   figures.step_us = percentiles(step_us);
+  figures.capsized_at_s = capsized_at_s;
   return figures;
 }
 

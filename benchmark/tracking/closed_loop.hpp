@@ -36,6 +36,7 @@ struct RunFigures {
   double thrust_rate_rms_nps = 0.0;
   double saturation_share = 0.0;  // of cycles with a thruster at its limit
   double unsolved_share = 0.0;    // of cycles whose solver gave no optimum
+  double capsized_at_s = -1.0;    // where the run ended then; not negative only if it did
   Percentiles step_us;            // wall clock of the whole control step
 };
 

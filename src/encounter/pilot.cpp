@@ -365,7 +365,7 @@ class Pilot::Impl {
       const Approach approach = nearestApproach(own_, memory.motion);
       const bool presses =
           approach.time_s > 0.0 && approach.time_s < kPressesS && approach.distance_m < kRiskM;
-      return now_s_ - memory.heard_s < kListensS && !presses;
+      return isLost(memory) || (now_s_ - memory.heard_s < kListensS && !presses);
     });
   }
 

@@ -34,8 +34,8 @@ constexpr double kWindMostMps = 20.0;
 constexpr double kWaveRadps = 2.0;
 constexpr double kWaveDamping = 0.2;
 // Hull's lengths a second, at which waves begin to be steered against, and are altogether.
-constexpr double kCrawlingPerS = 0.6;
-constexpr double kSailingPerS = 0.9;
+constexpr double kCrawlingPerS = 0.35;
+constexpr double kSailingPerS = 0.5;
 
 }  // namespace
 
@@ -123,10 +123,14 @@ vessel::State Estimator::innovation(const vessel::State& measured) const {
   return difference;
 }
 
-vessel::State Estimator::steered() const {
+double Estimator::sailingShare() const {
   const double pace = std::abs(state_[kSurge]) / length_m_;
   const double x = std::clamp((pace - kCrawlingPerS) / (kSailingPerS - kCrawlingPerS), 0.0, 1.0);
-  const double share = x * x * (3.0 - 2.0 * x);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+vessel::State Estimator::steered() const {
+  const double share = sailingShare();
   const double c = std::cos(state_[kPsi]);
   const double s = std::sin(state_[kPsi]);
   vessel::State steered = state_;
@@ -193,6 +197,10 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   const Covariance spread = f * covariance_;
   covariance_.noalias() = spread * f.transpose();
   covariance_.diagonal() += dt_s * walk_variance_;
+  // At speed nothing is taken for waves: told apart from the vessel's own motion they would only
+  // come late to what is steered against.
+  covariance_.diagonal().segment<3>(kWaveRate) -=
+      dt_s * sailingShare() * walk_variance_.segment<3>(kWaveRate);
   // Semi-implicit, so that the oscillator keeps its energy.
   const double w = kWaveRadps;
   wave_rate_ -= dt_s * (w * w * wave_ + 2.0 * kWaveDamping * w * wave_rate_);

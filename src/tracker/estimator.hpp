@@ -52,6 +52,8 @@ class Estimator {
   [[nodiscard]] Covariance transition(const vessel::Thrusts& thrusts, double dt_s) const;
   // Of surge, sway and yaw acceleration over q.
   [[nodiscard]] Eigen::Matrix<double, 3, 2> fromWind() const;
+  // From 0 at crawling pace to 1 at speed.
+  [[nodiscard]] double sailingShare() const;
   void limit();
 
   EstimatorOptions options_;

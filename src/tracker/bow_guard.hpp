@@ -1,0 +1,23 @@
+// Keeps a small hull upright in a steep sea: thrust acts below the centre of gravity, so what is
+// pushed ahead lifts the bow. Where it comes up too far less is pushed, at last astern.
+#pragma once
+
+#include "otter_nav/vessel/thrusters.hpp"
+
+namespace otter_nav::tracker {
+
+class BowGuard {
+ public:
+  // At each odometry; what isn't finite is taken as level.
+  void add(double stamp_s, double bow_up_rad);
+  // What the thrusters push together is cut down, what they turn the hull with is kept.
+  [[nodiscard]] vessel::Thrusts cut(const vessel::Thrusts& wanted,
+                                    const vessel::Thrusters& thrusters) const;
+
+ private:
+  double stamp_s_ = 0.0;
+  double bow_up_rad_ = 0.0;
+  double rate_radps_ = 0.0;
+};
+
+}  // namespace otter_nav::tracker
