@@ -13,6 +13,9 @@ namespace {
 constexpr double kLookAheadM = 5.0;  // beyond a manoeuvre, that the path's direction is taken over
 constexpr int kAimRounds = 4;
 constexpr double kAimedRad = 0.03;
+// Off the path by less, the vessel gets under way straight ahead and turns as it sails: the moment
+// of a turn that has hardly begun is braked with thrust that getting under way takes.
+constexpr double kHardlyOffRad = 0.06;
 constexpr double kSlowestMps = 0.5;  // of an arrival, where the speed limit is not lower
 constexpr double kSlowestShare = 0.4;
 constexpr double kReachRad = 0.3;  // steps of a manoeuvre's parameters that are still nearly linear
@@ -71,6 +74,11 @@ void EndChooser::leaveAlong(const std::vector<Eigen::Vector2d>& path, End& end) 
   double leave = angleOf(ahead - end.position);
   for (int round = 0; round < kAimRounds; ++round) {
     end.turn_rad = wrapAngle(leave - end.psi_rad);
+    if (!end.limits.settle && std::abs(end.turn_rad) < kHardlyOffRad) {
+      end.turn_rad = 0.0;
+      make(end);
+      return;
+    }
     make(end);
     const Eigen::Vector2d along(std::cos(leave), std::sin(leave));
     const vessel::FlatPoint& z = end.manoeuvre.joint;

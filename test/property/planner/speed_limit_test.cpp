@@ -128,6 +128,32 @@ TEST_P(SpeedLimit, IsReachedFromAbove) {
   EXPECT_LE(fastest, limit);
 }
 
+// The course over ground that others watch: from rest, a little off the way, the vessel neither
+// turns to the other side nor swings about on it.
+TEST(SpeedLimitFromRest, HardlyOffTheWayItLeavesStraight) {
+  constexpr double kSettledS = 2.0;
+  constexpr double kArrivesS = 6.0;
+  const vessel::Parameters vessel = *vessel::loadParameters(kVessels / "otter.yaml");
+  const map::DistanceField field = test::openWater();
+  Planner planner(Options{}, vessel);
+  for (const double off_rad : {-0.05, -0.025, 0.025, 0.05}) {
+    Query query;
+    query.start.flat.position = {-35.0, 0.0};
+    query.start.psi_rad = off_rad;
+    query.goal.flat.position = {35.0, 0.0};
+    query.limits = feasibility::SafetyLimits::of(vessel);
+    query.limits.speed_max_mps = 1.96;
+    const Plan plan = planner.plan(field, query, byIterations());
+    ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+    double swings_rad = 0.0;
+    for (double t = kSettledS; t < plan.trajectory.duration() - kArrivesS; t += 0.1) {
+      const Eigen::Vector2d velocity = plan.trajectory.flat(t).velocity;
+      swings_rad = std::max(swings_rad, std::abs(std::atan2(velocity.y(), velocity.x())));
+    }
+    EXPECT_LT(swings_rad, 0.055) << off_rad;
+  }
+}
+
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const char* vessel : {"otter_gazebo", "otter", "wam_v"}) {
