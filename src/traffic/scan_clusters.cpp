@@ -62,6 +62,7 @@ void ScanClusters::readEchoes(const map::SensorPose& sensor, const map::HullPose
   const Eigen::Vector2d half(0.5 * own_hull_.length_m + kHullMarginM,
                              0.5 * own_hull_.beam_m + kHullMarginM);
   echoes_.clear();
+  low_.clear();
   others_.clear();
   directions_.assign(scan.ranges_m.size(), Eigen::Vector2d::Zero());
   free_m_.assign(scan.ranges_m.size(), kNaN);
@@ -82,10 +83,14 @@ void ScanClusters::readEchoes(const map::SensorPose& sensor, const map::HullPose
     }
     directions_[i] = beam.head<2>() / level;
     free_m_[i] = std::max(0.0, reach * level);
-    if (nothing || sensor.position.z() + range * beam.z() < kLeastHeightM) {
+    if (nothing) {
       continue;
     }
     const Eigen::Vector2d point = (sensor.position + range * beam).head<2>();
+    if (sensor.position.z() + range * beam.z() < kLeastHeightM) {
+      low_.push_back({i, point, range * level, false, false});
+      continue;
+    }
     if (((hull_from_map * (point - own.position)).cwiseAbs().array() <= half.array()).all()) {
       continue;
     }

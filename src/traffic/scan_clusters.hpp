@@ -26,6 +26,8 @@ class ScanClusters {
                                      const map::HullPose& own, const map::Scan& scan);
   // All that the scan gathered last has met, but for charted land and the own hull.
   [[nodiscard]] const std::vector<Echo>& echoes() const { return echoes_; }
+  // Next to the water: waves, or a hull's foot. They make no thing, but a map may take them.
+  [[nodiscard]] const std::vector<Echo>& lowEchoes() const { return low_; }
   // How much of something at `position` could be seen in the scan gathered last: all of it (1), a
   // part (0.5: its far end is out of range), or nothing (0: it is out of range, behind something
   // nearer, or where the waves hide it). What is met up to `near_m` before it is the thing itself;
@@ -44,7 +46,8 @@ class ScanClusters {
   std::vector<bool> charted_;  // land, and the cells next to it
   vessel::Hull own_hull_;
   ScanMemory memory_;
-  std::vector<Echo> echoes_;             // uncharted ones
+  std::vector<Echo> echoes_;  // uncharted ones
+  std::vector<Echo> low_;
   std::vector<Eigen::Vector2d> others_;  // the charted ones
   std::vector<Cluster> clusters_;
   // Of each beam, over ground: direction, and how far it saw nothing (NaN: it says nothing).

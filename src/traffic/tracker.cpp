@@ -565,7 +565,8 @@ class Tracker::Impl {
     }
   }
 
-  // Also echoes too few to be a thing: of a hull that comes into range, or dips behind a wave.
+  // Also echoes too few to be a thing, or too low: of a hull that comes into range, dips behind a
+  // wave, or is met at its foot.
   void findOnVessels() {
     for (const TrackedVessel& vessel : vessels_) {
       if (!vessel.confirmed || !vessel.has_moved) {
@@ -574,9 +575,11 @@ class Tracker::Impl {
       PredictionOptions now;
       now.horizon_s = 0.0;
       const Outline outline = PredictedWay(vessel.track(), now).at(vessel.motion.stamp());
-      for (const ScanClusters::Echo& echo : clusters_.echoes()) {
-        if (outline.distanceTo(echo.point).distance_m < kOutlineMarginM) {
-          verdict_.on_vessel[echo.beam] = true;
+      for (const auto* echoes : {&clusters_.echoes(), &clusters_.lowEchoes()}) {
+        for (const ScanClusters::Echo& echo : *echoes) {
+          if (outline.distanceTo(echo.point).distance_m < kOutlineMarginM) {
+            verdict_.on_vessel[echo.beam] = true;
+          }
         }
       }
     }

@@ -279,6 +279,39 @@ TEST(TrafficTracker, TellsTheMapOfSingleEchoes) {
   }
 }
 
+// As low as water is counted as water by the tracker, but not yet by the map.
+TEST(TrafficTracker, TellsTheMapOfEchoesAtAHullsFoot) {
+  constexpr double kRangeM = 15.0;
+  constexpr double kHeightM = 0.12;
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  for (int k = 0; k <= 20; ++k) {
+    ASSERT_TRUE(tracker.addAis(k, report(257000004, {2.0 * k, 0.0}, 2.0 / ais::kKnotMps, 90.0)));
+  }
+  map::Scan scan;
+  scan.angle_min_rad = -kPi;
+  scan.angle_increment_rad = 2.0 * kPi / 720.0;
+  scan.range_min_m = 0.2;
+  scan.range_max_m = 25.0;
+  scan.ranges_m.assign(720, std::numeric_limits<float>::infinity());
+  scan.ranges_m[360] = static_cast<float>(kRangeM);
+  map::SensorPose sensor;
+  sensor.pitch_rad = std::asin((0.8 - kHeightM) / kRangeM);
+  const Eigen::Vector2d eye(40.0 - 1.0 - kRangeM, 0.0);
+  sensor.position = {eye.x(), eye.y(), 0.8};
+  const ScanVerdict& verdict = tracker.addScan(20.01, sensor, {eye, 0.0}, scan);
+  EXPECT_TRUE(verdict.on_vessel[360]);
+
+  // And the map would have taken it.
+  map::OccupancyGrid chart;
+  chart.geometry = {160, 80, 0.5, {0.0, -20.0}};
+  chart.cells.assign(12800, map::Cell::kFree);
+  map::OccupancyMap map(chart, {2.0, 1.08}, map::OccupancyMapOptions{});
+  for (int k = 0; k < 5; ++k) {
+    ASSERT_TRUE(map.insertScan(sensor, {eye, 0.0}, scan));
+  }
+  EXPECT_EQ(map.projection().at(78, 40), map::Cell::kOccupied);
+}
+
 TEST(TrafficTracker, KeepsAnAnchoredVesselTenMinutesWithTheReachOfItsDimensions) {
   Tracker tracker(Options{}, {}, {2.0, 1.08});
   ais::Message dimensions;
