@@ -285,7 +285,8 @@ void MissionNode::judge() {
   const double time_s = last_state_->header.stamp.toSec() - first_time_s_;
   if (planner_.state == PlannerStatus::ARRIVED) {
     const std::string miss = missWhenArrived();
-    finish(miss.empty() ? Outcome::kArrived : Outcome::kStopped, miss);
+    finish(miss.empty() ? Outcome::kArrived : Outcome::kStopped,
+           miss.empty() ? planner_.reason : miss);
   } else if (planner_.state == PlannerStatus::FAILED) {
     finish(Outcome::kStopped, planner_.reason);
   } else if (time_s > options_.timeout_s) {
@@ -302,7 +303,8 @@ std::string MissionNode::missWhenArrived() const {
   const double most_rad = kArrivalSlackRad + tolerance("arrival_heading_rad", kArrivalHeadingRad);
   const double distance_m = (state.head<2>() - mission_.goal.position).norm();
   const double heading_rad = std::abs(wrapAngle(state[vessel::kPsi] - mission_.goal.psi_rad));
-  if (distance_m <= most_m && heading_rad <= most_rad) {
+  // An arrival with a reason is one on another heading: the goal's can't be held.
+  if (distance_m <= most_m && (heading_rad <= most_rad || !planner_.reason.empty())) {
     return {};
   }
   return "the planner takes the goal for reached, " + std::to_string(distance_m) + " m and " +
