@@ -176,7 +176,11 @@ void LiveParameters::poll() {
   std::vector<Change> changes;
   for (auto& [path, value] : all) {
     XmlRpcValue* before = find(current_, path);
-    if (before == nullptr || same(*before, value)) {
+    if (before == nullptr) {
+      warnOfUnknown(path);
+      continue;
+    }
+    if (same(*before, value)) {
       continue;
     }
     const bool is_live = std::any_of(live_.begin(), live_.end(),
@@ -252,6 +256,19 @@ void LiveParameters::warnOf(const std::string& path) const {
       "Parameter '" << path << "' was set: that has no effect while the node runs, only "
                     << "when it starts."
                     << (names.empty() ? std::string() : " What can be changed now: " + names));
+}
+
+void LiveParameters::warnOfUnknown(const std::string& path) {
+  if (!unknown_.insert(path).second) {
+    return;
+  }
+  const auto meant = std::find_if(live_.begin(), live_.end(), [&](const auto& one) {
+    return nameOf(one.path) == nameOf(path);
+  });
+  ROS_WARN_STREAM(
+      "Parameter '" << path << "' was set: this node has none of that name, and it has no "
+                    << "effect."
+                    << (meant == live_.end() ? std::string() : " Meant: '" + meant->path + "'?"));
 }
 
 }  // namespace otter_nav::ros_bridge

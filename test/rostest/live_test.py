@@ -77,6 +77,10 @@ class Live(unittest.TestCase):
         rospy.set_param("planner_node/planner/sigma", 20.0)
         self.assertTrue(self.until(lambda: any("planner/sigma" in line and "no effect" in line for line in self.log)),
                         self.log[-5:])
+        rospy.set_param("planner_node/speed_max_mps", 1.2)
+        self.assertTrue(self.until(lambda: any("'speed_max_mps'" in line and "no effect" in line
+                                               and "supervisor/speed_max_mps" in line for line in self.log)),
+                        self.log[-5:])
         weights = Client("tracker_node", timeout=30)
         self.assertEqual(weights.update_configuration({"position": 150.0})["position"], 150.0)
 

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,14 +44,17 @@ class LiveParameters {
   void poll();
   void change(const std::vector<Change>& changes);
   void warnOf(const std::string& path) const;
+  // Once for each: it has no parameter there.
+  void warnOfUnknown(const std::string& path);
   void tell();
   [[nodiscard]] dynamic_reconfigure::Config values() const;
 
   ros::NodeHandle node_{"~"};
   std::vector<config::NumberField> live_;
   Apply apply_;
-  XmlRpc::XmlRpcValue current_;   // as the node has them, but for what has no effect
-  XmlRpc::XmlRpcValue in_force_;  // as the node has them
+  XmlRpc::XmlRpcValue current_;    // as the node has them, but for what has no effect
+  XmlRpc::XmlRpcValue in_force_;   // as the node has them
+  std::set<std::string> unknown_;  // set by somebody, and said
   ros::Publisher told_;
   ros::Publisher description_publisher_;
   ros::Publisher update_publisher_;
