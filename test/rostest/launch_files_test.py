@@ -40,6 +40,17 @@ class LaunchFiles(unittest.TestCase):
             for argument in ElementTree.parse(path).getroot().findall("arg"):
                 self.assertTrue(argument.get("doc"), f"{path}: {argument.get('name')}")
 
+    def test_frames_and_parameter_folders_can_be_given(self):
+        for path in LAUNCH_FILES:
+            name = os.path.basename(path)
+            names = {argument.get("name") for argument in ElementTree.parse(path).getroot().findall("arg")}
+            # These two take the frames as they come.
+            if name not in ("record.launch", "replay.launch"):
+                self.assertIn("frames", names, path)
+            with open(path, encoding="utf-8") as file:
+                if ".yaml" in file.read():
+                    self.assertIn("config", names, path)
+
 
 if __name__ == "__main__":
     rostest.rosrun("otter_nav", "launch_files_test", LaunchFiles, sys.argv)
