@@ -12,8 +12,10 @@ version=$(sed -n 's:.*<version>\(.*\)</version>.*:\1:p' "$top/package.xml")
 page() { # name, command, what it is
   help2man --no-info --section 1 --source "otter_nav $version" --version-string "$version" \
     --manual "otter_nav" --name "$3" --output "$out/$1.1" "$2"
-  # The command as it is typed, not the folder it was asked in.
-  sed -i "s:$programs/::g" "$out/$1.1"
+  # The command as it is typed, not the folder it was asked in; the page goes by its own name.
+  local program=${1#otter_nav-}
+  sed -i -e "s:$programs/::g" -e "s/^\.TH [^ ]*/.TH ${1^^}/" -e "s/^$program \\\\-/$1 \\\\-/" \
+    -e "s/^\(\.B \|usage: \)$program\b/\1${1/-/ }/" "$out/$1.1"
 }
 
 for program in "$programs"/*; do

@@ -53,6 +53,13 @@ inside sh -c 'apt-get install -y -qq --no-install-recommends $(dpkg-deb -f /tmp/
 listing >"$out/before.txt"
 inside apt-get install -y -qq --no-install-recommends "/tmp/${package##*/}" >>"$out/try.log" 2>&1
 inside otter_nav --help
+for program in $(inside otter_nav --help | sed -n 's/^  //p'); do
+  [ -s "$root/usr/share/man/man1/otter_nav-$program.1.gz" ] ||
+    { echo "package: no manual page of $program" >&2; exit 1; }
+done
+for file in bash-completion/completions/otter_nav doc/otter-nav/README.md doc/otter-nav/docs/nodes.md; do
+  [ -s "$root/usr/share/$file" ] || { echo "package: no /usr/share/$file" >&2; exit 1; }
+done
 inside roslaunch otter_nav mission.launch speed:=0 result:=/tmp/mission.json
 inside sh -c 'grep -q "\"outcome\": *\"arrived\"" /tmp/mission.json' ||
   { echo "package: the mission did not arrive" >&2; exit 1; }
