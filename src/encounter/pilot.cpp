@@ -221,6 +221,9 @@ class Pilot::Impl {
       return std::nullopt;
     }
     decided_s_ = outset.now_s;
+    if (mayHaveToStandOn()) {
+      return std::nullopt;
+    }
     const double zero = outset.now_s;
     Water water{outset.obstacles.field(), outset.limits.clearance_m, {}, {}, 0.0};
     water.sailed = along(outset.sailed, outset.joint_s, zero);
@@ -358,14 +361,30 @@ class Pilot::Impl {
   // comes from abaft, may have to give way to the next by the other side: until then to starboard,
   // or slower, unless it presses.
   [[nodiscard]] bool listens() const {
-    constexpr double kListensS = 6.0;
     constexpr double kPressesS = 20.0;
+    return hasJustHeardOfAll([](const Memory& /*memory*/, const Approach& approach) {
+      return approach.time_s < kPressesS && approach.distance_m < kRiskM;
+    });
+  }
+
+  // While a course is hardly known nearness far off is a guess, and acting for one who may do so
+  // herself can't be undone.
+  [[nodiscard]] bool mayHaveToStandOn() const {
+    return hasJustHeardOfAll([&](const Memory& memory, const Approach& approach) {
+      return approach.time_s < options_.stand_on_until_s ||
+             !standsOn(classify(own_, memory.motion));
+    });
+  }
+
+  // And `hurries` is true of none that comes nearer.
+  template <typename Hurries>
+  [[nodiscard]] bool hasJustHeardOfAll(const Hurries& hurries) const {
+    constexpr double kListensS = 6.0;
     return std::all_of(memories_.begin(), memories_.end(), [&](const auto& known) {
       const Memory& memory = known.second;
       const Approach approach = nearestApproach(own_, memory.motion);
-      const bool presses =
-          approach.time_s > 0.0 && approach.time_s < kPressesS && approach.distance_m < kRiskM;
-      return isLost(memory) || (now_s_ - memory.heard_s < kListensS && !presses);
+      return isLost(memory) || (now_s_ - memory.heard_s < kListensS &&
+                                !(approach.time_s > 0.0 && hurries(memory, approach)));
     });
   }
 

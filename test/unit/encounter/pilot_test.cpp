@@ -216,6 +216,24 @@ TEST_F(PilotTest, TurnsToPortOnlyOnceItHasListened) {
   }
 }
 
+// A first report leaves it open whether a far one from port will pass clear: it may be hers to act.
+TEST_F(PilotTest, ListensBeforeItActsForOneItMayHaveToStandOnFor) {
+  constexpr double kNow = 9.0;
+  constexpr double kMeetsS = 126.0;
+  for (const double since : {1.0, 7.0}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    for (double t = kNow - since; t <= kNow; t += 0.5) {
+      traffic::Track track = trackAt(90.0, 2.0, t);
+      track.position = {2.0 * (t - kNow - kMeetsS), -200.0 + 2.0 * (kNow + kMeetsS) + 13.0};
+      const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+      pilot_.observe(t, {z.position, z.velocity}, {track}, {0.0, 200.0}, 1.98);
+    }
+    const auto way = pilot_.decide({kNow, sailed_, {0.0, 200.0}, kNow + 0.3, limits_, water_});
+    EXPECT_EQ(way.has_value(), since > 6.0);
+  }
+}
+
 TEST_F(PilotTest, NobodyNearNothingToDo) {
   EXPECT_FALSE(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}));
   traffic::Track far = trackAt(180.0, 2.0, 10.0);
