@@ -74,5 +74,5 @@ if ! $quick; then
   kept missions.txt "$(program mission_benchmark)" --scenarios "$top/scenarios/archipelago" \
     --vessel otter_gazebo --disturbance paper --out "$out/missions.json" --resume
 fi
-echo "Results in $out"
+echo "Results in $out$([ $status -eq 0 ] || echo "; not every mission arrived, or a judge found contacts")"
 exit $status
