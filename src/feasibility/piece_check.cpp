@@ -21,7 +21,6 @@ constexpr double kSwayN = 0.1;     // what pieces of degree 7 leave, next to the
 // By the manoeuvring model, whose heading is followed in steps: a centimetre aside in a second.
 constexpr double kSwayMps2 = 0.02;
 constexpr double kThrustSlack = 1.01;  // yaw accelerations are differences of the heading's steps
-constexpr double kWalkingMps = 0.3;    // slower, any side of the hull may come first
 constexpr double kLeastHeadingForceN = 1e-6;  // above rounding
 constexpr double kAcrossCosine = 0.02;        // heading and course nearer to a right angle: a jump
 
@@ -183,7 +182,7 @@ void PieceCheck::checkDynamics(const trajectory::MotionAlong& motion, std::size_
       checkSway(p.sway_n, allowed_n, report);
       const Eigen::Vector2d through = inverse_.throughWater(evaluate<7>(velocity_, p.t_s - start));
       const Eigen::Vector2d bow(std::cos(p.psi_rad), std::sin(p.psi_rad));
-      if (piece_.kind == trajectory::PieceKind::kSail && through.norm() > kWalkingMps &&
+      if (piece_.kind == trajectory::PieceKind::kSail && through.norm() > vessel::kWalkingMps &&
           bow.dot(through) < kAcrossCosine * through.norm()) {
         report.fault = Fault::kHeadingJump;
       } else if (report.thrust_share > kThrustSlack * limits_.thrust_share) {

@@ -34,8 +34,8 @@ constexpr double kWindMostMps = 20.0;
 constexpr double kWaveRadps = 2.0;
 constexpr double kWaveDamping = 0.2;
 // Hull's lengths a second, at which waves begin to be steered against, and are altogether.
-constexpr double kCrawlingPerS = 0.35;
-constexpr double kSailingPerS = 0.5;
+constexpr double kCrawlingPerS = 0.4;
+constexpr double kSailingPerS = 0.6;
 
 }  // namespace
 

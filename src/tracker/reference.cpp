@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
@@ -151,11 +152,15 @@ ReferenceSource::Course ReferenceSource::course(double time_s) const {
 
 vessel::SwayHeading ReferenceSource::heading(const Course& c, double psi_rad, double dt_s,
                                              const vessel::Disturbance& disturbance) const {
+  // Where a plan goes astern for a moment the course turns round and the hull does not.
+  const bool astern = c.flat.velocity.norm() < vessel::kWalkingMps && !c.spins &&
+                      std::cos(c.psi_rad - psi_rad) < 0.0;
+  const double psi_path_rad = astern ? psi_rad : c.psi_rad;
   // A heading on which the hull would be set aside yields to the position.
   return c.spins && (rests_ || vessel::canLie(vessel_.manoeuvring, disturbance, c.psi_rad))
              ? vessel::SwayHeading{c.psi_rad, 1.0}
              : vessel::swayHeading(vessel_, disturbance, c.flat.velocity, c.flat.acceleration,
-                                   psi_rad, c.psi_rad, dt_s);
+                                   psi_rad, psi_path_rad, dt_s);
 }
 
 void ReferenceSource::fillFlat(double start_s, double step_s, int stages,

@@ -13,7 +13,7 @@ namespace otter_nav::tracker {
 // units, thrusts in N. The last state weighs as one second.
 struct Weights {
   double position = 100.0;
-  double heading = 50.0;
+  double heading = 200.0;
   double surge = 1.0;
   double sway = 1.0;
   double yaw_rate = 0.1;

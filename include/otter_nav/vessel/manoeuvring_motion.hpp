@@ -14,6 +14,10 @@ namespace otter_nav::vessel {
 // Otherwise plans are made and verified with the manoeuvring model.
 [[nodiscard]] bool paperHolds(const Parameters& vessel);
 
+// Slower than this a plan by the manoeuvring model may have any side of the hull come first: for a
+// moment it goes astern, and the heading stays.
+constexpr double kWalkingMps = 0.3;
+
 // A heading with its first two derivatives.
 struct Swing {
   double psi_rad = 0.0;

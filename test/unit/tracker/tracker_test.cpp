@@ -161,6 +161,45 @@ TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
   }
 }
 
+// A plan by the manoeuvring model may go astern for a moment, slower than walking: the hull isn't
+// turned round for that.
+TEST(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
+  const auto options = config::load<Options>(kSource + "/config/tracker.yaml");
+  ASSERT_TRUE(options) << options.error().message;
+  const auto vessel = vessel::loadParameters(kSource + "/config/vessels/otter.yaml");
+  ASSERT_TRUE(vessel) << vessel.error().message;
+  Tracker tracker(*options, *vessel);
+  vessel::FlatPoint ahead;
+  ahead.velocity.x() = 0.25;
+  vessel::FlatPoint nearby = ahead;
+  nearby.position.x() = 0.2;
+  vessel::FlatPoint end;
+  end.position.x() = 1.5;
+  const trajectory::Trajectory path({trajectory::hermitePiece(ahead, nearby, 5.0),
+                                     trajectory::hermitePiece(nearby, end, 8.0)});
+  vessel::State state = vessel::State::Zero();
+  state[vessel::kSurge] = 0.25;
+  double now_s = 10.0;
+  double slowest = 0.0;
+  tracker.addOdometry(now_s, state);
+  ASSERT_TRUE(tracker.setTrajectory(path, now_s));
+  while (now_s < 10.0 + path.duration()) {
+    tracker.addOdometry(now_s, state);
+    const Command command = tracker.step(now_s);
+    state = rk4Step(
+        [&](double, const vessel::State& x) {
+          return vessel::stateDerivative(x, command.thrusts, vessel->manoeuvring, vessel->thrusters,
+                                         {});
+        },
+        0.0, state, 0.01);
+    now_s += 0.01;
+    slowest = std::min(slowest, state[vessel::kSurge]);
+    ASSERT_LT(std::abs(wrapAngle(state[vessel::kPsi])), 0.2) << "at " << now_s - 10.0 << " s";
+  }
+  EXPECT_LT(slowest, -0.05);
+  EXPECT_LT((state.head<2>() - end.position).norm(), 0.1);
+}
+
 // What is sent is cut as the bow comes up (BowGuard says how), and what turns the hull is kept.
 TEST_F(TrackerTest, PushesNothingAheadWithTheBowHigh) {
   const auto push = [&](double bow_up_rad) {
