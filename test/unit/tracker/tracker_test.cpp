@@ -175,8 +175,8 @@ TEST(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
   nearby.position.x() = 0.2;
   vessel::FlatPoint end;
   end.position.x() = 1.5;
-  const trajectory::Trajectory path({trajectory::hermitePiece(ahead, nearby, 5.0),
-                                     trajectory::hermitePiece(nearby, end, 8.0)});
+  const trajectory::Trajectory path(
+      {trajectory::hermitePiece(ahead, nearby, 5.0), trajectory::hermitePiece(nearby, end, 8.0)});
   vessel::State state = vessel::State::Zero();
   state[vessel::kSurge] = 0.25;
   double now_s = 10.0;
