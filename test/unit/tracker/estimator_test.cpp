@@ -125,8 +125,9 @@ TEST(Estimator, LeavesWaveMotionAside) {
   EXPECT_LT(with, 0.25 * without);
 }
 
-// How far what is steered by is off the measured position at most, in waves of 0.1 m.
-double worstPositionLeftOut(double push_n) {
+// How far a state of the estimator is off the measured position at most, in waves of 0.1 m.
+template <typename StateOf>
+double worstPositionOff(double push_n, StateOf stateOf) {
   Sea sea;
   sea.push_n = push_n;
   sea.wave_m = 0.1;
@@ -138,7 +139,7 @@ double worstPositionLeftOut(double push_n) {
     estimator.predict(sea.thrusts(), kStepS);
     estimator.update(sea.measured());
     if (i > 4000) {
-      worst = std::max(worst, (estimator.steered() - sea.measured()).head<2>().norm());
+      worst = std::max(worst, (stateOf(estimator) - sea.measured()).template head<2>().norm());
     }
   }
   return worst;
@@ -146,26 +147,13 @@ double worstPositionLeftOut(double push_n) {
 
 // At speed nothing of the motion is put down to waves.
 TEST(Estimator, TakesNothingForWavesAtSpeed) {
-  Sea sea;
-  sea.push_n = 90.0;
-  sea.wave_m = 0.1;
-  Estimator estimator(shipped(), sea.vessel);
-  estimator.reset(sea.measured());
-  double worst = 0.0;
-  for (int i = 0; i < 6000; ++i) {
-    sea.advance();
-    estimator.predict(sea.thrusts(), kStepS);
-    estimator.update(sea.measured());
-    if (i > 4000) {
-      worst = std::max(worst, (estimator.state() - sea.measured()).head<2>().norm());
-    }
-  }
-  EXPECT_LT(worst, 0.03);
+  EXPECT_LT(worstPositionOff(90.0, [](const Estimator& e) { return e.state(); }), 0.03);
 }
 
 TEST(Estimator, IsSteeredAgainstWavesAtSpeedAlone) {
-  EXPECT_GT(worstPositionLeftOut(5.0), 0.06);
-  EXPECT_LT(worstPositionLeftOut(90.0), 0.03);
+  const auto steered = [](const Estimator& e) { return e.steered(); };
+  EXPECT_GT(worstPositionOff(5.0, steered), 0.06);
+  EXPECT_LT(worstPositionOff(90.0, steered), 0.03);
 }
 
 }  // namespace
