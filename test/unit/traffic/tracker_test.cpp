@@ -256,18 +256,24 @@ std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double k
   return encode(m, 'A', 0).value().front();
 }
 
-// Of a hull that just comes into range two beams may tell: hers too, not a thing that stands.
-TEST(TrafficTracker, TellsTheMapOfSingleEchoes) {
-  Tracker tracker(Options{}, {}, {2.0, 1.08});
-  for (int k = 0; k <= 20; ++k) {
-    ASSERT_TRUE(tracker.addAis(k, report(257000004, {2.0 * k, 0.0}, 2.0 / ais::kKnotMps, 90.0)));
-  }
+// Half a degree a beam.
+map::Scan nothingMet() {
   map::Scan scan;
   scan.angle_min_rad = -kPi;
   scan.angle_increment_rad = 2.0 * kPi / 720.0;
   scan.range_min_m = 0.2;
   scan.range_max_m = 25.0;
   scan.ranges_m.assign(720, std::numeric_limits<float>::infinity());
+  return scan;
+}
+
+// Of a hull that just comes into range two beams may tell: hers too, not a thing that stands.
+TEST(TrafficTracker, TellsTheMapOfSingleEchoes) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  for (int k = 0; k <= 20; ++k) {
+    ASSERT_TRUE(tracker.addAis(k, report(257000004, {2.0 * k, 0.0}, 2.0 / ais::kKnotMps, 90.0)));
+  }
+  map::Scan scan = nothingMet();
   scan.ranges_m[360] = scan.ranges_m[361] = 24.0F;
   scan.ranges_m[180] = scan.ranges_m[181] = 24.0F;  // likewise, where nobody is
   const Eigen::Vector2d eye(40.0 - 1.0 - 24.0, 0.0);
@@ -287,12 +293,7 @@ TEST(TrafficTracker, TellsTheMapOfEchoesAtAHullsFoot) {
   for (int k = 0; k <= 20; ++k) {
     ASSERT_TRUE(tracker.addAis(k, report(257000004, {2.0 * k, 0.0}, 2.0 / ais::kKnotMps, 90.0)));
   }
-  map::Scan scan;
-  scan.angle_min_rad = -kPi;
-  scan.angle_increment_rad = 2.0 * kPi / 720.0;
-  scan.range_min_m = 0.2;
-  scan.range_max_m = 25.0;
-  scan.ranges_m.assign(720, std::numeric_limits<float>::infinity());
+  map::Scan scan = nothingMet();
   scan.ranges_m[360] = static_cast<float>(kRangeM);
   map::SensorPose sensor;
   sensor.pitch_rad = std::asin((0.8 - kHeightM) / kRangeM);
