@@ -26,6 +26,22 @@ for name in sys.argv[1:]:
 sys.exit("\n".join(unused) or None)
 PY
 
+# Headers beside the sources are their room's own, those of a folder with a door are that folder's.
+/usr/bin/python3 - $(git ls-files 'src/*.?pp' 'include/*.hpp') <<'PY'
+import os, re, sys
+doors = {"optimizer/ends": "otter_nav/optimizer/ends.hpp"}
+inside = []
+for name in sys.argv[1:]:
+    home = re.sub(r"^(src|include/otter_nav)/", "", os.path.dirname(name))
+    for header in re.findall(r'^#include "(?!otter_nav/)(\w+/.*)"', open(name).read(), re.M):
+        folder = os.path.dirname(header)
+        if os.path.exists("src/" + header) and home.split("/")[0] != folder.split("/")[0]:
+            inside.append("%s: %s is another room's own" % (name, header))
+        elif folder in doors and home != folder:
+            inside.append("%s: %s lies behind %s" % (name, header, doors[folder]))
+sys.exit("\n".join(inside) or None)
+PY
+
 build=${1:-}
 [ -n "$build" ] || exit 0
 shift

@@ -5,13 +5,12 @@
 #include <optional>
 #include <utility>
 
-#include "optimizer/ends/path_ends.hpp"
-#include "optimizer/ends/stop_and_spin.hpp"
 #include "optimizer/objective/spline_problem.hpp"
 #include "optimizer/solve/assembly.hpp"
 #include "optimizer/solve/attempt.hpp"
 #include "optimizer/solve/initial_spline.hpp"
 #include "optimizer/solve/spline_solver.hpp"
+#include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/optimizer/spin.hpp"
+#include "otter_nav/optimizer/ends.hpp"
 
 namespace otter_nav::planner {
 namespace {

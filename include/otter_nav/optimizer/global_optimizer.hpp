@@ -10,7 +10,7 @@
 // Weights of constraints that still fail are raised from round to round; the result is verified.
 //
 // Ends at rest: there |w| vanishes (see vessel/inverse_dynamics.hpp), so launch and arrival are
-// manoeuvres of their own (end_manoeuvre.hpp), and the spline between them is under way throughout.
+// manoeuvres of their own (ends.hpp), and the spline between them is under way throughout.
 #pragma once
 
 #include <Eigen/Core>

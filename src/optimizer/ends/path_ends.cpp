@@ -1,10 +1,11 @@
-#include "optimizer/ends/path_ends.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/ends/end_manoeuvre.hpp"
+#include "optimizer/solve/initial_spline.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/feasibility/piece_check.hpp"
+#include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::optimizer {

@@ -1,9 +1,8 @@
-#include "otter_nav/optimizer/spin.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "optimizer/ends/turn_profile.hpp"
+#include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 
 namespace otter_nav::optimizer {

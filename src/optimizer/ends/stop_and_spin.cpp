@@ -1,11 +1,10 @@
-#include "optimizer/ends/stop_and_spin.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/optimizer/ends.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

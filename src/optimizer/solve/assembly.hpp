@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "optimizer/ends/path_ends.hpp"
 #include "optimizer/objective/spline_problem.hpp"
 #include "otter_nav/feasibility/safety_limits.hpp"
+#include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 

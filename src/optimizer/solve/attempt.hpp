@@ -1,10 +1,10 @@
 // What an attempt of the global optimiser is to reach; later attempts are more careful.
 #pragma once
 
-#include "optimizer/ends/path_ends.hpp"
 #include "optimizer/objective/cost.hpp"
 #include "optimizer/solve/initial_spline.hpp"
 #include "otter_nav/feasibility/safety_limits.hpp"
+#include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
 
 namespace otter_nav::optimizer {

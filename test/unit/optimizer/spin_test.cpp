@@ -1,9 +1,9 @@
 // Spins: within the thrusters' limits, continuous, and as quick as the closed form says.
-#include "otter_nav/optimizer/spin.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "otter_nav/optimizer/ends.hpp"
 
 namespace otter_nav::optimizer {
 namespace {

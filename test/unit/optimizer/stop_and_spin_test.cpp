@@ -1,6 +1,4 @@
 // Stop and spin: few stops where the path bends, and only where the legs between are clear.
-#include "optimizer/ends/stop_and_spin.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/optimizer/ends.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
