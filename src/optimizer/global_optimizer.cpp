@@ -83,7 +83,7 @@ class GlobalOptimizer::Solver {
     limits_ = limits.startingAt(start.flat.velocity.norm(), vessel_);
     slowTo(feasibility::speedShare(vessel_, limits_));
     result_ = Optimized();
-    for (int i = 0; i < std::min(budget.max_attempts, kAttempts); ++i) {
+    for (int i = budget.first_attempt; i < std::min(budget.max_attempts, kAttempts); ++i) {
       if (attempt(path, i)) {
         return std::move(result_);
       }
@@ -359,6 +359,7 @@ class GlobalOptimizer::Solver {
     const Eigen::Vector2d onward = trajectory::pointAlong({middle, path.end()}, kCornerM) - *middle;
     stop.psi_rad = std::atan2(onward.y(), onward.x());
     Budget budget = *budget_;
+    budget.first_attempt = 0;
     budget.max_attempts = kAttemptsOfParts;
     const feasibility::Obstacles& whole_time = *obstacles_;
     const auto part = [&](const std::vector<Eigen::Vector2d>& points,

@@ -32,7 +32,10 @@ constexpr double kPauseS = 0.5;
 constexpr double kWholeShare = 0.6;  // of the time, for the whole way
 constexpr double kPartsOfTheWay[] = {0.5, 0.25};
 constexpr double kStretchShare = 0.6;  // a place is looked for from so much of that on
-constexpr double kNearM = 0.3;         // a goal nearer than this needs no search
+// Attempts with other samples before the last resorts, and of the time for them.
+constexpr int kPatience = 3;
+constexpr double kPatienceShare = 0.3;
+constexpr double kNearM = 0.3;  // a goal nearer than this needs no search
 
 std::string describe(const Eigen::Vector2d& p) {
   std::ostringstream text;
@@ -260,12 +263,13 @@ class Planner::Pipeline {
     Plan plan;
     int samples_left = 0;
     bool fallback = false;  // the plan so far could not be optimised
+    bool resorted = false;  // to what makes such plans
 
     [[nodiscard]] double now() const {
       return termination.elapsed_s ? termination.elapsed_s() : 0.0;
     }
-    [[nodiscard]] bool timeUp() const {
-      return termination.elapsed_s && termination.elapsed_s() >= termination.budget_s;
+    [[nodiscard]] bool timeUp(double share = 1.0) const {
+      return termination.elapsed_s && termination.elapsed_s() >= share * termination.budget_s;
     }
     [[nodiscard]] bool solved() const { return plan.outcome == Outcome::kSolved; }
     [[nodiscard]] optimizer::Budget budget() const {
@@ -368,8 +372,8 @@ class Planner::Pipeline {
     return run.timeUp() || run.samples_left <= 0 || (optimized && !improve);
   }
 
-  // A tree's path, optimised; failing that the guide path, and failing that the tree's path made
-  // feasible by the least that will do. Later attempts draw other samples.
+  // A tree's path, optimised; failing that the guide path. Later attempts draw other samples: a
+  // few cost less than the last resorts, and end in better plans.
   void attemptOnce(Run& run, int attempt) {
     ++run.plan.figures.attempts;
     if (!options_.global_optimization) {
@@ -383,12 +387,32 @@ class Planner::Pipeline {
       optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
     }
     if (attempt == 0 && !done(run)) {
-      optimizeGuide(run);
+      optimizeGuide(run, 0, 1);
     }
     if (!done(run) && !run.query.warm_start.empty() && attempt == 0) {
       optimizeTrajectory(run, run.query.warm_start);
     }
-    const bool poor = !run.solved() || (run.fallback && attempt == 0);
+    if ((!run.solved() || run.fallback) && !patient(run, attempt)) {
+      lastResorts(run, attempt);
+    }
+  }
+
+  // Under a low speed limit the guide path with more care makes the faster plans.
+  [[nodiscard]] bool patient(const Run& run, int attempt) const {
+    return attempt + 1 < std::min(options_.max_attempts, kPatience) &&
+           feasibility::speedShare(vessel_, run.query.limits) == 1.0 &&
+           run.samples_left > options_.attempt_samples && !run.timeUp(kPatienceShare);
+  }
+
+  // The guide path with more care, then from stop to stop; and the trees' path made feasible by the
+  // least that will do.
+  void lastResorts(Run& run, int attempt) {
+    const bool first = !run.resorted;
+    run.resorted = true;
+    if (first && !done(run)) {
+      optimizeGuide(run, 1, optimizer::Budget().max_attempts);
+    }
+    const bool poor = !run.solved() || (run.fallback && first);
     if (poor && !run.timeUp() && searchTrees(run, attempt, Roots::kLaunched)) {
       closeTreesPath(run);
     }
@@ -478,12 +502,15 @@ class Planner::Pipeline {
   }
 
   // The tree's path could not be made feasible: the guide path itself may be.
-  void optimizeGuide(Run& run) {
+  void optimizeGuide(Run& run, int first_attempt, int max_attempts) {
     const double began = run.now();
     const std::string reason = run.plan.reason;
+    optimizer::Budget budget = run.budget();
+    budget.first_attempt = first_attempt;
+    budget.max_attempts = max_attempts;
     take(run, began,
-         optimizer_.optimize(run.obstacles, guide_.points, run.query.start, run.query.goal,
-                             run.budget(), run.query.limits));
+         optimizer_.optimize(run.obstacles, guide_.points, run.query.start, run.query.goal, budget,
+                             run.query.limits));
     if (!reason.empty()) {
       run.plan.reason = reason;  // of the tree's path, if both fail
     }

@@ -45,8 +45,9 @@ struct Budget {
   std::function<double()> elapsed_s;
   double budget_s = 0.1;
   int max_iterations = 300;
-  // Attempts along the path given, each more careful than the one before; with fewer than all there
-  // is no last resort either.
+  // Attempts along the path given, each more careful than the one before: from which on, and up to
+  // which. Before the last there is no last resort either.
+  int first_attempt = 0;
   int max_attempts = 4;
 };
 
