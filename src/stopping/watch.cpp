@@ -92,7 +92,9 @@ Conflict outlineConflict(const Trajectory& trajectory, double from_s, double to_
       nearest = feasibility::outlineClearance(
           vessel.hull, centre, psi,
           [&](const Eigen::Vector2d& p) { return pointClearance(p, start + t, obstacles, edge); });
-      const double left = nearest - clearance_m + feasibility::kLeastSlackM;
+      // No clearance is less than none: where none is to be kept, touching counts.
+      const double left =
+          nearest - std::max(clearance_m, feasibility::kLeastSlackM) + feasibility::kLeastSlackM;
       // Without the edge the clearance is no bound of what comes next: short steps.
       constexpr double kShortM = 0.05;
       return edge ? left : std::min(left, kShortM);

@@ -101,6 +101,20 @@ TEST(Braking, StraightensOutOfACurve) {
   EXPECT_TRUE(verified.ok) << verified.reason;
 }
 
+// A disc comes over a hull at rest.
+TEST(OutlineConflict, SeesWhatMerelyTouchesTheHull) {
+  const Trajectory stop({trajectory::spinPiece({0.0, 0.0}, 0.0, 0.0, 20.0)});
+  const map::DistanceField field = fieldOf(openWater());
+  const feasibility::test::MovingDisc disc({12.0, 0.0}, {-1.0, 0.0}, 2.0);
+  feasibility::Obstacles obstacles(field);
+  obstacles.add(disc);
+  const vessel::Parameters vessel;
+  const Conflict touch = outlineConflict(stop, 0.0, 20.0, obstacles, vessel, 0.0);
+  ASSERT_TRUE(touch.found);
+  EXPECT_NEAR(touch.time_s, 10.0 - 0.5 * vessel.hull.length_m, 0.01);
+  EXPECT_FALSE(outlineConflict(stop, 0.0, touch.time_s - 0.1, obstacles, vessel, 0.0).found);
+}
+
 TEST(Braking, DoesWhatItCanWhenNothingIsClear) {
   const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
   map::OccupancyGrid grid = openWater();
