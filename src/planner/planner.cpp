@@ -29,13 +29,14 @@ constexpr double kSlowingShares[] = {1.0, 1.6, 0.7, 2.5};
 constexpr double kNearlyAtRestShare = 0.1;
 constexpr double kPauseS = 0.5;
 // Of the guide path, where a plan that may end early does.
-constexpr double kWholeShare = 0.6;  // of the time, for the whole way
+constexpr double kWholeShare = 0.6;  // of time and samples, for the whole way
 constexpr double kPartsOfTheWay[] = {0.5, 0.25};
 constexpr double kStretchShare = 0.6;  // a place is looked for from so much of that on
 // Attempts with other samples before the last resorts, and of the time for them.
 constexpr int kPatience = 3;
 constexpr double kPatienceShare = 0.3;
-constexpr double kNearM = 0.3;  // a goal nearer than this needs no search
+constexpr double kNearM = 0.3;      // a goal nearer than this needs no search
+constexpr int kFirstSamples = 150;  // trees that need more wait until the guide path was tried
 
 std::string describe(const Eigen::Vector2d& p) {
   std::ostringstream text;
@@ -108,23 +109,26 @@ class Planner::Pipeline {
   // so first, straight ahead.
   Plan planInTime(const feasibility::Obstacles& obstacles, const Query& query,
                   const Termination& termination) {
+    const bool too_fast = query.start.flat.velocity.norm() > query.limits.speed_max_mps;
+    samples_left_ = termination.max_iterations;
     Termination whole = termination;
-    whole.budget_s *= query.may_end_early ? kWholeShare : 1.0;
+    if (query.may_end_early || too_fast) {
+      whole.budget_s *= kWholeShare;
+      whole.max_iterations = static_cast<int>(kWholeShare * whole.max_iterations);
+    }
     Plan plan = planAmong(obstacles, query, whole);
-    const double speed = query.start.flat.velocity.norm();
     if (plan.outcome == Outcome::kSolved) {
       return plan;
     }
-    if (speed <= query.limits.speed_max_mps) {
+    if (!too_fast) {
       return query.may_end_early && !guide_.points.empty()
                  ? planPartOfTheWay(obstacles, query, termination, std::move(plan))
                  : plan;
     }
-    for (const double share : kSlowedShares) {
-      for (const double longer : kSlowingShares) {
-        const bool in_time =
-            !termination.elapsed_s || termination.elapsed_s() < termination.budget_s;
-        Plan other = in_time ? planSlowed(obstacles, query, termination, share, longer) : Plan{};
+    for (const double longer : kSlowingShares) {
+      for (const double share : kSlowedShares) {
+        const std::optional<Termination> once = onceMore(termination);
+        Plan other = once ? planSlowed(obstacles, query, *once, share, longer) : Plan{};
         if (other.outcome == Outcome::kSolved) {
           return other;
         }
@@ -133,16 +137,25 @@ class Planner::Pipeline {
     return plan;
   }
 
+  // For one more try with what is left of the query's time and samples; nothing if that is used up.
+  [[nodiscard]] std::optional<Termination> onceMore(const Termination& termination) const {
+    const bool late = termination.elapsed_s && termination.elapsed_s() >= termination.budget_s;
+    if (late || samples_left_ <= 0) {
+      return std::nullopt;
+    }
+    Termination once = termination;
+    once.max_iterations = std::min(samples_left_, kFirstSamples);
+    return once;
+  }
+
   // To the place with most room on a stretch of the guide path, the farther ones first; else `none`
   // stays the answer.
   Plan planPartOfTheWay(const feasibility::Obstacles& obstacles, const Query& query,
                         const Termination& termination, Plan none) {
     const std::vector<OnGuide> way = placesOnGuide(obstacles.field());
     const double length = way.empty() ? 0.0 : way.back().along_m;
-    Termination once = termination;
-    once.max_iterations = std::min(once.max_iterations, options_.attempt_samples);
     for (const double share : kPartsOfTheWay) {
-      const bool in_time = !termination.elapsed_s || termination.elapsed_s() < termination.budget_s;
+      const std::optional<Termination> once = onceMore(termination);
       const OnGuide* best = nullptr;
       for (const OnGuide& place : way) {
         const bool on_stretch = place.along_m <= share * length &&
@@ -152,7 +165,7 @@ class Planner::Pipeline {
           best = &place;
         }
       }
-      if (!in_time || best == nullptr || best->clearance_m < query.limits.clearance_m) {
+      if (!once || best == nullptr || best->clearance_m < query.limits.clearance_m) {
         continue;
       }
       Query part = query;
@@ -160,7 +173,7 @@ class Planner::Pipeline {
       part.goal = {};
       part.goal.flat.position = best->position;
       part.goal.psi_rad = best->course_rad;
-      Plan plan = planAmong(obstacles, part, once);
+      Plan plan = planAmong(obstacles, part, *once);
       if (plan.outcome == Outcome::kSolved) {
         plan.left_m = length - best->along_m;
         return plan;
@@ -251,6 +264,7 @@ class Planner::Pipeline {
       keepTrees(run);
     }
     conclude(run);
+    samples_left_ -= std::max(kFirstSamples, run.plan.figures.samples);  // optimising costs too
     run.plan.figures.total_ms = 1e3 * (run.now() - began);
     return std::move(run.plan);
   }
@@ -366,10 +380,12 @@ class Planner::Pipeline {
     line_.build(guide_.points, run.obstacles.field(), vessel_, line);
   }
 
+  // An optimised plan, and no better one is asked for.
+  [[nodiscard]] bool isGood(const Run& run) const {
+    return run.solved() && !run.fallback && run.plan.figures.attempts > options_.improve_attempts;
+  }
   [[nodiscard]] bool done(const Run& run) const {
-    const bool optimized = run.solved() && !run.fallback;
-    const bool improve = run.plan.figures.attempts <= options_.improve_attempts;
-    return run.timeUp() || run.samples_left <= 0 || (optimized && !improve);
+    return run.timeUp() || run.samples_left <= 0 || isGood(run);
   }
 
   // A tree's path, optimised; failing that the guide path. Later attempts draw other samples: a
@@ -377,17 +393,27 @@ class Planner::Pipeline {
   void attemptOnce(Run& run, int attempt) {
     ++run.plan.figures.attempts;
     if (!options_.global_optimization) {
-      if (searchTrees(run, attempt, Roots::kLaunched)) {
+      beginSearch(run, attempt, Roots::kLaunched);
+      if (searchTrees(run, options_.attempt_samples)) {
         closeTreesPath(run);
       }
       return;
     }
-    if (searchTrees(run, attempt, Roots::kAtEnds)) {
-      run.plan.figures.tree_cost = search_.bestCost();
-      optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
+    // Trees that have not met soon will rarely do: then the guide path first.
+    const bool first = attempt == 0;
+    beginSearch(run, attempt, Roots::kAtEnds);
+    bool met = searchTrees(run, first ? kFirstSamples : options_.attempt_samples);
+    if (met) {
+      optimizeTrees(run);
     }
-    if (attempt == 0 && !done(run)) {
+    if (first && !isGood(run) && !run.timeUp()) {
       optimizeGuide(run, 0, 1);
+    }
+    if (first && !met && !done(run)) {
+      met = searchTrees(run, options_.attempt_samples - kFirstSamples);
+      if (met) {
+        optimizeTrees(run);
+      }
     }
     if (!done(run) && !run.query.warm_start.empty() && attempt == 0) {
       optimizeTrajectory(run, run.query.warm_start);
@@ -409,12 +435,15 @@ class Planner::Pipeline {
   void lastResorts(Run& run, int attempt) {
     const bool first = !run.resorted;
     run.resorted = true;
-    if (first && !done(run)) {
+    if (first && !isGood(run) && !run.timeUp()) {
       optimizeGuide(run, 1, optimizer::Budget().max_attempts);
     }
     const bool poor = !run.solved() || (run.fallback && first);
-    if (poor && !run.timeUp() && searchTrees(run, attempt, Roots::kLaunched)) {
-      closeTreesPath(run);
+    if (poor && !run.timeUp()) {
+      beginSearch(run, attempt, Roots::kLaunched);
+      if (searchTrees(run, options_.attempt_samples)) {
+        closeTreesPath(run);
+      }
     }
   }
 
@@ -437,9 +466,7 @@ class Planner::Pipeline {
                   start, goal);
   }
 
-  // Samples until the trees meet, then improve_samples more.
-  bool searchTrees(Run& run, int attempt, Roots roots) {
-    const double began = run.now();
+  void beginSearch(const Run& run, int attempt, Roots roots) {
     placeRoots(run, roots);
     SamplerOptions options;
     options.key_spacing_m /= 1.0 + 0.5 * attempt;
@@ -447,28 +474,40 @@ class Planner::Pipeline {
     options.speed_max_mps = kSampleSpeedShare * run.query.limits.speed_max_mps;
     const double slow = feasibility::speedShare(vessel_, run.query.limits);
     options.accel_mps2 *= slow * slow;
-    Sampler sampler(options, line_, run.obstacles.field(),
-                    run.query.seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(attempt));
+    sampler_.emplace(options, line_, run.obstacles.field(),
+                     run.query.seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(attempt));
+    counted_ = {};
     search_.joinRoots();
-    int budget = std::min(run.samples_left, options_.attempt_samples);
+  }
+
+  // Up to `most` samples more until the trees meet, then improve_samples more.
+  bool searchTrees(Run& run, int most) {
+    const double began = run.now();
+    int budget = std::min(run.samples_left, most);
     int improving = options_.improve_samples;
     while (budget-- > 0 && !run.timeUp()) {
       if (search_.solved() && improving-- <= 0) {
         break;
       }
-      search_.extend(sampler.next());
+      search_.extend(sampler_->next());
       if (search_.solved() && run.plan.figures.first_solution_ms == 0.0) {
         run.plan.figures.first_solution_ms = 1e3 * run.now();
       }
     }
     const SearchCounts counts = search_.counts();
     Figures& figures = run.plan.figures;
-    figures.samples += counts.samples;
-    figures.nodes += counts.joined;
-    figures.local_repairs += counts.repairs;
+    figures.samples += counts.samples - counted_.samples;
+    figures.nodes += counts.joined - counted_.joined;
+    figures.local_repairs += counts.repairs - counted_.repairs;
     figures.tree_ms += 1e3 * (run.now() - began);
-    run.samples_left -= counts.samples;
+    run.samples_left -= counts.samples - counted_.samples;
+    counted_ = counts;
     return search_.solved();
+  }
+
+  void optimizeTrees(Run& run) {
+    run.plan.figures.tree_cost = search_.bestCost();
+    optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
   }
 
   void closeTreesPath(Run& run) {
@@ -585,6 +624,9 @@ class Planner::Pipeline {
   topology::GuidePath guide_;
   GuideLine line_;
   Search search_;
+  std::optional<Sampler> sampler_;
+  SearchCounts counted_;  // of the search, in the query's figures already
+  int samples_left_ = 0;  // of the query, all tries together
   std::optional<Launch> launch_;
   std::optional<Launch> stop_;
   optimizer::GlobalOptimizer optimizer_;

@@ -34,7 +34,7 @@ struct LoopOptions {
   tracker::Options tracker;
   mission::SupervisorOptions supervisor;
   traffic::Options traffic;
-  int planning_iterations = 4000;  // bound of one planning request
+  int planning_iterations = 1200;  // bound of one planning request
   double control_period_s = 0.01;  // of the tracker and the plant
   double record_period_s = 0.05;   // of the track
   double field_distance_m = 12.0;  // distances saturate here
