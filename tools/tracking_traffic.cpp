@@ -118,6 +118,7 @@ json toJson(const traffic::Track& track) {
           {"vy", track.velocity.y()},
           {"heading", track.heading_rad},
           {"turn_rate", track.turn_rate_radps},
+          {"turn_time", track.turn_time_s},
           {"shape", track.shape == traffic::Shape::kBox ? "box" : "disc"},
           {"length_m", track.length_m},
           {"beam_m", track.beam_m},

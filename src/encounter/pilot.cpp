@@ -335,6 +335,11 @@ class Pilot::Impl {
     memory.track = track;
     memory.seen_s = now_s;
     memory.motion = Motion{track.position, track.velocity}.after(now_s - track.stamp_s);
+    if (goesRound(track)) {
+      memory.line.restart(now_s);
+      memory.changed_s = now_s;
+      return;
+    }
     memory.line.add(now_s, memory.motion.position);
     const std::optional<Eigen::Vector2d> steady = memory.line.velocity();
     if (!steady) {
@@ -355,6 +360,30 @@ class Pilot::Impl {
       return;
     }
     memory.motion.velocity = *steady;
+  }
+
+  // She turns, and has done so for a while.
+  static bool goesRound(const traffic::Track& track) {
+    constexpr double kTurnsRadps = 0.04;
+    constexpr double kLongS = 20.0;
+    constexpr double kLeastMps = 0.3;
+    return std::abs(track.turn_rate_radps) > kTurnsRadps && track.turn_time_s > kLongS &&
+           track.velocity.norm() > kLeastMps;
+  }
+  // Her way as legs from now on.
+  std::vector<Leg> roundOf(const traffic::Track& track, double until_s) const {
+    constexpr double kLegS = 2.0;
+    traffic::PredictionOptions prediction;
+    prediction.horizon_s = now_s_ + until_s - track.stamp_s;
+    const traffic::PredictedWay way(track, prediction);
+    std::vector<Leg> legs;
+    Eigen::Vector2d from = way.at(now_s_).position;
+    for (double t = 0.0; t < until_s; t += kLegS) {
+      const Eigen::Vector2d to = way.at(now_s_ + t + kLegS).position;
+      legs.push_back({t, from, (to - from) / kLegS});
+      from = to;
+    }
+    return legs;
   }
 
   // Where one is heard of others are soon. Who turns to port for the first, as is fair for one that
@@ -545,6 +574,11 @@ class Pilot::Impl {
           std::sqrt(0.5 * (track.covariance(0, 0) + track.covariance(1, 1)));
       other.velocity_deviation_mps = velocityDeviation(memory);
       other.known_s = knownFor(memory, field);
+      if (goesRound(track)) {
+        constexpr double kRoundS = 20.0;
+        other.known_s = kRoundS;
+        other.round = roundOf(track, kRoundS);
+      }
       other.record = memory.record;
       other.record.since_s = memory.began_s - now_s_;
       others.push_back(other);

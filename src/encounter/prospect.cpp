@@ -100,28 +100,49 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
 
   // Distances first: what counts before the nearest approach is known then.
   double nearest2 = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < own.legs.size() && own.legs[k].from_s < end; ++k) {
-    const Leg& leg = own.legs[k];
-    const double duration = std::min(own.endOf(k), end) - leg.from_s;
-    const Eigen::Vector2d from = leg.position - other.motion.after(leg.from_s).position;
-    const Eigen::Vector2d closing = leg.velocity - other.motion.velocity;
+  // While both keep their legs, hers with her bow to `bow`.
+  const auto meet = [&](double from_s, double to_s, const Leg& leg, const Leg& she,
+                        const Eigen::Vector2d& bow) {
+    const double duration = to_s - from_s;
+    const Eigen::Vector2d from = leg.position + (from_s - leg.from_s) * leg.velocity -
+                                 she.position - (from_s - she.from_s) * she.velocity;
+    const Eigen::Vector2d closing = leg.velocity - she.velocity;
     const double speed2 = closing.squaredNorm();
     const double at = speed2 > 1e-9 ? std::clamp(-from.dot(closing) / speed2, 0.0, duration) : 0.0;
     const double distance2 = (from + at * closing).squaredNorm();
     if (distance2 < nearest2) {
       nearest2 = distance2;
-      out.nearest_s = leg.from_s + at;
+      out.nearest_s = from_s + at;
     }
     const double reach = 0.5 * (other.length_m + other.beam_m) + half_length + half_beam;
     if (std::sqrt(distance2) - reach < out.outlines_m) {
+      const Eigen::Vector2d side = across(bow);
+      const auto inFrame = [&](const Eigen::Vector2d& v) {
+        return Eigen::Vector2d(v.dot(bow), v.dot(side));
+      };
       const double speed = leg.velocity.norm();
-      const double c = speed > kStillMps ? std::abs(leg.velocity.dot(ahead)) / speed : 1.0;
-      const double s = speed > kStillMps ? std::abs(leg.velocity.dot(port)) / speed : 1.0;
+      const double c = speed > kStillMps ? std::abs(leg.velocity.dot(bow)) / speed : 1.0;
+      const double s = speed > kStillMps ? std::abs(leg.velocity.dot(side)) / speed : 1.0;
       const Eigen::Vector2d half(0.5 * other.length_m + half_length * c + half_beam * s,
                                  0.5 * other.beam_m + half_length * s + half_beam * c);
-      out.outlines_m =
-          std::min(out.outlines_m,
-                   distanceToBox(inHerFrame(from), inHerFrame(from + duration * closing), half));
+      out.outlines_m = std::min(
+          out.outlines_m, distanceToBox(inFrame(from), inFrame(from + duration * closing), half));
+    }
+  };
+  for (std::size_t k = 0; k < own.legs.size() && own.legs[k].from_s < end; ++k) {
+    const Leg& leg = own.legs[k];
+    const double until = std::min(own.endOf(k), end);
+    if (other.round.empty()) {
+      meet(leg.from_s, until, leg, {0.0, other.motion.position, other.motion.velocity}, ahead);
+    }
+    for (std::size_t j = 0; j < other.round.size(); ++j) {
+      const Leg& she = other.round[j];
+      const double from = std::max(leg.from_s, she.from_s);
+      const double to =
+          j + 1 < other.round.size() ? std::min(until, other.round[j + 1].from_s) : until;
+      if (from < to) {
+        meet(from, to, leg, she, she.velocity.normalized());
+      }
     }
   }
   if (!options_.rules_of_the_road) {

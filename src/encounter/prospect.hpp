@@ -52,6 +52,8 @@ struct Other {
   double position_deviation_m = 0.0;  // standard deviations, now
   double velocity_deviation_mps = 0.0;
   double known_s = 0.0;  // how long she is believed to keep course and speed
+  // Her way up to known_s, where she goes round: what distances are taken from. Else empty.
+  std::vector<Leg> round;
   Record record;
 };
 

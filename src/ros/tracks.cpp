@@ -71,6 +71,7 @@ Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& sta
     one.velocity.y = track.velocity.y();
     one.heading = track.heading_rad;
     one.turn_rate = track.turn_rate_radps;
+    one.turn_time = track.turn_time_s;
     one.length = track.length_m;
     one.beam = track.beam_m;
     one.disc = static_cast<std::uint8_t>(track.shape == traffic::Shape::kDisc);
@@ -97,6 +98,7 @@ Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
     track.velocity = {one.velocity.x, one.velocity.y};
     track.heading_rad = one.heading;
     track.turn_rate_radps = one.turn_rate;
+    track.turn_time_s = one.turn_time;
     track.length_m = one.length;
     track.beam_m = one.beam;
     track.shape = one.disc != 0 ? traffic::Shape::kDisc : traffic::Shape::kBox;
@@ -106,9 +108,9 @@ Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
     const bool finite = track.position.allFinite() && track.velocity.allFinite() &&
                         std::isfinite(one.heading) && std::isfinite(one.turn_rate) &&
                         track.covariance.allFinite();
-    if (!finite || !(one.length >= 0.0) || !(one.beam >= 0.0)) {
+    if (!finite || !(one.length >= 0.0) || !(one.beam >= 0.0) || !(one.turn_time > 0.0)) {
       return failure("track " + std::to_string(one.id) +
-                     " holds a figure that is not finite, or a negative size");
+                     " holds a figure that is not finite, or a negative size or time");
     }
     tracks.push_back(track);
   }

@@ -9,14 +9,21 @@
 namespace otter_nav::traffic {
 namespace {
 
-// Densities of white acceleration, m^2/s^3, and of the turn rate's change, rad^2/s^3.
-constexpr double kStraightAcceleration = 0.0002;
-constexpr double kTurningAcceleration = 0.2;
-constexpr double kTurnChange = 0.002;
-constexpr double kTurnDecayS = 20.0;  // a turn rate dies out
-// How long a model holds on average.
-constexpr double kStraightHoldsS = 120.0;
-constexpr double kTurningHoldsS = 2.0;
+// How a model moves and what comes after it.
+struct Law {
+  double acceleration;                               // density of a white one, m^2/s^3
+  double turn_change;                                // and of the turn rate's change, rad^2/s^3
+  double turn_decay_s;                               // a turn rate dies out; 0: there is none
+  double holds_s;                                    // on average
+  std::array<double, MotionFilter::kModels> follow;  // then, shares
+};
+constexpr std::array<Law, MotionFilter::kModels> kLaws = {
+    {{0.0002, 0.0, 0.0, 120.0, {0.0, 1.0, 0.0}},
+     {0.2, 0.002, 20.0, 2.0, {0.9, 0.0, 0.1}},
+     {0.005, 0.0002, 100.0, 60.0, {0.0, 1.0, 0.0}}}};
+constexpr std::size_t kStraight = 0;
+constexpr std::size_t kBeginsToTurn = 1;
+constexpr std::array<double, MotionFilter::kModels> kAtFirst = {0.9, 0.09, 0.01};
 
 constexpr double kAnySpeedMps = 2.5;  // standard deviation of an unknown velocity, each axis
 constexpr double kAnyTurnRadps = 0.2;
@@ -35,7 +42,7 @@ MotionCovariance noise(double acceleration, double turn_change, double dt) {
 }
 
 // Coordinated turn: the velocity turns with omega, the position is its integral; with its Jacobian.
-MotionState turned(const MotionState& x, double dt, MotionCovariance& f) {
+MotionState turned(const MotionState& x, double dt, double decay_s, MotionCovariance& f) {
   const double w = x[4];
   const double angle = w * dt;
   const double c = std::cos(angle);
@@ -48,7 +55,7 @@ MotionState turned(const MotionState& x, double dt, MotionCovariance& f) {
   const double db = straight ? 0.5 * dt * dt : (dt * s - b) / w;
   const double vx = x[2];
   const double vy = x[3];
-  const double kept = std::exp(-dt / kTurnDecayS);
+  const double kept = std::exp(-dt / decay_s);
   MotionState y;
   y << x[0] + a * vx - b * vy, x[1] + b * vx + a * vy, c * vx - s * vy, s * vx + c * vy, kept * w;
   f.setIdentity();
@@ -102,31 +109,39 @@ MotionFilter::MotionFilter(const Measurement& first, double stamp_s) : stamp_s_(
       model.P.block<2, 2>(2, 2).diagonal().setConstant(kAnySpeedMps * kAnySpeedMps);
     }
   }
-  models_[0].weight = 0.9;
-  models_[1].weight = 0.1;
-  models_[0].P(4, 4) = kNoTurnRadps * kNoTurnRadps;
-  models_[1].P(4, 4) = kAnyTurnRadps * kAnyTurnRadps;
+  for (std::size_t m = 0; m < kModels; ++m) {
+    const double turn = m == kStraight ? kNoTurnRadps : kAnyTurnRadps;
+    models_[m].weight = kAtFirst[m];
+    models_[m].P(4, 4) = turn * turn;
+  }
 }
 
 // The models' estimates as each model's start, by how probable it is to have come from there.
 void MotionFilter::mix(double dt_s) {
-  const double leave[kModels] = {1.0 - std::exp(-dt_s / kStraightHoldsS),
-                                 1.0 - std::exp(-dt_s / kTurningHoldsS)};
   const std::array<Model, kModels> before = models_;
-  // Who begins to turn may do so at any rate.
-  const double any_turn[kModels] = {0.0, kAnyTurnRadps * kAnyTurnRadps};
   for (std::size_t to = 0; to < kModels; ++to) {
-    const std::size_t other = 1 - to;
-    const double stays = (1.0 - leave[to]) * before[to].weight;
-    const double comes = leave[other] * before[other].weight;
     Model& model = models_[to];
-    model.weight = stays + comes;
-    const double share = comes / model.weight;
-    const MotionState between = before[other].x - before[to].x;
-    model.x = before[to].x + share * between;
-    model.P = (1.0 - share) * before[to].P + share * before[other].P +
-              share * (1.0 - share) * between * between.transpose();
-    model.P(4, 4) += share * any_turn[to];
+    PerModel share{};
+    model.weight = 0.0;
+    for (std::size_t from = 0; from < kModels; ++from) {
+      const double leaves = 1.0 - std::exp(-dt_s / kLaws[from].holds_s);
+      share[from] =
+          before[from].weight * (from == to ? 1.0 - leaves : leaves * kLaws[from].follow[to]);
+      model.weight += share[from];
+    }
+    model.x.setZero();
+    for (std::size_t from = 0; from < kModels; ++from) {
+      share[from] /= model.weight;
+      model.x += share[from] * before[from].x;
+    }
+    model.P.setZero();
+    for (std::size_t from = 0; from < kModels; ++from) {
+      const MotionState off = before[from].x - model.x;
+      model.P += share[from] * (before[from].P + off * off.transpose());
+    }
+    if (to == kBeginsToTurn) {  // at any rate
+      model.P(4, 4) += share[kStraight] * kAnyTurnRadps * kAnyTurnRadps;
+    }
   }
 }
 
@@ -137,16 +152,21 @@ void MotionFilter::predict(double time_s) {
   }
   stamp_s_ = time_s;
   mix(dt);
-  Model& straight = models_[0];
-  MotionCovariance f = MotionCovariance::Identity();
-  f(0, 2) = f(1, 3) = dt;
-  f(4, 4) = 0.0;
-  straight.x = f * straight.x;
-  straight.P = f * straight.P * f.transpose() + noise(kStraightAcceleration, 0.0, dt);
-  straight.P(4, 4) = kNoTurnRadps * kNoTurnRadps;
-  Model& turning = models_[1];
-  turning.x = turned(turning.x, dt, f);
-  turning.P = f * turning.P * f.transpose() + noise(kTurningAcceleration, kTurnChange, dt);
+  for (std::size_t m = 0; m < kModels; ++m) {
+    Model& model = models_[m];
+    MotionCovariance f = MotionCovariance::Identity();
+    if (m == kStraight) {
+      f(0, 2) = f(1, 3) = dt;
+      f(4, 4) = 0.0;
+      model.x = f * model.x;
+    } else {
+      model.x = turned(model.x, dt, kLaws[m].turn_decay_s, f);
+    }
+    model.P = f * model.P * f.transpose() + noise(kLaws[m].acceleration, kLaws[m].turn_change, dt);
+    if (m == kStraight) {
+      model.P(4, 4) = kNoTurnRadps * kNoTurnRadps;
+    }
+  }
 }
 
 MotionFilter::PerModel MotionFilter::likelihoods(const Measurement& measurement) const {
@@ -158,7 +178,11 @@ MotionFilter::PerModel MotionFilter::likelihoods(const Measurement& measurement)
 }
 
 double MotionFilter::likelihood(const PerModel& by_model) const {
-  return models_[0].weight * by_model[0] + models_[1].weight * by_model[1];
+  double all = 0.0;
+  for (std::size_t m = 0; m < kModels; ++m) {
+    all += models_[m].weight * by_model[m];
+  }
+  return all;
 }
 
 double MotionFilter::distance2(const Measurement& measurement) const {
@@ -220,7 +244,11 @@ void MotionFilter::shift(const Eigen::Vector2d& by) {
 }
 
 MotionState MotionFilter::state() const {
-  return models_[0].weight * models_[0].x + models_[1].weight * models_[1].x;
+  MotionState mean = MotionState::Zero();
+  for (const Model& model : models_) {
+    mean += model.weight * model.x;
+  }
+  return mean;
 }
 
 MotionCovariance MotionFilter::likelyCovariance() const {
@@ -234,9 +262,13 @@ MotionCovariance MotionFilter::likelyCovariance() const {
 }
 
 MotionCovariance MotionFilter::covariance() const {
-  const MotionState between = models_[1].x - models_[0].x;
-  return models_[0].weight * models_[0].P + models_[1].weight * models_[1].P +
-         models_[0].weight * models_[1].weight * between * between.transpose();
+  const MotionState mean = state();
+  MotionCovariance all = MotionCovariance::Zero();
+  for (const Model& model : models_) {
+    const MotionState off = model.x - mean;
+    all += model.weight * (model.P + off * off.transpose());
+  }
+  return all;
 }
 
 }  // namespace otter_nav::traffic

@@ -1,6 +1,6 @@
-// One vessel's motion: straight ahead or turning, as an interacting multiple model filter (Blom and
-// Bar-Shalom 1988) whose models are updated by weighted measurements (probabilistic data
-// association, Bar-Shalom and others 2011, chapters 3 and 11).
+// One vessel's motion: straight ahead, turning, or going round and round, as an interacting
+// multiple model filter (Blom and Bar-Shalom 1988) whose models are updated by weighted
+// measurements (probabilistic data association, Bar-Shalom and others 2011, chapters 3 and 11).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ struct Measurement {
 
 class MotionFilter {
  public:
-  static constexpr std::size_t kModels = 2;  // straight ahead, turning
+  static constexpr std::size_t kModels = 3;  // straight ahead, turning, turning steadily
   using PerModel = std::array<double, kModels>;
 
   // Where a first measurement says; a velocity that isn't measured may be anything up to a few m/s.
@@ -57,7 +57,9 @@ class MotionFilter {
   // Of the model that is all but certain, if there is one: what the other one thinks possible is
   // for finding the vessel again, not for what is said of her.
   [[nodiscard]] MotionCovariance likelyCovariance() const;
-  [[nodiscard]] double turningProbability() const { return models_[1].weight; }
+  [[nodiscard]] double turningProbability() const { return 1.0 - models_[0].weight; }
+  // Probability that a turn, if there is one, is steady.
+  [[nodiscard]] double steadiness() const { return models_[2].weight / turningProbability(); }
 
  private:
   struct Model {

@@ -12,8 +12,8 @@ namespace {
 constexpr double kSampleS = 0.5;
 
 // A turn rate that dies out has turned by this angle after `t_s`.
-double turnedBy(const Track& track, double t_s, const PredictionOptions& o) {
-  return track.turn_rate_radps * o.turn_time_s * (1.0 - std::exp(-t_s / o.turn_time_s));
+double turnedBy(const Track& track, double t_s) {
+  return track.turn_rate_radps * track.turn_time_s * (1.0 - std::exp(-t_s / track.turn_time_s));
 }
 
 // Position's variance, each axis, of a velocity that strays as an Ornstein-Uhlenbeck process from
@@ -42,7 +42,7 @@ Outline grown(const Track& track, const Eigen::Vector2d& position, double t_s,
   };
   Outline outline;
   outline.position = position;
-  outline.heading_rad = track.heading_rad + turnedBy(track, t_s, o);
+  outline.heading_rad = track.heading_rad + turnedBy(track, t_s);
   const Eigen::Vector2d ahead(std::cos(outline.heading_rad), std::sin(outline.heading_rad));
   const Eigen::Vector2d port = across(ahead);
   outline.half_length_m = growth(ahead);
@@ -89,7 +89,7 @@ PredictedWay::PredictedWay(const Track& track, const PredictionOptions& options)
   for (std::size_t k = 0; k < std::max<std::size_t>(count, 2); ++k) {
     const double t = kSampleS * static_cast<double>(k);
     samples_.push_back(grown(track, position, t, options));
-    const double middle = turnedBy(track, t + 0.5 * kSampleS, options);
+    const double middle = turnedBy(track, t + 0.5 * kSampleS);
     position += kSampleS * (Eigen::Rotation2Dd(middle) * track.velocity);
     if (k == 0) {
       continue;
@@ -101,6 +101,7 @@ PredictedWay::PredictedWay(const Track& track, const PredictionOptions& options)
         std::abs(b.heading_rad - a.heading_rad) * std::max(a.reach(), b.reach()) +
         std::hypot(b.half_length_m - a.half_length_m, b.half_beam_m - a.half_beam_m);
     rate_bound_mps_ = std::max(rate_bound_mps_, moved / kSampleS);
+    reaches_m_.push_back(std::max(a.reach(), b.reach()));
   }
 }
 
@@ -126,6 +127,13 @@ Outline PredictedWay::at(double time_s) const {
   return outline;
 }
 
+double PredictedWay::distanceBound(const Eigen::Vector2d& point, double time_s) const {
+  double share = 0.0;
+  const std::size_t k = segmentAt(time_s, share);
+  const Eigen::Vector2d& from = samples_[k].position;
+  return (from + share * (samples_[k + 1].position - from) - point).norm() - reaches_m_[k];
+}
+
 Eigen::Vector2d PredictedWay::velocityAt(double time_s) const {
   double share = 0.0;
   const std::size_t k = segmentAt(time_s, share);
@@ -139,11 +147,11 @@ Track predicted(const Track& track, double time_s, const PredictionOptions& opti
   const PredictedWay way(track, to_here);
   Track later = track;
   later.stamp_s = time_s;
-  const double turned = turnedBy(track, t, options);
+  const double turned = turnedBy(track, t);
   later.position = way.at(time_s).position;
   later.velocity = Eigen::Rotation2Dd(turned) * track.velocity;
   later.heading_rad = track.heading_rad + turned;
-  later.turn_rate_radps = track.turn_rate_radps * std::exp(-t / options.turn_time_s);
+  later.turn_rate_radps = track.turn_rate_radps * std::exp(-t / track.turn_time_s);
   const Eigen::Matrix2d velocity = track.covariance.bottomRightCorner<2, 2>();
   const Eigen::Matrix2d mixed = track.covariance.topRightCorner<2, 2>() + t * velocity;
   const double kept = std::exp(-t / options.stray_time_s);

@@ -21,10 +21,9 @@ TrackLayer::TrackLayer(const std::vector<Track>& tracks, const PredictionOptions
 double TrackLayer::clearance(const Eigen::Vector2d& position, double time_s) const {
   double least = kInfinity;
   for (const PredictedWay& way : ways_) {
-    const Outline outline = way.at(time_s);
-    // The circle around it spares what lies farther off than what was found.
-    if ((position - outline.position).norm() - outline.reach() < least) {
-      least = std::min(least, outline.distanceTo(position).distance_m);
+    // What lies farther off than what was found needs no closer look.
+    if (way.distanceBound(position, time_s) < least) {
+      least = std::min(least, way.at(time_s).distanceTo(position).distance_m);
     }
   }
   return std::max(0.0, least);
@@ -34,11 +33,10 @@ map::DistanceField::Smooth TrackLayer::smooth(const Eigen::Vector2d& position,
                                               double time_s) const {
   map::DistanceField::Smooth nearest{kInfinity, Eigen::Vector2d::Zero()};
   for (const PredictedWay& way : ways_) {
-    const Outline outline = way.at(time_s);
-    if ((position - outline.position).norm() - outline.reach() >= nearest.distance_m) {
+    if (way.distanceBound(position, time_s) >= nearest.distance_m) {
       continue;
     }
-    const Outline::Distance distance = outline.distanceTo(position);
+    const Outline::Distance distance = way.at(time_s).distanceTo(position);
     if (distance.distance_m < nearest.distance_m) {
       nearest = {distance.distance_m, distance.gradient};
     }

@@ -20,6 +20,9 @@ constexpr int kYoungHits = 5;
 constexpr double kLeastCourseSpeedMps = 0.3;
 constexpr double kLeastUnderWayMps = 0.6;
 constexpr double kCourseSigmas = 2.5;
+// How long a turn goes on, one just begun and one that has been steady.
+constexpr double kBriefTurnS = 5.0;
+constexpr double kSteadyTurnS = 40.0;
 
 Eigen::Vector2d unit(double angle_rad) {
   return {std::cos(angle_rad), std::sin(angle_rad)};
@@ -143,6 +146,7 @@ Track TrackedVessel::track() const {
   track.position = x.head<2>();
   track.velocity = keeps_place ? Eigen::Vector2d::Zero() : Eigen::Vector2d(x.segment<2>(2));
   track.turn_rate_radps = keeps_place ? 0.0 : x[4];
+  track.turn_time_s = kBriefTurnS + motion.steadiness() * (kSteadyTurnS - kBriefTurnS);
   track.covariance = motion.likelyCovariance().topLeftCorner<4, 4>();
   if (keeps_place) {
     track.covariance.rightCols<2>().setZero();

@@ -23,6 +23,7 @@ struct Track {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // over ground
   double heading_rad = 0.0;
   double turn_rate_radps = 0.0;  // of course and heading alike
+  double turn_time_s = 5.0;      // in which the turn will have fallen to 1 / e
   Shape shape = Shape::kBox;
   double length_m = 0.0;
   double beam_m = 0.0;
@@ -39,7 +40,6 @@ struct Track {
 struct PredictionOptions {
   double stray_deviation_mps = 0.1;  // of the velocity, each axis, in the long run
   double stray_time_s = 10.0;        // and its correlation time
-  double turn_time_s = 5.0;          // in which a turn falls to 1 / e
   double sigmas = 2.0;               // the outline grows by so many standard deviations
   double growth_max_m = 4.0;         // but on no side by more
   double horizon_s = 120.0;          // from here on straight ahead, growing no more
@@ -73,6 +73,8 @@ class PredictedWay {
   // Times on the mission's clock.
   [[nodiscard]] Outline at(double time_s) const;
   [[nodiscard]] Eigen::Vector2d velocityAt(double time_s) const;
+  // A lower bound of the distance to the outline, quickly: the circle around it.
+  [[nodiscard]] double distanceBound(const Eigen::Vector2d& point, double time_s) const;
   // Nothing of the outline comes nearer to a fixed point faster than this, m/s.
   [[nodiscard]] double rateBound() const { return rate_bound_mps_; }
 
@@ -80,7 +82,8 @@ class PredictedWay {
   [[nodiscard]] std::size_t segmentAt(double time_s, double& share) const;
 
   Track track_;
-  std::vector<Outline> samples_;  // every kSampleS from the stamp on; straight lines between them
+  std::vector<Outline> samples_;   // every kSampleS from the stamp on; straight lines between them
+  std::vector<double> reaches_m_;  // of a sample and the next
   double rate_bound_mps_ = 0.0;
 };
 

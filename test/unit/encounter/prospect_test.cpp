@@ -66,6 +66,22 @@ TEST(Prospect, OutlinesAreExact) {
   EXPECT_DOUBLE_EQ(look(sail({{north(2.0), 200.0}}), meeting(180.0, 2.0)).outlines_m, 0.0);
 }
 
+TEST(Prospect, WhoGoesRoundIsWhereHerTurnLeads) {
+  Other other = meeting(270.0, 2.0);
+  other.motion.position = {20.0, -180.0};
+  other.known_s = 12.0;
+  const Course on = sail({{north(2.0), 50.0}});
+  EXPECT_DOUBLE_EQ(look(on, other).outlines_m, 0.0);
+  // She turns away before she has come to our course: nearest as she draws off again, when we have
+  // come up to 13.23 m to each side between the outlines.
+  other.round = {{0.0, {20.0, -180.0}, {-2.0, 0.0}},
+                 {2.0, {16.0, -180.0}, {0.0, 2.0}},
+                 {4.0, {16.0, -176.0}, {2.0, 0.0}}};
+  const Outlook away = look(on, other);
+  EXPECT_NEAR(away.outlines_m, 13.23 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(away.nearest_s, 2.0, 1e-6);
+}
+
 TEST(Prospect, HeadOnAsksForABoldTurnToStarboardInTime) {
   const Other other = meeting(180.0, 2.0);
   const auto broken = [&](const std::vector<std::pair<Eigen::Vector2d, double>>& legs) {

@@ -107,6 +107,37 @@ TEST(MotionFilter, FollowsATurnAndTheLegAfterIt) {
   EXPECT_NEAR(filter.state()[2], 0.0, 0.1);
 }
 
+// Round and round at 1.5 m/s on a circle of 10 m, seen by radar.
+TEST(MotionFilter, LearnsATurnThatLasts) {
+  constexpr double kRate = 0.15;
+  constexpr int kRuns = 20;
+  double rate = 0.0;
+  double steady = 0.0;
+  double square = 0.0;
+  Random random(5);
+  for (int run = 0; run < kRuns; ++run) {
+    const auto truth = [](double t) {
+      return Eigen::Vector2d(10.0 * std::sin(kRate * t), -10.0 * std::cos(kRate * t));
+    };
+    const auto measured = [&](double t) {
+      return at(truth(t) + Eigen::Vector2d(random.normal(), random.normal()), 1.0);
+    };
+    MotionFilter filter(measured(0.0), 0.0);
+    for (int second = 1; second <= 60; ++second) {
+      filter.predict(second);
+      filter.update(measured(second));
+    }
+    const Eigen::Vector2d velocity =
+        1.5 * Eigen::Vector2d(std::cos(60.0 * kRate), std::sin(60.0 * kRate));
+    rate += filter.state()[4] / kRuns;
+    steady += filter.turningProbability() * filter.steadiness() / kRuns;
+    square += (filter.state().segment<2>(2) - velocity).squaredNorm() / kRuns;
+  }
+  EXPECT_NEAR(rate, kRate, 0.03);
+  EXPECT_GT(steady, 0.8);
+  EXPECT_LT(std::sqrt(square), 0.45);
+}
+
 // Against all events written out by hand.
 TEST(Association, GivesEachDetectionToOneTrack) {
   const std::vector<double> none = {0.2, 0.3};

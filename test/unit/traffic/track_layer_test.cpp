@@ -51,15 +51,15 @@ TEST(TrackLayer, OfNothingIsFarAway) {
 TEST(TrackLayer, TurnsWithATrackThatTurns) {
   Track track = eastward();
   track.turn_rate_radps = 0.1;
-  PredictionOptions options = certain();
-  options.turn_time_s = 1e6;  // goes on turning
-  const TrackLayer layer({track}, options);
+  track.turn_time_s = 1e6;  // goes on turning
+  const TrackLayer layer({track}, certain());
   // A quarter of the circle of 20 m about (10, 25).
   const double quarter_s = 100.0 + 0.5 * kPi / 0.1;
   const Outline outline = layer.ways()[0].at(quarter_s);
   EXPECT_NEAR((outline.position - Eigen::Vector2d(30.0, 25.0)).norm(), 0.0, 0.05);
   EXPECT_NEAR(outline.heading_rad, 0.5 * kPi, 1e-2);
   // A turn that dies out ends at its time constant's worth of angle.
+  track.turn_time_s = 5.0;
   const Outline late = PredictedWay(track, certain()).at(200.0);
   EXPECT_NEAR(late.heading_rad, 0.5, 1e-2);
 }
