@@ -11,6 +11,7 @@
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
+#include "otter_nav/stopping/stand_aside.hpp"
 #include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -100,6 +101,7 @@ class Supervisor::Impl {
       return failure(status.error().message);
     }
     goal_ = goal;
+    sailed_since_s_ = m.now_s;
     safety().newGoal();
     feel(m);
     plans_.drop();
@@ -228,13 +230,21 @@ class Supervisor::Impl {
   bool isClearAgain(const Moment& m) { return for_clearance_ && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
   bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_); }
-  // The way to rest itself is not clear any more.
-  bool isStopBlocked(const Moment& m) {
-    const double at = sailed_.elapsed(m.now_s);
-    return sailed_.left(m.now_s) > 0.0 &&
-           stopping::outlineConflict(sailed_.trajectory, at, sailed_.trajectory.duration(),
-                                     alongSailed(m), vessel_, 0.0)
-               .found;
+  // The way to rest itself is not clear any more, or its end, and there is a milder one.
+  bool hasMilderStop(const Moment& m) {
+    constexpr double kAgainS = 0.2;
+    if (sailed_.left(m.now_s) <= 0.0 || m.now_s - stops_looked_for_s_ < kAgainS) {
+      return false;
+    }
+    const stopping::Touch now =
+        stopping::firstTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), alongSailed(m), vessel_);
+    if (std::isinf(now.after_s)) {
+      return false;
+    }
+    stops_looked_for_s_ = m.now_s;
+    other_stop_ = stopNow(m).trajectory;
+    return stopping::firstTouch(other_stop_, 0.0, m.obstacles.startingAt(m.now_s), vessel_)
+        .milderThan(now);
   }
   // From a way to rest a plan may lead on.
   bool mayGoOn(const Moment& m) {
@@ -316,6 +326,18 @@ class Supervisor::Impl {
     sea_room_m_ = weather().isKnown() ? seaRoomToMake(m) : 0.0;
     return sea_room_m_ != 0.0;
   }
+  // All but at rest, and another vessel comes over her; there is a way out.
+  bool isRunDown(const Moment& m) {
+    constexpr double kSlowMps = 0.6;
+    aside_.reset();
+    const vessel::State& x = m.situation.state;
+    const Obstacles now = m.obstacles.startingAt(m.now_s);
+    if (!m.situation.tracks.empty() && !hasFault(m) && speedOf(x) < kSlowMps &&
+        stopping::isRunDown(x.head<2>(), now, vessel_.hull)) {
+      aside_ = stopping::standAside(x, now, vessel_);
+    }
+    return aside_.has_value();
+  }
   // On the way left the thrusters have not enough against what blows by now, for longer than when
   // it was planned. Once the weather is known, then not for each change again.
   bool lacksThrust(const Moment& m) {
@@ -370,8 +392,9 @@ class Supervisor::Impl {
     const double at = sailed_.elapsed(m.now_s);
     const auto clear =
         phase_ == Phase::kBackingOff ? stopping::backOffIsClear : stopping::turnBackIsClear;
-    return at < sailed_.trajectory.duration() &&
-           !clear(sailed_.trajectory, at, alongSailed(m), vessel_);
+    // Halfway out of another's way is the worst place to stop.
+    const Obstacles obstacles = is_aside_ ? Obstacles(m.obstacles.field()) : alongSailed(m);
+    return at < sailed_.trajectory.duration() && !clear(sailed_.trajectory, at, obstacles, vessel_);
   }
   bool isStillMoving(const Moment& m) {
     constexpr double kPatienceS = 15.0;
@@ -524,19 +547,7 @@ class Supervisor::Impl {
     return {std::nullopt, sailed_, false};
   }
   Orders changeTheStop(const Moment& m) {
-    stopping::Braking other = stopNow(m);
-    const Obstacles later = m.obstacles.startingAt(m.now_s);
-    const auto touches = [&](const Trajectory& path, double from_s, const Obstacles& obstacles) {
-      const stopping::Conflict conflict =
-          stopping::outlineConflict(path, from_s, path.duration(), obstacles, vessel_, 0.0);
-      return conflict.found ? conflict.time_s - from_s : std::numeric_limits<double>::infinity();
-    };
-    const double at = sailed_.elapsed(m.now_s);
-    if (!other.clear &&
-        touches(other.trajectory, 0.0, later) <= touches(sailed_.trajectory, at, alongSailed(m))) {
-      return {};
-    }
-    sailed_ = {std::move(other.trajectory), m.now_s};
+    sailed_ = {std::move(other_stop_), m.now_s};
     return {std::nullopt, sailed_, false};
   }
   Orders goOn(const Moment& m) { return planFromSailed(m); }
@@ -576,6 +587,12 @@ class Supervisor::Impl {
     return manoeuvre(m, Phase::kBackingOff, Trajectory({piece}),
                      text("makes room, %.1f m %s", std::abs(sea_room_m_),
                           sea_room_m_ > 0.0 ? "ahead" : "astern"));
+  }
+  Orders standAside(const Moment& m) {
+    Orders orders =
+        manoeuvre(m, Phase::kBackingOff, std::move(*aside_), "out of another vessel's way");
+    is_aside_ = true;
+    return orders;
   }
   Orders stopSetAside(const Moment& m) {
     return stopByItself(m,
@@ -618,6 +635,10 @@ class Supervisor::Impl {
     return retries_.roundLost(m.now_s) ? Orders{} : enter(Phase::kFailed, faultOf(m));
   }
   Orders restOnTheWay(const Moment& m) {
+    if (is_aside_) {  // no stop that counts
+      safety().tryWidest();
+      return enter(Phase::kStopped, reason_);
+    }
     return rest(m, reason_, text("stopped %d times, the last: ", retries_.stops() + 1) + reason_);
   }
   // Outside the map there are no plans to be had: without a free place on this side of the edge
@@ -669,6 +690,7 @@ class Supervisor::Impl {
   };
   // Several times a second.
   static constexpr Rule kRules[] = {
+      {kWaiting | in(Phase::kStopping), &Impl::isRunDown, &Impl::standAside},
       {kWaiting, &Impl::mustWait, &Impl::keepOn},
       {kWaiting, &Impl::hasFault, &Impl::loseRound},
       {kWaiting, &Impl::doesNotKnowTheWeather, &Impl::keepOn},
@@ -701,7 +723,7 @@ class Supervisor::Impl {
 
       {kManoeuvring, &Impl::hasFault, &Impl::stopForFault},
       {kManoeuvring, &Impl::isBlocked, &Impl::stopBlocked},
-      {in(Phase::kStopping), &Impl::isStopBlocked, &Impl::changeTheStop},
+      {in(Phase::kStopping), &Impl::hasMilderStop, &Impl::changeTheStop},
       {in(Phase::kStopping), &Impl::mayGoOn, &Impl::goOn},
       {kComingToRest, &Impl::isStillMoving, &Impl::keepOn},
       {kComingToRest, &Impl::isSuspended, &Impl::restSuspended},
@@ -933,8 +955,8 @@ class Supervisor::Impl {
     planned_disturbance_ = weather().mean();
     planned_in_known_weather_ = weather().isKnown();
     planned_overtaxed_s_ = overtaxed(m.now_s, planned_disturbance_);
-    plan_time_s_ = m.now_s;
-    holds_ = false;
+    plan_time_s_ = sailed_since_s_ = m.now_s;
+    holds_ = is_aside_ = false;
     safety().planTaken();
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
@@ -943,6 +965,7 @@ class Supervisor::Impl {
   Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason) {
     plans_.drop();
     stop_time_s_ = m.now_s;
+    is_aside_ = false;
     planned_clearance_m_ = 0.0;
     fallback_.reset();
     enter(phase, std::move(reason));
@@ -1029,12 +1052,32 @@ class Supervisor::Impl {
         return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why);
       }
     }
+    if (mayPass(m)) {
+      retries_.pause(m.now_s);
+      return sailed_.trajectory.empty() ? holdHere() : Orders{};
+    }
     if (retries_.roundLost(m.now_s)) {
       return sailed_.trajectory.empty() ? holdHere() : Orders{};
     }
     return enter(Phase::kFailed,
                  text("no plan after %d rounds: ", retries_.rounds()) + why +
                      text(" (at %.2f m clearance)", asked.request.query.limits.clearance_m));
+  }
+
+  // Other vessels near, that leave no plan now: no round is lost to them, but not for ever.
+  bool mayPass(const Moment& m) {
+    constexpr double kPatienceS = 60.0;
+    constexpr double kNearM = 5.0;
+    constexpr double kAheadS = 8.0;
+    if (!near_ || near_->empty() || m.now_s - sailed_since_s_ > kPatienceS) {
+      return false;
+    }
+    for (double t = 0.0; t <= kAheadS; t += 1.0) {
+      if (near_->clearance(m.situation.state.head<2>(), m.now_s + t) < kNearM) {
+        return true;
+      }
+    }
+    return false;
   }
 
   SupervisorOptions options_;
@@ -1058,14 +1101,19 @@ class Supervisor::Impl {
   bool planned_in_known_weather_ = false;
   double planned_overtaxed_s_ = 0.0;
   double felt_s_ = -std::numeric_limits<double>::infinity();
-  double off_since_s_ = 0.0;         // far off the trajectory
-  double sea_room_m_ = 0.0;          // to be made
-  bool holds_ = false;               // the tracker was told to keep the place
+  double off_since_s_ = 0.0;  // far off the trajectory
+  double sea_room_m_ = 0.0;   // to be made
+  bool holds_ = false;        // the tracker was told to keep the place
+  Trajectory other_stop_;     // that is milder
+  double stops_looked_for_s_ = -std::numeric_limits<double>::infinity();
+  std::optional<Trajectory> aside_;  // out of another vessel's way, if that is asked for
+  bool is_aside_ = false;            // and is being sailed
   std::optional<double> calm_by_s_;  // or the mission fails
   double planned_for_mps_ = 0.0;     // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
   stopping::Conflict conflict_;     // what the last condition found on the way
   double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for
+  double sailed_since_s_ = 0.0;     // when a plan was taken last, or the goal
   double stop_time_s_ = 0.0;        // when the vessel began to come to rest
   bool cancelled_ = false;          // the mission ends with the stop
   std::string end_reason_;          // by whose wish

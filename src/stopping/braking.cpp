@@ -30,6 +30,7 @@ constexpr double kKnotS = 0.25;
 // tracker shaves off a short peak.
 constexpr double kLeastForceShare = 0.01;  // |w| while turning, of both thrusters ahead
 constexpr double kThrustTolerance = 1.1;
+constexpr double kMuchThrust = 2.0;  // where nothing is clear
 
 // Along the way with its time slowed down smoothly to nothing within `duration_s`: z(s(t)) with
 // s' = 1 - (10 x^3 - 15 x^4 + 6 x^5), x = t / duration. Half the duration of way is used up.
@@ -241,15 +242,44 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
   // What the centre keeps in any attitude, to be looked at first.
   const double centre_m =
       std::max(stop.clearance_m, feasibility::HullCover(vessel.hull, stop.hull_margin_m).middle_m);
+  // Whether the vessel could follow it, whatever is in the way: it may brake too hard, but not
+  // swing.
+  const auto canFollow = [&](const Trajectory& candidate) {
+    feasibility::SafetyLimits alone = limits;
+    alone.clearance_m = -1.0;
+    alone.thrust_share *= kMuchThrust;
+    feasibility::Tolerances open = tolerances;
+    open.keep_hull_clear = false;
+    return goesOnFrom(here, candidate, vessel) &&
+           feasibility::verify(candidate, ahead, vessel, alone, open).ok;
+  };
   Braking best;
   best.clearance_m = -1.0;
+  bool best_follows = false;
   double best_way_m = 0.0;
+  Touch best_touch;
+  // Clear, but something comes over the place of rest: the one that has longest until then.
+  Braking overrun;
+  double overrun_s = 0.0;
+  const auto staysFree = [&](Trajectory& candidate) {
+    const double after_s = firstTouch(candidate, 0.0, ahead, vessel).after_s;
+    if (std::isinf(after_s)) {
+      return true;
+    }
+    if (after_s > overrun_s) {
+      overrun_s = after_s;
+      overrun = {std::move(candidate), true, stop.clearance_m};
+    }
+    return false;
+  };
   const bool under_way = here.flat.velocity.norm() > kUnderWayMps;
   if (!under_way) {
     Trajectory held = halt(sailed, at_s, vessel, stop.disturbance);
     if (!outlineConflict(held, 0.0, held.duration(), ahead, vessel, stop.hull_margin_m).found) {
       return {std::move(held), true, stop.clearance_m};
     }
+    best_touch = firstTouch(held, 0.0, ahead, vessel);
+    best_follows = true;
     best = {std::move(held), false, 0.0};
   }
   const auto keeps = [&](const Trajectory& candidate, bool own) {
@@ -277,21 +307,34 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     }
     const bool own = k + 1 == candidates.count();
     if (keeps(candidate, own)) {
-      return {std::move(candidate), true, stop.clearance_m};
+      if (staysFree(candidate)) {
+        return {std::move(candidate), true, stop.clearance_m};
+      }
+      continue;
     }
+    const Touch touch = firstTouch(candidate, 0.0, ahead, vessel);
     const double clearance = leastClearance(candidate, ahead);
     const double way = (candidate.flat(candidate.duration()).position - here.flat.position).norm();
-    if (clearance > best.clearance_m || (clearance == best.clearance_m && way < best_way_m)) {
+    const bool follows = canFollow(candidate);
+    const bool same = !touch.milderThan(best_touch) && !best_touch.milderThan(touch);
+    const bool farther =
+        clearance > best.clearance_m || (clearance == best.clearance_m && way < best_way_m);
+    const bool better = follows != best_follows ? follows
+                        : same                  ? farther
+                                                : touch.milderThan(best_touch);
+    if (best.trajectory.empty() || better) {
+      best_follows = follows;
       best = {std::move(candidate), false, clearance};
       best_way_m = way;
+      best_touch = touch;
     }
   }
   for (Trajectory& candidate : faster) {
-    if (keeps(candidate, false)) {
+    if (keeps(candidate, false) && staysFree(candidate)) {
       return {std::move(candidate), true, stop.clearance_m};
     }
   }
-  return best;
+  return overrun.clear ? overrun : best;
 }
 
 }  // namespace otter_nav::stopping

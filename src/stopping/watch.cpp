@@ -108,4 +108,35 @@ Conflict outlineConflict(const Trajectory& trajectory, double from_s, double to_
   return {};
 }
 
+bool Touch::milderThan(const Touch& other) const {
+  constexpr double kMps = 0.2;
+  constexpr double kLaterS = 0.3;
+  return std::abs(speed_mps - other.speed_mps) > kMps ? speed_mps < other.speed_mps
+                                                      : after_s > other.after_s + kLaterS;
+}
+
+Touch firstTouch(const Trajectory& trajectory, double from_s, const Obstacles& obstacles,
+                 const vessel::Parameters& vessel) {
+  constexpr double kRestsS = 8.0;
+  if (trajectory.empty()) {
+    return {};
+  }
+  const double end = trajectory.duration();
+  const Conflict under_way = outlineConflict(trajectory, from_s, end, obstacles, vessel, 0.0);
+  if (under_way.found) {
+    const double speed = trajectory.flat(under_way.time_s).velocity.norm();
+    return {under_way.time_s - from_s, speed};
+  }
+  if (obstacles.rateBound() == 0.0) {
+    return {};
+  }
+  const vessel::State last = trajectory.sample(end, vessel).state;
+  const Trajectory rest(
+      {trajectory::spinPiece(last.head<2>(), last[vessel::kPsi], last[vessel::kPsi], kRestsS)});
+  const double later = std::max(end, from_s);
+  const Conflict at_rest =
+      outlineConflict(rest, 0.0, kRestsS, obstacles.startingAt(later), vessel, 0.0);
+  return at_rest.found ? Touch{later - from_s + at_rest.time_s, 0.0} : Touch{};
+}
+
 }  // namespace otter_nav::stopping

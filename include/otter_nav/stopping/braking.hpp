@@ -30,8 +30,9 @@ struct StopLimits {
 // out and then ahead in a line; where there is no room for these, along more of the way, at last to
 // a rest that the way itself comes to. A hull without a side thruster can't brake harder than its
 // drag in a curve (its heading would have to swing across, docs/model.md), so a hard stop
-// straightens first. No stop gathers way. If none keeps to the limits, the one that comes nearest
-// to it, with `clear` false.
+// straightens first. No stop gathers way. Stops are preferred on whose place nothing comes soon
+// after. If none keeps to the limits, the one that is slowest when it touches something or does so
+// last, and comes least near otherwise, with `clear` false.
 [[nodiscard]] Braking brakingTrajectory(const trajectory::Trajectory& sailed, double at_s,
                                         const feasibility::Obstacles& obstacles,
                                         const vessel::Parameters& vessel, const StopLimits& stop);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
@@ -28,5 +29,19 @@ struct Conflict {
                                        const vessel::Parameters& vessel, double clearance_m,
                                        bool edge = true,
                                        const vessel::Disturbance& disturbance = {});
+
+// When a way to rest ends in contact, and how fast the vessel is then: at rest, something comes
+// over her.
+struct Touch {
+  double after_s = std::numeric_limits<double>::infinity();  // none
+  double speed_mps = 0.0;
+
+  // Slower at the contact, or later.
+  [[nodiscard]] bool milderThan(const Touch& other) const;
+};
+// Of the exact outline, from `from_s` on and for a while after the trajectory's end.
+[[nodiscard]] Touch firstTouch(const trajectory::Trajectory& trajectory, double from_s,
+                               const feasibility::Obstacles& obstacles,
+                               const vessel::Parameters& vessel);
 
 }  // namespace otter_nav::stopping

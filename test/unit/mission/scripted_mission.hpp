@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "mission/safety.hpp"
 #include "otter_nav/mission/supervisor.hpp"
@@ -29,6 +30,7 @@ class ScriptedMission {
     s.odometry_stamp_s = now_s;
     s.disturbance.mean = disturbance;
     s.state = rest;
+    s.tracks = tracks;
     const trajectory::TimedTrajectory& sailed = supervisor.sailed();
     if (!sailed.trajectory.empty()) {
       s.state = sailed.trajectory.sample(now_s - sailed.start_time_s, vessel::Parameters{}).state;
@@ -84,6 +86,7 @@ class ScriptedMission {
   map::OccupancyGrid grid;
   map::DistanceField field;
   const feasibility::ObstacleLayer* layer = nullptr;  // besides the field
+  std::vector<traffic::Track> tracks;
   SupervisorOptions options;
   Supervisor supervisor;
   vessel::State rest = vessel::State::Zero();

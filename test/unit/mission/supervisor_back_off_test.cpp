@@ -64,5 +64,61 @@ TEST(BackOff, EndsWhenTheTrackerCannotFollowOrOdometryStays) {
   EXPECT_EQ(blind.supervisor.reason(), "no odometry");
 }
 
+// A square of 4 m that goes north at 1.5 m/s, `at` 100 s where it is said.
+traffic::Track northward(const Eigen::Vector2d& at, double now_s) {
+  traffic::Track track;
+  track.id = 1;
+  track.stamp_s = now_s;
+  track.velocity = {0.0, 1.5};
+  track.position = at + (now_s - 100.0) * track.velocity;
+  track.heading_rad = 1.5707963;
+  track.length_m = track.beam_m = 4.0;
+  return track;
+}
+
+TEST(StandAside, LeavesTheWayOfWhoComesOverHer) {
+  test::ScriptedMission mission;
+  const auto orders = mission.goTo({-20.0, 0.0});
+  mission.tracks = {northward({0.0, -15.0}, mission.now_s)};
+  (void)mission.refuse(orders->plan.value(), "the hull touches");
+  const Orders aside = mission.update(0.1);
+  ASSERT_TRUE(aside.sail);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kBackingOff);
+  const Eigen::Vector2d end = aside.sail->trajectory.flat(100.0).position;
+  EXPECT_GT(end.norm(), 2.0);
+  // Something ahead doesn't hold her up; by and by she plans again, and it was no stop that counts.
+  Orders next;
+  for (int k = 0; k < 300 && !next.plan; ++k) {
+    mission.tracks = {northward({0.0, -15.0}, mission.now_s + 0.1)};
+    next = mission.update(0.1);
+    EXPECT_FALSE(next.stop) << mission.now_s;
+  }
+  ASSERT_TRUE(next.plan);
+  EXPECT_LT((next.plan->query.start.flat.position - end).norm(), 0.1);
+  EXPECT_EQ(mission.supervisor.stops(), 0);
+}
+
+TEST(StandAside, LosesNoRoundToOthersForAMinute) {
+  for (const bool near : {false, true}) {
+    test::ScriptedMission mission;
+    auto orders = mission.goTo({-20.0, 0.0});
+    std::optional<PlanRequest> plan = orders->plan;
+    const double began_s = mission.now_s;
+    while (mission.supervisor.phase() != Phase::kFailed && mission.now_s < began_s + 100.0) {
+      if (near) {  // beside her, and stays there
+        mission.tracks = {northward({6.0, 0.0}, 100.0)};
+        mission.tracks[0].velocity.setZero();
+        mission.tracks[0].stamp_s = mission.now_s;
+      }
+      if (plan) {
+        (void)mission.refuse(*plan, "the hull touches");
+      }
+      plan = mission.update(0.1).plan;
+    }
+    EXPECT_EQ(mission.supervisor.phase(), Phase::kFailed);
+    EXPECT_EQ(mission.now_s - began_s > 60.0, near);
+  }
+}
+
 }  // namespace
 }  // namespace otter_nav::mission

@@ -87,6 +87,43 @@ TEST(Braking, IsHardInFrontOfAWall) {
   EXPECT_TRUE(verify(stop.trajectory, field).ok);
 }
 
+// The usual stop would end 11.8 m on, after 5.5 s; a disc comes over that place at 8 s.
+TEST(Braking, EndsWhereNothingComesOverIt) {
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  const map::DistanceField field = fieldOf(openWater());
+  const Eigen::Vector2d place = sailed.flat(6.0).position + Eigen::Vector2d(11.8, 0.0);
+  const Eigen::Vector2d northward(0.0, 2.0);
+  const feasibility::test::MovingDisc disc(place - 14.0 * northward, northward, 1.0);
+  feasibility::Obstacles obstacles(field);
+  obstacles.add(disc);
+  const vessel::Parameters vessel;
+  const Braking stop = brakingTrajectory(sailed, 6.0, obstacles, vessel, {kClearanceM});
+  ASSERT_TRUE(stop.clear);
+  EXPECT_TRUE(
+      std::isinf(firstTouch(stop.trajectory, 0.0, obstacles.startingAt(6.0), vessel).after_s));
+}
+
+// A disc too large to pass comes up from ahead: contact can't be helped, but the way be off.
+TEST(Braking, IsAtRestWhenItIsRunInto) {
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  const map::DistanceField field = fieldOf(openWater());
+  const Eigen::Vector2d here = sailed.flat(6.0).position;
+  const Eigen::Vector2d westward(-2.0, 0.0);
+  const Eigen::Vector2d from = here + Eigen::Vector2d(36.5, 0.0) - 6.0 * westward;
+  const feasibility::test::MovingDisc disc(from, westward, 20.0);
+  feasibility::Obstacles obstacles(field);
+  obstacles.add(disc);
+  const vessel::Parameters vessel;
+  const Braking stop = brakingTrajectory(sailed, 6.0, obstacles, vessel, {kClearanceM});
+  const Touch touch = firstTouch(stop.trajectory, 0.0, obstacles.startingAt(6.0), vessel);
+  EXPECT_TRUE(std::isfinite(touch.after_s));
+  EXPECT_EQ(touch.speed_mps, 0.0);
+  const Touch usual = firstTouch(sailed, 6.0, obstacles, vessel);
+  EXPECT_GT(usual.speed_mps, 4.0);
+  EXPECT_TRUE(touch.milderThan(usual));
+  EXPECT_FALSE(usual.milderThan(touch));
+}
+
 TEST(Braking, StraightensOutOfACurve) {
   const Trajectory sailed = circle(15.0, 3.3, 20.0);
   map::OccupancyGrid grid = openWater();

@@ -1,0 +1,108 @@
+#include "otter_nav/stopping/stand_aside.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/stopping/back_off.hpp"
+#include "otter_nav/stopping/watch.hpp"
+
+namespace otter_nav::stopping {
+namespace {
+
+using trajectory::Piece;
+using trajectory::Trajectory;
+
+constexpr double kAheadS = 8.0;  // how far ahead others are known
+constexpr double kStepS = 0.2;
+constexpr double kClearM = 0.3;  // of the outline, off what lies still
+
+Piece straight(const Eigen::Vector2d& start, double psi_rad, double ahead_m, double duration_s) {
+  vessel::FlatPoint from;
+  from.position = start;
+  vessel::FlatPoint to;
+  to.position = start + ahead_m * Eigen::Vector2d(std::cos(psi_rad), std::sin(psi_rad));
+  Piece piece = trajectory::spinPiece(start, psi_rad, psi_rad, duration_s);
+  piece.position = trajectory::hermitePiece(from, to, duration_s).position;
+  return piece;
+}
+
+// The least room on the way and at its end, until the others have passed.
+double leastRoom(const Piece& piece, const feasibility::Obstacles& obstacles) {
+  const double until = std::max(kAheadS, piece.duration_s);
+  double least = obstacles.clearance(piece.flat(0.0).position, 0.0);
+  for (double t = kStepS; t <= until; t += kStepS) {
+    const Eigen::Vector2d there = piece.flat(std::min(t, piece.duration_s)).position;
+    least = std::min(least, obstacles.clearance(there, t));
+  }
+  return least;
+}
+
+// The quickest that the thrusters give, of a few.
+std::optional<Piece> quickest(const vessel::State& state, double ahead_m,
+                              const feasibility::Obstacles& still,
+                              const vessel::Parameters& vessel) {
+  constexpr double kLongest = 3.0;
+  constexpr double kLonger = 1.3;
+  // Half of the way the weaker thrust astern speeds the hull up, half of it it slows her down.
+  const double accel_mps2 =
+      2.0 * vessel.thrusters.astern_max_n / vessel.manoeuvring.surge_inertia_kg;
+  const double least_s = 2.0 * std::sqrt(std::abs(ahead_m) / accel_mps2);
+  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, -1.0);
+  limits.thrust_share = 1.0;
+  feasibility::Tolerances tolerances;
+  tolerances.keep_hull_clear = false;  // seen to by the outline
+  for (double longer = kLonger; longer <= kLongest; longer *= kLonger) {
+    const Piece piece = straight(state.head<2>(), state[vessel::kPsi], ahead_m, longer * least_s);
+    const Trajectory path({piece});
+    if (feasibility::verify(path, still, vessel, limits, tolerances).ok) {
+      return outlineConflict(path, 0.0, path.duration(), still, vessel, kClearM, true).found
+                 ? std::nullopt
+                 : std::optional(piece);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool isRunDown(const Eigen::Vector2d& position, const feasibility::Obstacles& obstacles,
+               const vessel::Hull& hull) {
+  constexpr double kNearerM = 0.5;  // than now: what lies still comes no nearer
+  const double room = turningRoom(hull);
+  const double now = obstacles.clearance(position, 0.0);
+  for (double t = kStepS; t <= kAheadS; t += kStepS) {
+    const double there = obstacles.clearance(position, t);
+    if (there < room && there < now - kNearerM) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<Trajectory> standAside(const vessel::State& state,
+                                     const feasibility::Obstacles& obstacles,
+                                     const vessel::Parameters& vessel) {
+  constexpr double kWorthM = 0.5;
+  const feasibility::Obstacles still(obstacles.field());
+  double most =
+      kWorthM + leastRoom(straight(state.head<2>(), state[vessel::kPsi], 0.0, 1.0), obstacles);
+  std::optional<Trajectory> best;
+  for (const double side : {1.0, -1.0}) {
+    for (const double lengths : {1.0, 2.0, 3.0, 4.0, 6.0}) {
+      const std::optional<Piece> piece =
+          quickest(state, side * lengths * vessel.hull.length_m, still, vessel);
+      if (!piece) {
+        break;  // nor does it lead farther
+      }
+      const double room = leastRoom(*piece, obstacles);
+      if (room > most) {
+        most = room;
+        best = Trajectory({*piece});
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace otter_nav::stopping
