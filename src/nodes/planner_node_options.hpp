@@ -14,7 +14,7 @@ struct PlannerNodeOptions {
   int seed = 1;
   bool lockstep = true;
   double lockstep_lag_s = 0.05;
-  int lockstep_iterations = 20000;
+  int lockstep_iterations = 1200;
   double planning_budget_s = 0.1;
   bool use_topology_node = true;
   DistanceFieldSettings distance_field;
