@@ -8,6 +8,7 @@
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/trajectory/motion_along.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -32,6 +33,12 @@ std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, doub
   return std::nullopt;
 }
 
+// Of the thrusters' limits, what a point of a trajectory asks for.
+double shareAt(const trajectory::Sample& sample, const vessel::Thrusters& thrusters) {
+  return std::max(vessel::shareOfLimit(sample.thrusts[vessel::kLeft], thrusters),
+                  vessel::shareOfLimit(sample.thrusts[vessel::kRight], thrusters));
+}
+
 // What the discs that cover the hull leave where it lies, m.
 double roomAround(const vessel::Hull& hull, const trajectory::Boundary& at,
                   const map::DistanceField& field) {
@@ -53,7 +60,10 @@ PlanRequest PlanRequests::fromRest(double now_s, const vessel::State& state,
                                    const feasibility::Obstacles& obstacles) {
   PlanRequest request;
   request.query.start.flat.position = state.head<2>();
-  request.query.start.psi_rad = state[vessel::kPsi];
+  // Nearly bow to the load, where waves swing it.
+  const double turn_rad = safety.turnIntoLoad(state[vessel::kPsi]);
+  request.query.start.psi_rad =
+      state[vessel::kPsi] + (std::abs(turn_rad) < kIntoLoadRad ? turn_rad : 0.0);
   request.start_time_s = now_s + latency.seconds();
   return ask(now_s, std::move(request), goal, safety.nextThrustShare(), From::kRest, obstacles);
 }
@@ -79,8 +89,12 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
   if ((path.flat(path.duration()).position - goal.position).norm() < kSameGoalM) {
     request.query.warm_start = stopping::remainder(path, *at);
   }
-  // The force it begins with is one of the plan being sailed.
-  return ask(now_s, std::move(request), goal, thrust_share, From::kSailed, obstacles);
+  constexpr double kStartMargin = 1.05;
+  // The force it begins with is one of the plan being sailed, made in the weather of then.
+  const double least = kStartMargin * shareAt(sample, vessel_.thrusters) /
+                       feasibility::SafetyLimits::of(vessel_, 0.0).thrust_share;
+  return ask(now_s, std::move(request), goal, std::max(thrust_share, std::min(least, 1.0)),
+             From::kSailed, obstacles);
 }
 
 std::optional<double> PlanRequests::joint(double now_s,

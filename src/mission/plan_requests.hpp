@@ -15,6 +15,9 @@ namespace otter_nav::mission {
 // Where a plan starts from.
 enum class From { kRest, kSailed, kVessel };
 
+// A hull at rest that is off the load by less lies bow to it.
+constexpr double kIntoLoadRad = 0.35;
+
 // From a request to the start of its trajectory when the vessel moves: grows when answers come
 // late.
 class PlanningLatency {

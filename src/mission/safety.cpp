@@ -88,14 +88,18 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   limits.limitSpeed(options_.speed_max_mps);
   limits.speed_max_mps *= slowShare();
   // Where it wanders by most of the room it has, a slower plan leaves thrust to keep it on its way.
-  if (wander_.reach() > kMostOfRoom * beside) {
+  if (!restsInLoad() && wander_.reach() > kMostOfRoom * beside) {
     limits.speed_max_mps *= kSlower;
   }
   return limits;
 }
 
+bool Safety::plansWithWeather() const {
+  return options_.plan_with_weather && !vessel_.manoeuvring.feelsWind();
+}
+
 vessel::Disturbance Safety::planDisturbance() const {
-  return options_.plan_with_weather && !plansBlind() ? weather_.mean() : vessel::Disturbance{};
+  return plansWithWeather() && !plansBlind() ? weather_.mean() : vessel::Disturbance{};
 }
 
 double Safety::freeThrustShare() const {
@@ -103,9 +107,8 @@ double Safety::freeThrustShare() const {
   // more, for it is the tracker that finds the thrust.
   constexpr double kLittle = 0.05;
   constexpr double kMostForMean = 0.1;
-  const double mean = options_.plan_with_weather
-                          ? 0.0
-                          : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
+  const double mean =
+      plansWithWeather() ? 0.0 : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
   return planThrustShare(options_.thrust_share, weather_.gustShare() + mean, times_left_behind_);
 }
 
@@ -119,19 +122,30 @@ double Safety::nextThrustShare() const {
 }
 
 bool Safety::plansBlind() const {
-  return options_.plan_with_weather && times_refused_ >= kRefusedMost;
+  return plansWithWeather() && times_refused_ >= kRefusedMost;
 }
 
 double Safety::slowShare() const {
   constexpr double kLeast = 0.5;  // slower still, the hull hardly answers
+  if (restsInLoad()) {
+    return 1.0;  // slower, it would be carried by what pushes, and hold no heading
+  }
   return std::max(kLeast, std::pow(0.5, times_refused_));
 }
 
 double Safety::restHeading(double psi_rad) const {
   const vessel::ManoeuvringModel& model = vessel_.manoeuvring;
-  return vessel::canLie(model, weather_.mean(), psi_rad)
+  return !restsInLoad() && vessel::canLie(model, weather_.mean(), psi_rad)
              ? psi_rad
              : wrapAngle(vessel::headingIntoLoad(model, weather_.mean(), psi_rad));
+}
+
+bool Safety::restsInLoad() const {
+  return plansWithWeather() && weather_.isKnown() && vessel::isFirmLoad(vessel_, weather_.mean());
+}
+
+double Safety::turnIntoLoad(double psi_rad) const {
+  return restsInLoad() ? wrapAngle(restHeading(psi_rad) - psi_rad) : 0.0;
 }
 
 // Bow to it, the gusts' force must not exceed the thrust; and on the way from one heading to

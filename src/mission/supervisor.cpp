@@ -186,7 +186,9 @@ class Supervisor::Impl {
   bool hasNoMission(const Moment& /*m*/) { return !hasMission(); }
   bool mustWait(const Moment& m) { return plans_.waits() || retries_.pauses(m.now_s); }
   // The tracker has just begun to estimate it.
-  bool doesNotKnowTheWeather(const Moment& /*m*/) { return !weather().isKnown(); }
+  bool doesNotKnowTheWeather(const Moment& /*m*/) {
+    return !weather().isKnown() || (safety().plansWithWeather() && weather().rises());
+  }
 
   // Or so near the edge that no plan starts there: it counts as occupied.
   bool isOverTheEdge(const Moment& m) { return knowsPlace(m) && inside(m) < safety().narrowest(); }
@@ -269,7 +271,8 @@ class Supervisor::Impl {
   }
   // Broadside to where it should point and carried off.
   bool hasLostItsHeading(const Moment& m) {
-    constexpr double kLostRad = 0.8;
+    // Crabbing in a firm load the bow is far off the course anyhow.
+    const double lost_rad = safety().restsInLoad() ? 1.2 : 0.8;
     constexpr double kFirmShare = 0.25;  // of the thrust; with less the path wants no heading
     const trajectory::Sample wanted =
         sailed_.trajectory.sample(sailed_.elapsed(m.now_s), vessel_, planned_disturbance_);
@@ -280,7 +283,7 @@ class Supervisor::Impl {
     return weather().isKnown() && firm &&
            m.situation.tracking_error_m > 0.5 * options_.tracking_error_max_m &&
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
-               kLostRad;
+               lost_rad;
   }
   // Off its trajectory, where nothing was verified, for longer than a plan takes, or towards
   // something near.
@@ -337,6 +340,23 @@ class Supervisor::Impl {
       aside_ = stopping::standAside(x, now, vessel_);
     }
     return aside_.has_value();
+  }
+  // Plans from rest begin bow to a firm load. The tracker turns the resting hull there.
+  bool liesAcrossTheLoad(const Moment& m) {
+    constexpr double kPatienceS = 20.0;
+    constexpr double kStillMps = 0.5;
+    constexpr double kStillRadps = 0.25;
+    const vessel::State& x = m.situation.state;
+    const bool still = speedOf(x) < kStillMps && std::abs(x[vessel::kYawRate]) < kStillRadps;
+    if (!safety().restsInLoad() ||
+        (still && std::abs(safety().turnIntoLoad(x[vessel::kPsi])) < kIntoLoadRad)) {
+      across_since_s_.reset();
+      return false;
+    }
+    if (!across_since_s_) {
+      across_since_s_ = m.now_s;
+    }
+    return m.now_s - *across_since_s_ < kPatienceS;
   }
   // On the way left the thrusters have not enough against what blows by now, for longer than when
   // it was planned. Once the weather is known, then not for each change again.
@@ -410,8 +430,12 @@ class Supervisor::Impl {
 
   Orders planFirst(const Moment& m) {
     enter(Phase::kPlanning);
+    across_since_s_.reset();
     if (doesNotKnowTheWeather(m)) {
       return holdHere();  // without thrust it would be set aside and turned meanwhile
+    }
+    if (!isOverTheEdge(m) && liesAcrossTheLoad(m)) {
+      return turnIntoTheLoad(m);
     }
     return isOverTheEdge(m) ? turnBack(m) : planFromRest(m);
   }
@@ -570,6 +594,7 @@ class Supervisor::Impl {
     return stopByItself(
         m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
   }
+  Orders turnIntoTheLoad(const Moment& /*m*/) { return holdHere(); }
   // Straight ahead or astern, bow to what pushes.
   Orders makeSeaRoom(const Moment& m) {
     constexpr double kSpeedMps = 0.5;
@@ -696,6 +721,7 @@ class Supervisor::Impl {
       {kWaiting, &Impl::doesNotKnowTheWeather, &Impl::keepOn},
       {kWaiting, &Impl::isOverTheEdge, &Impl::turnBack},
       {kWaiting, &Impl::isBeyondThrust, &Impl::waitForCalm},
+      {kWaiting, &Impl::liesAcrossTheLoad, &Impl::turnIntoTheLoad},
       {kWaiting, &Impl::liesOffALeeShore, &Impl::makeSeaRoom},
       {kWaiting, &Impl::always, &Impl::planFromRest},
 
@@ -763,8 +789,9 @@ class Supervisor::Impl {
     return std::abs(wrapAngle(m.situation.state[vessel::kPsi] - goal_.psi_rad));
   }
   bool goalHeadingYields() {
+    constexpr double kSameRad = 1e-3;
     return weather().isKnown() &&
-           !vessel::canLie(vessel_.manoeuvring, weather().mean(), goal_.psi_rad);
+           std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - goal_.psi_rad)) > kSameRad;
   }
   // At once when the weather is known first, later not before the plan has been sailed a while.
   bool mayReplanForWeather(const Moment& m) {
@@ -1101,10 +1128,11 @@ class Supervisor::Impl {
   bool planned_in_known_weather_ = false;
   double planned_overtaxed_s_ = 0.0;
   double felt_s_ = -std::numeric_limits<double>::infinity();
-  double off_since_s_ = 0.0;  // far off the trajectory
-  double sea_room_m_ = 0.0;   // to be made
-  bool holds_ = false;        // the tracker was told to keep the place
-  Trajectory other_stop_;     // that is milder
+  double off_since_s_ = 0.0;              // far off the trajectory
+  double sea_room_m_ = 0.0;               // to be made
+  std::optional<double> across_since_s_;  // at rest, not bow to a firm load
+  bool holds_ = false;                    // the tracker was told to keep the place
+  Trajectory other_stop_;                 // that is milder
   double stops_looked_for_s_ = -std::numeric_limits<double>::infinity();
   std::optional<Trajectory> aside_;  // out of another vessel's way, if that is asked for
   bool is_aside_ = false;            // and is being sailed

@@ -98,6 +98,12 @@ bool Weather::isKnown() const {
   return felt_s_ >= kKnownS;
 }
 
+bool Weather::rises() const {
+  constexpr double kRisesS = 3.0;
+  constexpr double kLightShare = 0.05;  // of both thrusters' force
+  return felt_s_ < kRisesS && meanShare() > kLightShare;
+}
+
 Disturbance Weather::gust() const {
   return gust(kPriorGust);
 }

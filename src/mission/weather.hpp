@@ -16,6 +16,8 @@ class Weather {
   // The estimate begins at nothing and has found what blows by then; until it has, it is no ground
   // to change a plan.
   [[nodiscard]] bool isKnown() const;
+  // The estimate of more than a light load still rises in the first seconds.
+  [[nodiscard]] bool rises() const;
 
   // On the whole: means over the last half minute or so.
   [[nodiscard]] const vessel::Disturbance& mean() const { return mean_; }

@@ -21,6 +21,10 @@ namespace {
 // An attempt that after so many rounds still exceeds a limit by this share is given up.
 constexpr int kPatience = 2;
 constexpr double kHopeless = 0.5;
+// Under a load thrusts spike where the force along the hull nearly vanishes: that takes longer.
+constexpr int kPatienceUnderLoad = 4;
+constexpr double kHopelessUnderLoad = 3.0;
+constexpr int kRoundsUnderLoad = 8;
 // Of the limits of thrust and yaw rate, on the spot.
 constexpr double kSpinShare = 0.97;
 constexpr double kTurnShare = 0.905;
@@ -152,16 +156,19 @@ class GlobalOptimizer::Solver {
     stop.out_of_time = [this] { return outOfTime(); };
     smoothFirst(stop);
     inRealTime([&] { chooser_.guide(chosen_, spline_); });
-    for (int round = 0; round < kRounds; ++round) {
+    const bool loaded = underLoad();
+    const int rounds = loaded ? kRoundsUnderLoad : kRounds;
+    for (int round = 0; round < rounds; ++round) {
       result_.iterations += solver_.improve(problem_, stop, spline_);
       followEnds();
-      const bool last = round + 1 == kRounds;
+      const bool last = round + 1 == rounds;
       verifyDilated(last ? 2.0 * kDilationMax : kDilationMax);
       if (result_.verification.ok) {
         quicken(stop);
         return true;
       }
-      const bool hopeless = round >= kPatience && excess_ > kHopeless;
+      const bool hopeless = round >= (loaded ? kPatienceUnderLoad : kPatience) &&
+                            excess_ > (loaded ? kHopelessUnderLoad : kHopeless);
       if (hopeless || outOfTime()) {
         return false;
       }

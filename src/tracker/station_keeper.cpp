@@ -63,6 +63,9 @@ double StationKeeper::intoLoad(const vessel::Disturbance& disturbance) const {
   const double bow = vessel::headingIntoLoad(model, disturbance, held_rad_);
   const double stern = bow + kPi;
   const bool stern_is_nearer = std::cos(bow - held_rad_) < 0.0;
+  if (vessel::isFirmLoad(vessel_, disturbance)) {
+    return bow;  // from where a plan leads on
+  }
   const double astern = -vessel::surgeAtRest(model, disturbance, stern);
   return stern_is_nearer && astern < kSternShare * 2.0 * vessel_.thrusters.astern_max_n ? stern
                                                                                         : bow;
@@ -70,7 +73,8 @@ double StationKeeper::intoLoad(const vessel::Disturbance& disturbance) const {
 
 double StationKeeper::heading(double now_s, const vessel::Disturbance& disturbance) {
   const double most = (weathervanes_ ? kAgainShare : 1.0) * vessel::kRestMps;
-  weathervanes_ = !vessel::canLie(vessel_.manoeuvring, disturbance, psi_rad_, most);
+  weathervanes_ = vessel::isFirmLoad(vessel_, disturbance) ||
+                  !vessel::canLie(vessel_.manoeuvring, disturbance, psi_rad_, most);
   const double wanted = weathervanes_ ? intoLoad(disturbance) : psi_rad_;
   const double step = kTurnRadps * std::max(0.0, now_s - time_s_);
   held_rad_ += std::clamp(wrapAngle(wanted - held_rad_), -step, step);

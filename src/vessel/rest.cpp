@@ -43,6 +43,14 @@ double headingIntoLoad(const ManoeuvringModel& model, const Disturbance& disturb
   return psi;
 }
 
+bool isFirmLoad(const Parameters& vessel, const Disturbance& disturbance) {
+  constexpr double kFirmShare = 0.07;  // of both thrusters' force
+  const ManoeuvringModel& model = vessel.manoeuvring;
+  const bool turns = model.feelsWind() && !disturbance.wind_mps.isZero(0.0);
+  return !turns && surgeAtRest(model, disturbance, headingIntoLoad(model, disturbance, 0.0)) >
+                       kFirmShare * 2.0 * vessel.thrusters.ahead_max_n;
+}
+
 double surgeAtRest(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad) {
   return atRest(model, disturbance, psi_rad).tau.surge_n;
 }

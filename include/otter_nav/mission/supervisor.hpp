@@ -61,7 +61,7 @@ struct SupervisorOptions {
   double arrival_distance_m = 0.9;
   double arrival_heading_rad = 0.15;
   double improve_period_s = 0.0;
-  bool plan_with_weather = false;
+  bool plan_with_weather = true;
   encounter::Options encounter;
 
   template <typename Self, typename Fields>

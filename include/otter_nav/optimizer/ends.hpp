@@ -48,6 +48,7 @@ struct ManoeuvreLimits {
   double brake_ramp_s = 0.4;  // from ahead to full astern
   double astern_share = 0.9;  // of the force, while braking
   bool settle = false;        // the launch ends its turn before it goes ahead
+  double kept_nm = 0.0;       // of the moment, for what turns the drifting hull
   vessel::Disturbance disturbance;  // under which the hull drifts while it turns and brakes
 };
 
@@ -63,6 +64,7 @@ struct EndOptions {
   double arrival_speed_max_mps = 4.2;  // and after it was moved
   double turn_least_rad = 0.4;    // turns at the goal narrower than this are made on the way there
   bool careful = false;           // turns at rest, slow arrival
+  bool in_load = false;           // bow to a firm load it begins and ends without a manoeuvre
   bool straight_arrival = false;  // no turn at the goal: the way leads to it on its heading
 };
 
@@ -112,6 +114,11 @@ class EndChooser {
                                const std::vector<Eigen::Vector2d>& path,
                                const trajectory::Boundary& goal) const;
   void leaveAlong(const std::vector<Eigen::Vector2d>& path, End& end) const;
+  [[nodiscard]] bool liesInLoad(const trajectory::Boundary& end) const;
+  [[nodiscard]] bool drifts() const;  // while it turns
+  [[nodiscard]] double crabbing(double course_rad) const;
+  void leaveDrifting(const std::vector<Eigen::Vector2d>& path, End& end) const;
+  void leaveWithin(const std::vector<Eigen::Vector2d>& path, End& end) const;
   void arriveAlong(const std::vector<Eigen::Vector2d>& path, End& end) const;
   void make(End& end) const;
   [[nodiscard]] double slowest() const;  // that an arrival may begin with

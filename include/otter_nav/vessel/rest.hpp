@@ -31,6 +31,10 @@ constexpr double kRestMps = 0.25;
 // it is on `psi_rad`; `psi_rad` itself without any load.
 [[nodiscard]] double headingIntoLoad(const ManoeuvringModel& model, const Disturbance& disturbance,
                                      double psi_rad);
+// Whether what pushes the resting hull, bow to it, gives a path its heading by itself (w in
+// vessel/inverse_dynamics.hpp): it can begin and end there without a turn on the spot. Not where
+// wind loads turn with the hull.
+[[nodiscard]] bool isFirmLoad(const Parameters& vessel, const Disturbance& disturbance);
 // The thrust ahead that holds the hull at rest there, N; negative is astern.
 [[nodiscard]] double surgeAtRest(const ManoeuvringModel& model, const Disturbance& disturbance,
                                  double psi_rad);

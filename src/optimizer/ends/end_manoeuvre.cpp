@@ -36,6 +36,7 @@ constexpr double kRunInS = 0.8;
 struct Thrust {
   double ahead_n, astern_n;  // both thrusters together
   double load_nm;            // the most that wind and waves turn the hull with
+  double kept_nm;            // of the moment while turning
   const vessel::Parameters& vessel;
 
   Thrust(const vessel::Parameters& v, const ManoeuvreLimits& limits)
@@ -44,6 +45,7 @@ struct Thrust {
         load_nm(std::abs(limits.disturbance.moment_nm) +
                 0.5 * std::abs(v.manoeuvring.wind_yaw_kg) *
                     limits.disturbance.wind_mps.squaredNorm()),
+        kept_nm(limits.kept_nm),
         vessel(v) {}
 
   // What the load's moment leaves for pushing ahead, or astern.
@@ -55,7 +57,8 @@ struct Thrust {
   // With the moment that is left beside a surge force.
   [[nodiscard]] vessel::TurnLaw turning(double surge_n) const {
     const double lever_m = vessel.thrusters.lever_arm_m;
-    const double moment = lever_m * std::min(ahead_n - surge_n, astern_n + surge_n) - load_nm;
+    const double moment =
+        lever_m * std::min(ahead_n - surge_n, astern_n + surge_n) - load_nm - kept_nm;
     return vessel::turnLaw(vessel, std::max(moment, kLeastMomentShare * lever_m * ahead_n));
   }
 };

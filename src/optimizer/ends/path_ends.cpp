@@ -6,7 +6,11 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/feasibility/piece_check.hpp"
 #include "otter_nav/optimizer/ends.hpp"
+#include "otter_nav/trajectory/motion_along.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/rest.hpp"
+#include "otter_nav/vessel/steady_motion.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -21,7 +25,12 @@ constexpr double kSlowestMps = 0.5;  // of an arrival, where the speed limit is 
 constexpr double kSlowestShare = 0.4;
 constexpr double kReachRad = 0.3;  // steps of a manoeuvre's parameters that are still nearly linear
 constexpr double kReachMps = 0.8;
-constexpr double kStep = 1e-3;           // of parameters, for differences
+constexpr double kStep = 1e-3;  // of parameters, for differences
+constexpr double kBowToLoadRad = 0.05;
+// A path that leaves farther to leeward than this begins with a turn: led round the bow it would
+// hardly move through the water.
+constexpr double kBeforeLoadCosine = -0.3;
+constexpr double kCrabSpeedShare = 0.8;  // of the speed limit
 constexpr double kShrunkTurnRad = 0.02;  // that a turn shrinks to
 constexpr double kLongestShare = 0.3;    // of the path, for the arrival
 
@@ -61,11 +70,50 @@ bool EndChooser::clear(const map::DistanceField& field, const Manoeuvre& manoeuv
   return true;
 }
 
+// Bow to a firm load a path begins and ends without a manoeuvre.
+bool EndChooser::liesInLoad(const trajectory::Boundary& end) const {
+  const vessel::Disturbance& load = options_.limits.disturbance;
+  const double into = vessel::headingIntoLoad(vessel_.manoeuvring, load, end.psi_rad);
+  return options_.in_load && vessel::isFirmLoad(vessel_, load) &&
+         std::abs(wrapAngle(into - end.psi_rad)) < kBowToLoadRad;
+}
+
 void EndChooser::make(End& end) const {
   end.manoeuvre =
       end.kind == End::Kind::kLaunch
           ? launch(end.position, end.psi_rad, end.turn_rad, vessel_, end.limits)
           : arrival(end.position, end.psi_rad, end.turn_rad, end.speed_mps, vessel_, end.limits);
+}
+
+// Where a hull points that sails a course in a load.
+double EndChooser::crabbing(double course_rad) const {
+  const double speed = kCrabSpeedShare * safety_.speed_max_mps;
+  const auto headings =
+      vessel::steadyHeadings(speed * Eigen::Vector2d(std::cos(course_rad), std::sin(course_rad)),
+                             course_rad, vessel_, options_.limits.disturbance);
+  return headings.empty() ? course_rad : headings.front().psi_rad;
+}
+
+// The drifting hull comes far while it turns: it is to end on the heading for the course from
+// there.
+void EndChooser::leaveDrifting(const std::vector<Eigen::Vector2d>& path, End& end) const {
+  double reached_m = 0.0;
+  for (int round = 0; round < kAimRounds; ++round) {
+    const Eigen::Vector2d ahead = trajectory::pointAlong(path, 2.0 * kLookAheadM + reached_m);
+    const Eigen::Vector2d from = round == 0 ? end.position : end.manoeuvre.joint.position;
+    const double turn_rad = wrapAngle(crabbing(angleOf(ahead - from)) - end.psi_rad);
+    const bool aimed = round > 0 && std::abs(turn_rad - end.turn_rad) < kAimedRad;
+    // Not the other way round for a little more.
+    const bool other_side = turn_rad * end.turn_rad < 0.0 && std::abs(turn_rad) > 0.5 * kPi;
+    if (round == 0 || !other_side) {
+      end.turn_rad = turn_rad;
+    }
+    make(end);
+    if (aimed) {
+      return;
+    }
+    reached_m = (end.manoeuvre.joint.position - end.position).norm();
+  }
 }
 
 // The course is led from where the manoeuvre ends to a point of the path ahead.
@@ -119,6 +167,41 @@ void EndChooser::arriveAlong(const std::vector<Eigen::Vector2d>& path, End& end)
   }
 }
 
+bool EndChooser::drifts() const {
+  return !vessel::paperHolds(vessel_) && vessel::isFirmLoad(vessel_, options_.limits.disturbance);
+}
+
+// Drifting through the water turns the hull as well, and carries it on, which only the motion
+// tells: as much of the moment is kept back, and of the speed.
+void EndChooser::leaveWithin(const std::vector<Eigen::Vector2d>& path, End& end) const {
+  constexpr int kRounds = 4;
+  constexpr double kMore = 0.85;
+  constexpr double kFastestShare = 0.95;  // of the speed limit
+  for (int round = 0; round < kRounds; ++round) {
+    leaveDrifting(path, end);
+    const trajectory::Trajectory turn(end.manoeuvre.pieces);
+    const trajectory::MotionAlong motion(turn, vessel_, end.limits.disturbance, end.psi_rad);
+    double share = 0.0;
+    double speed_mps = 0.0;
+    for (const trajectory::MotionAlong::Point& point : motion.points()) {
+      speed_mps = std::max(speed_mps, point.speed_mps);
+      share =
+          std::max({share, vessel::shareOfLimit(point.thrusts[vessel::kLeft], vessel_.thrusters),
+                    vessel::shareOfLimit(point.thrusts[vessel::kRight], vessel_.thrusters)});
+    }
+    const double most_mps = kFastestShare * safety_.speed_max_mps;
+    if (share <= end.limits.thrust_share && speed_mps <= most_mps) {
+      return;
+    }
+    end.limits.kept_nm += kMore * std::max(0.0, share - end.limits.thrust_share) *
+                          vessel::greatestMoment(vessel_.thrusters);
+    if (speed_mps > most_mps) {
+      end.limits.speed_max_mps =
+          std::min(end.limits.speed_max_mps, safety_.speed_max_mps) * most_mps / speed_mps;
+    }
+  }
+}
+
 End EndChooser::chooseStart(const map::DistanceField& field,
                             const std::vector<Eigen::Vector2d>& path,
                             const trajectory::Boundary& start) const {
@@ -127,11 +210,20 @@ End EndChooser::chooseStart(const map::DistanceField& field,
   if (!trajectory::atRest(start)) {
     return end;
   }
+  const Eigen::Vector2d bow(std::cos(start.psi_rad), std::sin(start.psi_rad));
+  const Eigen::Vector2d ahead = trajectory::pointAlong(path, kLookAheadM) - start.flat.position;
+  if (liesInLoad(start) && bow.dot(ahead) > kBeforeLoadCosine * ahead.norm()) {
+    return end;
+  }
   end.kind = End::Kind::kLaunch;
   end.position = start.flat.position;
   end.psi_rad = start.psi_rad;
   end.limits = options_.limits;
   end.limits.settle = options_.careful;
+  if (drifts()) {
+    leaveWithin(path, end);
+    return end;
+  }
   leaveAlong(path, end);
   if (!end.limits.settle && !clear(field, end.manoeuvre)) {
     end.limits.settle = true;
@@ -148,6 +240,11 @@ End EndChooser::chooseGoal(const map::DistanceField& field,
   };
   const double longest = kLongestShare * trajectory::lengthOf(path);
   End end;
+  if (liesInLoad(goal)) {
+    end.psi_rad = goal.psi_rad;
+    end.manoeuvre.joint = goal.flat;
+    return end;
+  }
   end.kind = End::Kind::kArrival;
   end.position = goal.flat.position;
   end.psi_rad = goal.psi_rad;

@@ -6,6 +6,7 @@
 #include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
+#include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::optimizer {
 namespace {
@@ -13,6 +14,9 @@ namespace {
 constexpr double kHullMarginM = 0.03;
 constexpr double kClearanceMarginM = 0.05;
 constexpr double kPieceLengthM = 17.0;
+// Bow to a firm load the vessel gets under way slowly, turning with the path; fewer pieces follow.
+constexpr double kPieceLengthInLoadM = 24.0;
+constexpr double kSlowestInLoadMps = 0.3;
 constexpr double kWeightClearance = 20.0;   // of squared metres too near
 constexpr double kWeightDynamics = 5.0;     // of squared shares of a thruster too much
 constexpr double kArrivalSpeedShare = 0.6;  // of the speed wanted, when the brake begins
@@ -117,7 +121,13 @@ Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parame
   attempt.weights.clearance = kWeightClearance * care.weight_factor;
   attempt.weights.dynamics = kWeightDynamics * care.weight_factor;
   attempt.weights.original = 0.0;
-  attempt.initial.piece_length_m = kPieceLengthM * care.length_factor;
+  const bool firm = vessel::isFirmLoad(vessel, safety.disturbance);
+  attempt.initial.piece_length_m =
+      (firm ? kPieceLengthInLoadM * feasibility::speedShare(vessel, safety) : kPieceLengthM) *
+      care.length_factor;
+  if (firm) {
+    attempt.initial.slowest_mps = kSlowestInLoadMps;
+  }
   attempt.initial.force_share = 0.9 * share;
   attempt.initial.speed_max_mps = 0.97 * attempt.limits.speed_mps;
   attempt.initial.clearance_m = attempt.limits.clearance_m;
@@ -125,6 +135,8 @@ Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parame
   attempt.ends = endsOf(care, vessel, safety, share);
   // Turning under a load takes thrust and room: every other attempt does without.
   attempt.ends.straight_arrival = attempt.initial.load_n > 0.0 && number % 2 == 1;
+  // The last one turns on the spot, and drifts meanwhile.
+  attempt.ends.in_load = firm && number + 1 < kAttempts;
   return attempt;
 }
 

@@ -74,7 +74,7 @@ void InitialSpline::setSpeeds(double speed_from, double speed_to) {
       [&](double v) {
         return kRampShare * std::min(m.d2_kgps * v, m.d1_kgps * v + astern) / m.m1_kg;
       },
-      std::max(speed_from, kSlowestBandMps), std::max(speed_to, kSlowestBandMps));
+      std::max(speed_from, options.slowest_mps), std::max(speed_to, options.slowest_mps));
 }
 
 Knot InitialSpline::knotAt(double s) const {

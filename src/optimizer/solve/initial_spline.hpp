@@ -19,6 +19,7 @@ struct InitialOptions {
   double speed_max_mps = 4.6;
   double clearance_m = 1.0;  // by Obstacles::smooth
   double load_n = 0.0;       // that wind and current take of the force, at worst
+  double slowest_mps = 0.8;  // where it begins and ends at rest
 };
 
 // Where the spline begins and ends, under way. The directions count where there is little speed.

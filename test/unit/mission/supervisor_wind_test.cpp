@@ -22,6 +22,12 @@ SupervisorOptions knowing() {
   return options;
 }
 
+SupervisorOptions forStillWater() {
+  SupervisorOptions options;
+  options.plan_with_weather = false;
+  return options;
+}
+
 // Estimates of a force by time, ten a second; the orders that come of them.
 using Force = std::function<Vector2d(double)>;
 struct Blown {
@@ -73,7 +79,7 @@ TEST(SupervisorInWind, LeavesThrustAndDistanceToASteadyPush) {
   ASSERT_TRUE(orders && orders->plan);
   EXPECT_NEAR(orders->plan->thrust_share, mission.options.thrust_share, 1e-9);
 
-  ScriptedMission still;
+  ScriptedMission still(openWater(), forStillWater());
   blow(still, 60.0, push);
   const auto others = still.goTo({20.0, 0.0});
   ASSERT_TRUE(others && others->plan);
@@ -109,9 +115,9 @@ TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.x(), -10.0);
 }
 
-// As shipped: for still water, with thrust left for what blows.
-TEST(SupervisorInWind, PlansForStillWaterUnlessAsked) {
-  ScriptedMission mission, asked(openWater(), knowing());
+// Then with thrust left for what blows.
+TEST(SupervisorInWind, PlansForStillWaterIfAsked) {
+  ScriptedMission mission(openWater(), forStillWater()), asked(openWater(), knowing());
   blow(mission, 60.0, gusty);
   blow(asked, 60.0, gusty);
   const auto orders = mission.goTo({20.0, 0.0});
@@ -135,6 +141,46 @@ TEST(SupervisorInWind, PlansOnceTheWeatherIsKnown) {
   const Blown blown = blow(mission, 0.6, steady);
   ASSERT_FALSE(blown.plans.empty());
   EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.norm(), 5.0);
+}
+
+// More than a light load still rises.
+TEST(SupervisorInWind, WaitsAMomentMoreInAFreshWind) {
+  ScriptedMission mission(openWater(), knowing());
+  mission.supervisor = Supervisor(mission.options, vessel::Parameters{}, 1);
+  mission.rest[vessel::kPsi] = kPi;
+  ASSERT_TRUE(mission.goTo({20.0, 0.0}).has_value());
+  const Force rising = [](double t) { return Vector2d(std::min(7.0 * t, 21.0), 0.0); };
+  EXPECT_TRUE(blow(mission, 2.5, rising).plans.empty());
+  const Blown blown = blow(mission, 1.5, rising);
+  ASSERT_FALSE(blown.plans.empty());
+  EXPECT_GT(blown.plans.front().query.limits.disturbance.force_n.x(), 7.0);
+}
+
+// Plans from rest begin bow to a firm load; the tracker turns the hull there first, or does not get
+// it there.
+TEST(SupervisorInWind, TurnsTheBowToAFirmLoadBeforeItPlans) {
+  const Force push = [](double) { return Vector2d(20.0, 0.0); };
+  ScriptedMission mission(openWater(), knowing());
+  mission.rest[vessel::kPsi] = 0.5;
+  blow(mission, 10.0, push);
+  const auto orders = mission.goTo({20.0, 0.0});
+  ASSERT_TRUE(orders);
+  EXPECT_FALSE(orders->plan);
+  EXPECT_TRUE(orders->stop);  // held: turned
+  EXPECT_TRUE(blow(mission, 15.0, push).plans.empty());
+  mission.rest[vessel::kPsi] = 2.9;
+  const Blown blown = blow(mission, 0.3, push);
+  ASSERT_EQ(blown.plans.size(), 1U);
+  EXPECT_NEAR(wrapAngle(blown.plans[0].query.start.psi_rad - kPi), 0.0, 1e-6);
+  EXPECT_NEAR(wrapAngle(blown.plans[0].query.goal.psi_rad - kPi), 0.0, 1e-6);
+
+  ScriptedMission stuck(openWater(), knowing());
+  stuck.rest[vessel::kPsi] = 0.5;
+  blow(stuck, 10.0, push);
+  ASSERT_TRUE(stuck.goTo({20.0, 0.0}).has_value());
+  const Blown late = blow(stuck, 21.0, push);
+  ASSERT_EQ(late.plans.size(), 1U);
+  EXPECT_NEAR(late.plans[0].query.start.psi_rad, 0.5, 1e-9);
 }
 
 TEST(SupervisorInWind, SteadyWeatherIsNoGroundForAnotherPlan) {
@@ -259,6 +305,7 @@ TEST(SupervisorInWind, LaunchesAVesselAgainThatHasHardlyGotUnderWay) {
 // 30 N on the beam set a hull with 20 kg/s of drag aside by 1.5 m/s.
 TEST(SupervisorInWind, ArrivesBowToTheLoadWhereTheGoalsHeadingCannotBeHeld) {
   ScriptedMission mission;
+  mission.rest[vessel::kPsi] = -0.5 * kPi;
   const Force abeam = [](double) { return Vector2d(0.0, 30.0); };
   blow(mission, 5.0, abeam);
   const auto orders = mission.goTo({20.0, 0.0}, 0.0);
