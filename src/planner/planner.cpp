@@ -35,8 +35,8 @@ constexpr double kStretchShare = 0.6;  // a place is looked for from so much of 
 // Attempts with other samples before the last resorts, and of the time for them.
 constexpr int kPatience = 3;
 constexpr double kPatienceShare = 0.3;
-constexpr double kNearM = 0.3;      // a goal nearer than this needs no search
-constexpr int kFirstSamples = 150;  // trees that need more wait until the guide path was tried
+constexpr double kNearM = 0.3;    // a goal nearer than this needs no search
+constexpr int kTrySamples = 150;  // what one more try may draw, and any try counts for
 
 std::string describe(const Eigen::Vector2d& p) {
   std::ostringstream text;
@@ -144,7 +144,7 @@ class Planner::Pipeline {
       return std::nullopt;
     }
     Termination once = termination;
-    once.max_iterations = std::min(samples_left_, kFirstSamples);
+    once.max_iterations = std::min(samples_left_, kTrySamples);
     return once;
   }
 
@@ -264,7 +264,7 @@ class Planner::Pipeline {
       keepTrees(run);
     }
     conclude(run);
-    samples_left_ -= std::max(kFirstSamples, run.plan.figures.samples);  // optimising costs too
+    samples_left_ -= std::max(kTrySamples, run.plan.figures.samples);  // optimising costs too
     run.plan.figures.total_ms = 1e3 * (run.now() - began);
     return std::move(run.plan);
   }
@@ -393,27 +393,17 @@ class Planner::Pipeline {
   void attemptOnce(Run& run, int attempt) {
     ++run.plan.figures.attempts;
     if (!options_.global_optimization) {
-      beginSearch(run, attempt, Roots::kLaunched);
-      if (searchTrees(run, options_.attempt_samples)) {
+      if (searchTrees(run, attempt, Roots::kLaunched)) {
         closeTreesPath(run);
       }
       return;
     }
-    // Trees that have not met soon will rarely do: then the guide path first.
-    const bool first = attempt == 0;
-    beginSearch(run, attempt, Roots::kAtEnds);
-    bool met = searchTrees(run, first ? kFirstSamples : options_.attempt_samples);
-    if (met) {
-      optimizeTrees(run);
+    if (searchTrees(run, attempt, Roots::kAtEnds)) {
+      run.plan.figures.tree_cost = search_.bestCost();
+      optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
     }
-    if (first && !isGood(run) && !run.timeUp()) {
+    if (attempt == 0 && !isGood(run) && !run.timeUp()) {
       optimizeGuide(run, 0, 1);
-    }
-    if (first && !met && !done(run)) {
-      met = searchTrees(run, options_.attempt_samples - kFirstSamples);
-      if (met) {
-        optimizeTrees(run);
-      }
     }
     if (!done(run) && !run.query.warm_start.empty() && attempt == 0) {
       optimizeTrajectory(run, run.query.warm_start);
@@ -439,11 +429,8 @@ class Planner::Pipeline {
       optimizeGuide(run, 1, optimizer::Budget().max_attempts);
     }
     const bool poor = !run.solved() || (run.fallback && first);
-    if (poor && !run.timeUp()) {
-      beginSearch(run, attempt, Roots::kLaunched);
-      if (searchTrees(run, options_.attempt_samples)) {
-        closeTreesPath(run);
-      }
+    if (poor && !run.timeUp() && searchTrees(run, attempt, Roots::kLaunched)) {
+      closeTreesPath(run);
     }
   }
 
@@ -466,7 +453,9 @@ class Planner::Pipeline {
                   start, goal);
   }
 
-  void beginSearch(const Run& run, int attempt, Roots roots) {
+  // Samples until the trees meet, then improve_samples more.
+  bool searchTrees(Run& run, int attempt, Roots roots) {
+    const double began = run.now();
     placeRoots(run, roots);
     SamplerOptions options;
     options.key_spacing_m /= 1.0 + 0.5 * attempt;
@@ -474,40 +463,28 @@ class Planner::Pipeline {
     options.speed_max_mps = kSampleSpeedShare * run.query.limits.speed_max_mps;
     const double slow = feasibility::speedShare(vessel_, run.query.limits);
     options.accel_mps2 *= slow * slow;
-    sampler_.emplace(options, line_, run.obstacles.field(),
-                     run.query.seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(attempt));
-    counted_ = {};
+    Sampler sampler(options, line_, run.obstacles.field(),
+                    run.query.seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(attempt));
     search_.joinRoots();
-  }
-
-  // Up to `most` samples more until the trees meet, then improve_samples more.
-  bool searchTrees(Run& run, int most) {
-    const double began = run.now();
-    int budget = std::min(run.samples_left, most);
+    int budget = std::min(run.samples_left, options_.attempt_samples);
     int improving = options_.improve_samples;
     while (budget-- > 0 && !run.timeUp()) {
       if (search_.solved() && improving-- <= 0) {
         break;
       }
-      search_.extend(sampler_->next());
+      search_.extend(sampler.next());
       if (search_.solved() && run.plan.figures.first_solution_ms == 0.0) {
         run.plan.figures.first_solution_ms = 1e3 * run.now();
       }
     }
     const SearchCounts counts = search_.counts();
     Figures& figures = run.plan.figures;
-    figures.samples += counts.samples - counted_.samples;
-    figures.nodes += counts.joined - counted_.joined;
-    figures.local_repairs += counts.repairs - counted_.repairs;
+    figures.samples += counts.samples;
+    figures.nodes += counts.joined;
+    figures.local_repairs += counts.repairs;
     figures.tree_ms += 1e3 * (run.now() - began);
-    run.samples_left -= counts.samples - counted_.samples;
-    counted_ = counts;
+    run.samples_left -= counts.samples;
     return search_.solved();
-  }
-
-  void optimizeTrees(Run& run) {
-    run.plan.figures.tree_cost = search_.bestCost();
-    optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
   }
 
   void closeTreesPath(Run& run) {
@@ -624,8 +601,6 @@ class Planner::Pipeline {
   topology::GuidePath guide_;
   GuideLine line_;
   Search search_;
-  std::optional<Sampler> sampler_;
-  SearchCounts counted_;  // of the search, in the query's figures already
   int samples_left_ = 0;  // of the query, all tries together
   std::optional<Launch> launch_;
   std::optional<Launch> stop_;
