@@ -1,12 +1,24 @@
-#include "recorder_node.hpp"
-
+// recorder_node: writes topics to a bag. In lockstep time waits for it, so nothing is lost at any
+// speed; what is lost without is an error that says what. The bag is closed and indexed however the
+// run ends. Parameters: launch/record.launch.
 #include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/ros.h>
+#include <std_msgs/Header.h>
 
 #include <algorithm>
+#include <csignal>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "otter_nav/config/fields.hpp"
+#include "otter_nav/config/section.hpp"
 #include "otter_nav/ros/parameters.hpp"
+#include "recording.hpp"
 
 namespace otter_nav::nodes {
 namespace {
@@ -17,6 +29,58 @@ constexpr double kQuietS = 0.3;  // of wall time without a message: nothing more
 constexpr double kPatienceS = 5.0;
 
 }  // namespace
+
+// All of it is told by launch/record.launch.
+struct RecorderNodeOptions {
+  std::string file;
+  std::vector<std::string> topics;
+  std::vector<std::string> paced = {"odom", "tracker_cycle"};
+
+  template <typename Self, typename Fields>
+  static void describe(Self& o, Fields& fields) {
+    fields("file", o.file, "bag to write");
+    fields.texts("topics", o.topics, "to record");
+    fields.texts("paced", o.paced,
+                 "of these: what has to be there before it says that it listens, and what it must "
+                 "have up to a scan's stamp before it acknowledges the scan in lockstep");
+  }
+};
+
+class RecorderNode {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<RecorderNode>> create(config::Section section);
+  ~RecorderNode();
+  RecorderNode(const RecorderNode&) = delete;
+  RecorderNode& operator=(const RecorderNode&) = delete;
+  // 0 if the bag is closed and nothing was lost.
+  [[nodiscard]] int exitCode() const { return failed_ ? 1 : 0; }
+  // Takes what is still on its way, and closes the bag.
+  void finish();
+
+ private:
+  explicit RecorderNode(RecorderNodeOptions options);
+
+  [[nodiscard]] Status open() { return recording_.open(options_.file); }
+  void listen();
+  void onMessage(const std::string& topic, const Recording::Event& event);
+  void take(const std::string& topic, const Recording::Event& event);
+  // Says that it listens, once everything paced has come.
+  void announce();
+  // In lockstep: time may go on past the scans up to which everything is here.
+  void acknowledge();
+
+  RecorderNodeOptions options_;
+  ros::NodeHandle node_;
+  Recording recording_;
+  std::map<std::string, ros::Time> paced_;  // last stamps, of what has come
+  std::deque<ros::Time> scans_;             // not acknowledged yet
+  ros::Publisher recording_publisher_;
+  ros::Publisher acknowledgement_;
+  std::vector<ros::Subscriber> subscribers_;
+  bool announced_ = false;
+  bool finished_ = false;
+  bool failed_ = false;
+};
 
 Result<std::unique_ptr<RecorderNode>> RecorderNode::create(config::Section section) {
   const std::string where = section.where();
@@ -161,3 +225,32 @@ void RecorderNode::finish() {
 }
 
 }  // namespace otter_nav::nodes
+
+namespace {
+
+volatile std::sig_atomic_t asked_to_end = 0;
+void end(int /*signal*/) {
+  asked_to_end = 1;
+}
+
+}  // namespace
+
+// Not ROS's own handler: that one cuts the connections first, and what is on its way is lost.
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "record", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, end);
+  std::signal(SIGTERM, end);
+  const ros::NodeHandle keep_alive;
+  const auto node = otter_nav::ros_bridge::readSection(ros::NodeHandle("~"))
+                        .and_then(otter_nav::nodes::RecorderNode::create);
+  if (!node) {
+    ROS_FATAL_STREAM(node.error().message);
+    return 1;
+  }
+  constexpr double kLookS = 0.1;
+  while (ros::ok() && asked_to_end == 0) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLookS));
+  }
+  (*node)->finish();
+  return (*node)->exitCode();
+}

@@ -6,7 +6,6 @@
 #include <std_msgs/String.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <sstream>
 

@@ -1,10 +1,22 @@
-#include "route_node.hpp"
-
+// route_node: goals sailed one after another through the action move_base, and a marker in rviz to
+// set them with. No parameters.
+#include <actionlib/client/simple_action_client.h>
+#include <geometry_msgs/PoseArray.h>
+#include <interactive_markers/interactive_marker_server.h>
+#include <interactive_markers/menu_handler.h>
+#include <move_base_msgs/MoveBaseAction.h>
+#include <nav_msgs/Odometry.h>
 #include <otter_nav/Route.h>
+#include <ros/node_handle.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "otter_nav/base/result.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 
@@ -68,6 +80,50 @@ bool same(const geometry_msgs::Pose& a, const geometry_msgs::Pose& b) {
 }
 
 }  // namespace
+
+class RouteNode {
+ public:
+  RouteNode();
+  RouteNode(const RouteNode&) = delete;
+  RouteNode& operator=(const RouteNode&) = delete;
+
+ private:
+  using Goals = std::vector<geometry_msgs::Pose>;
+
+  void onAdd(const geometry_msgs::PoseStamped& goal);
+  void onSet(const geometry_msgs::PoseArray& goals);
+  void onOdometry(const nav_msgs::Odometry& message);
+  void onMarker(const visualization_msgs::InteractiveMarkerFeedback& feedback);
+  void serve(const std::string& name, Status (RouteNode::*wish)());
+  void onDone(const actionlib::SimpleClientGoalState& state);
+
+  [[nodiscard]] Status addMarker();
+  [[nodiscard]] Status sail();
+  // Takes the goals as the route; one that is sailed goes on if its goal is still the first.
+  void setGoals(const Goals& goals);
+  void sendFirst();
+  void stopSailing(const std::string& reason);
+  void showMarker(const geometry_msgs::Pose& pose);
+  void publish();
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_{"~"};
+  Goals goals_;
+  bool sailing_ = false;
+  std::string reason_;
+  bool marker_shown_ = false;
+  geometry_msgs::Pose marker_;
+  ros::Publisher route_publisher_;
+  ros::Publisher marker_publisher_;
+  actionlib::SimpleActionClient<move_base_msgs::MoveBaseAction> client_;
+  interactive_markers::InteractiveMarkerServer marker_server_;
+  interactive_markers::MenuHandler menu_;
+  std::vector<ros::ServiceServer> services_;
+  ros::WallTimer next_;
+  ros::Subscriber add_subscriber_;
+  ros::Subscriber set_subscriber_;
+  ros::Subscriber odometry_subscriber_;
+};
 
 RouteNode::RouteNode()
     : route_publisher_(node_.advertise<Route>("route", 1, true)),
@@ -262,3 +318,10 @@ void RouteNode::publish() {
 }
 
 }  // namespace otter_nav::nodes
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "route_node");
+  const otter_nav::nodes::RouteNode node;
+  ros::spin();
+  return 0;
+}

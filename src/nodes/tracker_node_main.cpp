@@ -1,6 +1,0 @@
-#include "otter_nav/ros/run_node.hpp"
-#include "tracker_node.hpp"
-
-int main(int argc, char** argv) {
-  return otter_nav::ros_bridge::runNode<otter_nav::nodes::TrackerNode>(argc, argv, "tracker_node");
-}
