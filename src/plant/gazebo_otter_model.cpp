@@ -100,12 +100,8 @@ PlantState GazeboOtterModel::hullDerivative(const PlantState& x, const Surroundi
   dx[kP] = (vertical[1] - kTiltDrag * nu[kP]) / kTiltInertia;
   dx[kQ] = (vertical[2] - kTiltDrag * nu[kQ] + kThrustBelowGravity * surge) / kTiltInertia;
 
-  dx.segment<6>(kNorth) = poseRate(x);
+  dx.segment<6>(kNorth) = levelPoseRate(x);
   return dx;
-}
-
-Vector6 GazeboOtterModel::poseRate(const PlantState& x) const {
-  return levelPoseRate(x);
 }
 
 PlantState GazeboOtterModel::settled() const {
@@ -114,16 +110,8 @@ PlantState GazeboOtterModel::settled() const {
   return x;
 }
 
-Eigen::Vector2d GazeboOtterModel::commandFor(const vessel::Thrusts& thrusts_n) const {
-  return saturate(thrusts_n);
-}
-
 Eigen::Vector2d GazeboOtterModel::saturate(const Eigen::Vector2d& command) const {
   return command.cwiseMax(-kThrustMax).cwiseMin(kThrustMax);
-}
-
-vessel::Thrusts GazeboOtterModel::thrusts(const PlantState& x) const {
-  return x.tail<2>();
 }
 
 // That simulator's wind plugin: coefficients 0.5, 0.5, 0.33 on the true wind (not the apparent).

@@ -15,11 +15,8 @@ class GazeboOtterModel final : public PlantModel {
   // That simulator's thrusters have no lag; the propeller states are thrusts.
   GazeboOtterModel();
 
-  [[nodiscard]] Vector6 poseRate(const PlantState& x) const override;
   [[nodiscard]] PlantState settled() const override;
-  [[nodiscard]] Eigen::Vector2d commandFor(const vessel::Thrusts& thrusts_n) const override;
   [[nodiscard]] Eigen::Vector2d saturate(const Eigen::Vector2d& command) const override;
-  [[nodiscard]] vessel::Thrusts thrusts(const PlantState& x) const override;
   [[nodiscard]] Vector6 windForce(const Eigen::Vector2d& wind_in_body,
                                   const Vector6& velocity) const override;
   [[nodiscard]] Eigen::Vector2d gridHalfSize() const override;

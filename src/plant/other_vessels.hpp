@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "otter_nav/plant/signals.hpp"
-#include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/scripted_vessel.hpp"
 
 namespace otter_nav::plant {

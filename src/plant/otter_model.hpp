@@ -7,8 +7,6 @@
 // angles because the reference does: the settled trim counts as level.
 #pragma once
 
-#include <array>
-
 #include "otter_nav/plant/plant_model.hpp"
 #include "propeller.hpp"
 

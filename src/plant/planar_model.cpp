@@ -34,24 +34,12 @@ PlantState PlanarModel::hullDerivative(const PlantState& x, const Surroundings& 
   dx.segment<3>(kW) =
       kRidingFrequency * kRidingFrequency * (around.surface - x.segment<3>(kDown)) +
       2.0 * kRidingDamping * kRidingFrequency * (around.surface_rate - x.segment<3>(kW));
-  dx.segment<6>(kNorth) = poseRate(x);
+  dx.segment<6>(kNorth) = levelPoseRate(x);
   return dx;
-}
-
-Vector6 PlanarModel::poseRate(const PlantState& x) const {
-  return levelPoseRate(x);
-}
-
-Eigen::Vector2d PlanarModel::commandFor(const vessel::Thrusts& thrusts_n) const {
-  return saturate(thrusts_n);
 }
 
 Eigen::Vector2d PlanarModel::saturate(const Eigen::Vector2d& command) const {
   return vessel::clampThrusts(command, vessel_.thrusters);
-}
-
-vessel::Thrusts PlanarModel::thrusts(const PlantState& x) const {
-  return x.tail<2>();
 }
 
 Vector6 PlanarModel::windForce(const Eigen::Vector2d& wind_in_body,

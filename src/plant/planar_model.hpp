@@ -13,11 +13,8 @@ class PlanarModel final : public PlantModel {
   explicit PlanarModel(const vessel::Parameters& vessel)
       : PlantModel(vessel.thrusters.lag_s), vessel_(vessel) {}
 
-  [[nodiscard]] Vector6 poseRate(const PlantState& x) const override;
   [[nodiscard]] PlantState settled() const override { return PlantState::Zero(); }
-  [[nodiscard]] Eigen::Vector2d commandFor(const vessel::Thrusts& thrusts_n) const override;
   [[nodiscard]] Eigen::Vector2d saturate(const Eigen::Vector2d& command) const override;
-  [[nodiscard]] vessel::Thrusts thrusts(const PlantState& x) const override;
   [[nodiscard]] Vector6 windForce(const Eigen::Vector2d& wind_in_body,
                                   const Vector6& velocity) const override;
   [[nodiscard]] Eigen::Vector2d gridHalfSize() const override;

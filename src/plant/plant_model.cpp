@@ -1,10 +1,15 @@
 #include "otter_nav/plant/plant_model.hpp"
 
 #include "gazebo_otter_model.hpp"
+#include "kinematics.hpp"
 #include "otter_model.hpp"
 #include "planar_model.hpp"
 
 namespace otter_nav::plant {
+
+Vector6 PlantModel::poseRate(const PlantState& x) const {
+  return levelPoseRate(x);
+}
 
 Result<std::unique_ptr<PlantModel>> makePlantModel(const Options& options) {
   const std::string& name = options.vessel.plant_model;

@@ -38,9 +38,6 @@ using PlantState = Eigen::Matrix<double, kPlantStateSize, 1>;
 inline Vector6 velocityOf(const PlantState& x) {
   return x.head<6>();
 }
-inline Vector6 poseOf(const PlantState& x) {
-  return x.segment<6>(kNorth);
-}
 
 // The water and air around the hull, in its own frame (forward, starboard, down).
 struct Surroundings {
@@ -56,7 +53,8 @@ struct Surroundings {
 };
 
 // One hull, its actuators and its trim. The models say what moves them; the propellers' states and
-// the Runge-Kutta step are the same for all.
+// the Runge-Kutta step are the same for all. Unless a model says otherwise, the states are thrusts
+// and the hull's trim is level.
 class PlantModel {
  public:
   // `lag_s`: time constant of the propellers' states behind their command; 0: they take it up at
@@ -90,14 +88,16 @@ class PlantModel {
   [[nodiscard]] bool propellersAtOnce() const { return lag_s_ == 0.0; }
 
   // eta', the pose's part of the derivative.
-  [[nodiscard]] virtual Vector6 poseRate(const PlantState& x) const = 0;
+  [[nodiscard]] virtual Vector6 poseRate(const PlantState& x) const;
   // At rest over ground where calm water carries the hull, at the origin, heading north.
   [[nodiscard]] virtual PlantState settled() const = 0;
 
   // The propeller command, within the propellers' limits, that gives these thrusts in the end.
-  [[nodiscard]] virtual Eigen::Vector2d commandFor(const vessel::Thrusts& thrusts_n) const = 0;
+  [[nodiscard]] virtual Eigen::Vector2d commandFor(const vessel::Thrusts& thrusts_n) const {
+    return saturate(thrusts_n);
+  }
   [[nodiscard]] virtual Eigen::Vector2d saturate(const Eigen::Vector2d& command) const = 0;
-  [[nodiscard]] virtual vessel::Thrusts thrusts(const PlantState& x) const = 0;
+  [[nodiscard]] virtual vessel::Thrusts thrusts(const PlantState& x) const { return x.tail<2>(); }
 
   // Force of a true wind (air velocity over ground, body frame) on the hull.
   [[nodiscard]] virtual Vector6 windForce(const Eigen::Vector2d& wind_in_body,

@@ -11,6 +11,7 @@
 #include "otter_nav/ais/message.hpp"
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/plant/simulator.hpp"
+#include "otter_nav/vessel/hull.hpp"
 
 namespace otter_nav::plant {
 namespace {
