@@ -1,11 +1,9 @@
 #include "otter_nav/feasibility/piece_check.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
@@ -47,6 +45,39 @@ class Sampled {
 };
 
 }  // namespace
+
+// What a piece asks for at its samples, one after the other, against the limits.
+class PieceCheck::Watch {
+ public:
+  Watch(const PieceCheck& check, PieceReport& report) : check_(check), report_(report) {}
+
+  // `time_s` from the trajectory's start.
+  void note(const vessel::Thrusts& thrusts, double speed_mps, double yaw_rate_radps,
+            double time_s) {
+    const vessel::Thrusters& thrusters = check_.vessel_.thrusters;
+    report_.thrust_share = std::max(
+        {report_.thrust_share, left_.bound(vessel::shareOfLimit(thrusts[vessel::kLeft], thrusters)),
+         right_.bound(vessel::shareOfLimit(thrusts[vessel::kRight], thrusters))});
+    report_.speed_mps = std::max(report_.speed_mps, speed_mps);
+    report_.speed_share =
+        std::max(report_.speed_share, speed_mps / check_.limits_.speedMaxAt(time_s));
+    report_.yaw_rate_radps = std::max(report_.yaw_rate_radps, std::abs(yaw_rate_radps));
+  }
+  void judge(double thrust_slack = 1.0) {
+    if (report_.thrust_share > thrust_slack * check_.limits_.thrust_share) {
+      report_.fault = Fault::kThrust;
+    } else if (report_.speed_share > 1.0) {
+      report_.fault = Fault::kSpeed;
+    } else if (report_.yaw_rate_radps > check_.limits_.yaw_rate_max_radps) {
+      report_.fault = Fault::kYawRate;
+    }
+  }
+
+ private:
+  const PieceCheck& check_;
+  PieceReport& report_;
+  Sampled left_, right_;
+};
 
 struct PieceCheck::Point {
   Eigen::Vector2d velocity;
@@ -167,65 +198,36 @@ void PieceCheck::checkDynamics(const trajectory::MotionAlong& motion, std::size_
   const double allowed_n = kSwayMps2 * vessel_.manoeuvring.sway_inertia_kg;
   report.heading_force_n = std::numeric_limits<double>::infinity();
   const double start = motion.points()[motion.firstOf(index)].t_s;
-  Sampled left;
-  Sampled right;
+  Watch watch(*this, report);
   for (std::size_t k = motion.firstOf(index); k < motion.firstOf(index + 1); ++k) {
     const trajectory::MotionAlong::Point& p = motion.points()[k];
-    report.thrust_share =
-        std::max({report.thrust_share,
-                  left.bound(vessel::shareOfLimit(p.thrusts[vessel::kLeft], vessel_.thrusters)),
-                  right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
-    noteSpeed(p.speed_mps, p.t_s, report);
-    report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
-    const Fault before = report.fault;
-    if (before == Fault::kNone) {
+    watch.note(p.thrusts, p.speed_mps, p.yaw_rate_radps, p.t_s);
+    if (report.fault == Fault::kNone) {
       checkSway(p.sway_n, allowed_n, report);
       const Eigen::Vector2d through = inverse_.throughWater(evaluate<7>(velocity_, p.t_s - start));
       const Eigen::Vector2d bow(std::cos(p.psi_rad), std::sin(p.psi_rad));
       if (piece_.kind == trajectory::PieceKind::kSail && through.norm() > vessel::kWalkingMps &&
           bow.dot(through) < kAcrossCosine * through.norm()) {
         report.fault = Fault::kHeadingJump;
-      } else if (report.thrust_share > kThrustSlack * limits_.thrust_share) {
-        report.fault = Fault::kThrust;
-      } else if (report.speed_share > 1.0) {
-        report.fault = Fault::kSpeed;
-      } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
-        report.fault = Fault::kYawRate;
+      } else {
+        watch.judge(kThrustSlack);
       }
       report.time_s = p.t_s - start;
     }
   }
 }
 
-void PieceCheck::noteSpeed(double speed_mps, double time_s, PieceReport& report) const {
-  report.speed_mps = std::max(report.speed_mps, speed_mps);
-  report.speed_share = std::max(report.speed_share, speed_mps / limits_.speedMaxAt(time_s));
-}
-
 void PieceCheck::checkSpin(double start_s, PieceReport& report) const {
   const int steps =
       std::max(2, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
-  Sampled left;
-  Sampled right;
+  Watch watch(*this, report);
   for (int i = 0; i <= steps && report.fault == Fault::kNone; ++i) {
     report.time_s = piece_.duration_s * i / steps;
     const Point p = inSpin(report.time_s);
-    report.thrust_share =
-        std::max({report.thrust_share,
-                  left.bound(vessel::shareOfLimit(p.thrusts[vessel::kLeft], vessel_.thrusters)),
-                  right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
-    noteSpeed(p.velocity.norm(), start_s + report.time_s, report);
-    report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
+    watch.note(p.thrusts, p.velocity.norm(), p.yaw_rate_radps, start_s + report.time_s);
     checkSway(p.sway_n, kSwayN, report);
-    if (report.fault != Fault::kNone) {
-      continue;
-    }
-    if (report.thrust_share > limits_.thrust_share) {
-      report.fault = Fault::kThrust;
-    } else if (report.speed_share > 1.0) {
-      report.fault = Fault::kSpeed;
-    } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
-      report.fault = Fault::kYawRate;
+    if (report.fault == Fault::kNone) {
+      watch.judge();
     }
   }
 }
@@ -238,20 +240,13 @@ void PieceCheck::checkDynamics(double start_s, PieceReport& report) const {
   }
   const int steps =
       std::max(4, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
-  Sampled left;
-  Sampled right;
+  Watch watch(*this, report);
   const double least_force = leastHeadingForce(vessel_, limits_, tolerances_.heading_force_share);
   double branch = 0.0;  // sign of w . v
   for (int i = 0; i <= steps; ++i) {
     report.time_s = piece_.duration_s * i / steps;
     const Point p = at(report.time_s);
-    const double speed = p.velocity.norm();
-    noteSpeed(speed, start_s + report.time_s, report);
-    report.yaw_rate_radps = std::max(report.yaw_rate_radps, std::abs(p.yaw_rate_radps));
-    report.thrust_share =
-        std::max({report.thrust_share,
-                  left.bound(vessel::shareOfLimit(p.thrusts[vessel::kLeft], vessel_.thrusters)),
-                  right.bound(vessel::shareOfLimit(p.thrusts[vessel::kRight], vessel_.thrusters))});
+    watch.note(p.thrusts, p.velocity.norm(), p.yaw_rate_radps, start_s + report.time_s);
     if (!straight_) {
       const double norm = std::abs(p.heading_force_n);
       report.heading_force_n = std::min(report.heading_force_n, norm);
@@ -269,13 +264,7 @@ void PieceCheck::checkDynamics(double start_s, PieceReport& report) const {
     } else if (direction_.dot(p.velocity) < -kSlowMps) {
       report.fault = Fault::kAstern;
     }
-    if (report.thrust_share > limits_.thrust_share) {
-      report.fault = Fault::kThrust;
-    } else if (report.speed_share > 1.0) {
-      report.fault = Fault::kSpeed;
-    } else if (report.yaw_rate_radps > limits_.yaw_rate_max_radps) {
-      report.fault = Fault::kYawRate;
-    }
+    watch.judge();
     if (report.fault != Fault::kNone) {
       return;
     }

@@ -30,12 +30,6 @@ constexpr double kDriftMps = 0.05;
 constexpr double kMeetRad = 0.01;
 constexpr double kMeetRadps = 0.03;
 
-std::string sentence(const char* what, double t_s, double value, double limit) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%s at %.2f s: %.3f (limit %.3f)", what, t_s, value, limit);
-  return text;
-}
-
 class Verifier {
  public:
   Verifier(const trajectory::Trajectory& trajectory, const Obstacles& obstacles,
@@ -51,10 +45,12 @@ class Verifier {
   }
 
   Verification run(const trajectory::Boundary* start, const trajectory::Boundary* goal) {
-    result_.ok = !trajectory_.empty() || fail(0.0, "the trajectory is empty");
-    if (result_.ok) {
-      checkFinite();
+    result_.ok = !trajectory_.empty();
+    if (!result_.ok) {
+      result_.reason = "the trajectory is empty";
+      return result_;
     }
+    checkFinite();
     // Without ends the heading at the start is not known: then the paper's model has to do.
     if (result_.ok && start != nullptr && !vessel::paperHolds(vessel_)) {
       motion_.emplace(trajectory_, vessel_, limits_.disturbance, start->psi_rad);
@@ -73,11 +69,12 @@ class Verifier {
   }
 
  private:
-  bool fail(double t_s, std::string reason) {
+  void fail(double t_s, const std::string& what, double value, double limit) {
+    char numbers[96];
+    std::snprintf(numbers, sizeof numbers, " at %.2f s: %.3f (limit %.3f)", t_s, value, limit);
     result_.ok = false;
     result_.fault_s = t_s;
-    result_.reason = std::move(reason);
-    return false;
+    result_.reason = what + numbers;
   }
 
   void checkFinite() {
@@ -85,9 +82,8 @@ class Verifier {
       const trajectory::Piece& piece = trajectory_.pieces()[i];
       if (!(piece.duration_s > 0.0) || !std::isfinite(piece.duration_s) ||
           !piece.position.allFinite() || !piece.heading.allFinite()) {
-        fail(trajectory_.startOf(i), sentence("a piece is not finite or has no duration",
-                                              trajectory_.startOf(i), piece.duration_s, 0.0));
-        return;
+        return fail(trajectory_.startOf(i), "a piece is not finite or has no duration",
+                    piece.duration_s, 0.0);
       }
     }
   }
@@ -99,8 +95,7 @@ class Verifier {
     const vessel::FlatPoint z = trajectory_.pieces()[piece].flat(t_in_piece);
     const double off = (z.position - boundary.flat.position).norm();
     if (off > tolerances_.position_m) {
-      fail(t, sentence((label + " position missed").c_str(), t, off, tolerances_.position_m));
-      return;
+      return fail(t, label + " position missed", off, tolerances_.position_m);
     }
     double motion = (z.velocity - boundary.flat.velocity).norm();
     if (!trajectory::atRest(boundary)) {
@@ -112,15 +107,14 @@ class Verifier {
         kDriftMps + inverse.greatestLoadAbeam() / vessel_.manoeuvring.sway_drag_kgps;
     const double most = motion_ ? drift : kEndMps;
     if (motion > most) {
-      fail(t, sentence((label + " motion missed").c_str(), t, motion, most));
-      return;
+      return fail(t, label + " motion missed", motion, most);
     }
     if (trajectory::atRest(boundary)) {
       const PieceCheck check(trajectory_.pieces()[piece], vessel_, limits_, tolerances_);
       const double psi = motion_ ? motion_->psi(t) : check.heading(t_in_piece);
       const double turn = std::abs(wrapAngle(psi - boundary.psi_rad));
       if (!(turn <= tolerances_.heading_rad)) {
-        fail(t, sentence((label + " heading missed").c_str(), t, turn, tolerances_.heading_rad));
+        fail(t, label + " heading missed", turn, tolerances_.heading_rad);
       }
     }
   }
@@ -134,7 +128,7 @@ class Verifier {
     const vessel::FlatPoint b = after.flat(0.0);
     const auto jump = [&](const char* what, const Eigen::Vector2d& off, double limit) {
       if (result_.ok && off.norm() > limit) {
-        fail(t, sentence(what, t, off.norm(), limit));
+        fail(t, what, off.norm(), limit);
       }
     };
     jump("position jumps", b.position - a.position, kJumpM);
@@ -150,14 +144,13 @@ class Verifier {
     }
     const double turn = std::abs(wrapAngle(check.heading(0.0) - heading_));
     if (!(turn <= kJumpRad)) {
-      fail(t, sentence("heading jumps", t, turn, kJumpRad));
-      return;
+      return fail(t, "heading jumps", turn, kJumpRad);
     }
     const bool spins =
         after.kind == trajectory::PieceKind::kSpin || before.kind == trajectory::PieceKind::kSpin;
     const double rate = std::abs(check.yawRate(0.0) - yaw_rate_);
     if (spins && rate > kJumpRadps) {
-      fail(t, sentence("yaw rate jumps", t, rate, kJumpRadps));
+      fail(t, "yaw rate jumps", rate, kJumpRadps);
     }
   }
 
@@ -168,9 +161,9 @@ class Verifier {
     const double turn = std::abs(after.psi_rad - before.psi_rad);
     const double rate = std::abs(after.yaw_rate_radps - before.yaw_rate_radps);
     if (!(turn <= kMeetRad)) {
-      fail(after.t_s, sentence("heading jumps", after.t_s, turn, kMeetRad));
+      fail(after.t_s, "heading jumps", turn, kMeetRad);
     } else if (trajectory_.pieces()[i].kind == trajectory::PieceKind::kSpin && rate > kMeetRadps) {
-      fail(after.t_s, sentence("yaw rate jumps", after.t_s, rate, kMeetRadps));
+      fail(after.t_s, "yaw rate jumps", rate, kMeetRadps);
     }
   }
 
@@ -225,33 +218,24 @@ class Verifier {
     const SafetyLimits& o = limits_;
     switch (r.fault) {
       case Fault::kThrust:
-        fail(t, sentence("thrust share too large", t, r.thrust_share, o.thrust_share));
-        break;
+        return fail(t, "thrust share too large", r.thrust_share, o.thrust_share);
       case Fault::kSpeed:
-        fail(t, sentence("too fast, m/s", t, r.speed_mps, o.speedMaxAt(t)));
-        break;
+        return fail(t, "too fast, m/s", r.speed_mps, o.speedMaxAt(t));
       case Fault::kYawRate:
-        fail(t, sentence("turns too fast, rad/s", t, r.yaw_rate_radps, o.yaw_rate_max_radps));
-        break;
+        return fail(t, "turns too fast, rad/s", r.yaw_rate_radps, o.yaw_rate_max_radps);
       case Fault::kHeadingUndefined:
-        fail(t, sentence("turns without a force to turn by, N", t, r.heading_force_n,
-                         leastHeadingForce(vessel_, o, tolerances_.heading_force_share)));
-        break;
+        return fail(t, "turns without a force to turn by, N", r.heading_force_n,
+                    leastHeadingForce(vessel_, o, tolerances_.heading_force_share));
       case Fault::kHeadingJump:
-        fail(t, sentence("heading swings across the course", t, 0.0, 0.0));
-        break;
+        return fail(t, "heading swings across the course", 0.0, 0.0);
       case Fault::kAstern:
-        fail(t, sentence("sails astern", t, 0.0, 0.0));
-        break;
+        return fail(t, "sails astern", 0.0, 0.0);
       case Fault::kSway:
-        fail(t, sentence("slides without a force, N", t, r.sway_n, 0.0));
-        break;
+        return fail(t, "slides without a force, N", r.sway_n, 0.0);
       case Fault::kClearance:
-        fail(t, sentence("too near an obstacle, m", t, r.clearance_m, o.clearance_m));
-        break;
+        return fail(t, "too near an obstacle, m", r.clearance_m, o.clearance_m);
       case Fault::kHull:
-        fail(t, sentence("the hull touches an obstacle", t, r.clearance_m, o.clearance_m));
-        break;
+        return fail(t, "the hull touches an obstacle", r.clearance_m, o.clearance_m);
       case Fault::kNone:
         break;
     }

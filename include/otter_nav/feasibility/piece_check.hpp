@@ -61,10 +61,10 @@ class PieceCheck {
 
  private:
   struct Point;
+  class Watch;
   [[nodiscard]] Point at(double t_s) const;
   [[nodiscard]] Point inSpin(double t_s) const;
   void checkSpin(double start_s, PieceReport& report) const;
-  void noteSpeed(double speed_mps, double time_s, PieceReport& report) const;
   // Of a piece of the kind this one is; sets the fault and, in a spin, what sets it aside.
   void checkSway(double sway_n, double allowed_n, PieceReport& report) const;
   [[nodiscard]] Eigen::Vector2d bowAt(double t_s) const;

@@ -7,7 +7,6 @@
 //              through its neighbours; on straight pieces, where |w| may vanish, exactly
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 
 #include "otter_nav/feasibility/obstacles.hpp"
