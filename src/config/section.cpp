@@ -18,16 +18,6 @@ bool inside(double value, const Range& range) {
   return std::isfinite(value) && value >= range.min && value <= range.max;
 }
 
-template <typename T>
-bool convert(const YAML::Node& node, T& value) {
-  try {
-    value = node.as<T>();
-    return true;
-  } catch (const YAML::Exception&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 Section::Section(const YAML::Node& node, std::string where)
@@ -66,49 +56,48 @@ YAML::Node Section::find(const std::string& key) {
   return std::as_const(node_)[key];
 }
 
-void Section::read(const std::string& key, double& value, Range range) {
+template <typename Value>
+std::optional<Value> Section::get(const std::string& key, YAML::NodeType::value shape,
+                                  const std::string& what) {
   const YAML::Node found = find(key);
   if (!found) {
-    fail(key, "is missing, " + describe(range));
-    return;
+    return std::nullopt;
   }
-  double read_value = 0.0;
-  if (!found.IsScalar() || !convert(found, read_value)) {
-    fail(key, "is not a number, " + describe(range));
-  } else if (!inside(read_value, range)) {
-    fail(key, "= " + found.as<std::string>() + " is outside its " + describe(range));
-  } else {
-    value = read_value;
+  try {
+    if (found.Type() == shape) {
+      return found.as<Value>();
+    }
+  } catch (const YAML::Exception&) {
   }
+  fail(key, "is not " + what);
+  return std::nullopt;
+}
+
+template <typename Number>
+void Section::readNumber(const std::string& key, const std::string& what, Number& value,
+                         Range range) {
+  const auto found = get<Number>(key, YAML::NodeType::Scalar, what + ", " + describe(range));
+  if (found && inside(*found, range)) {
+    value = *found;
+  } else if (found) {
+    fail(key, "= " + node_[key].template as<std::string>() + " is outside its " + describe(range));
+  }
+}
+
+void Section::read(const std::string& key, double& value, Range range) {
+  readNumber(key, "a number", value, range);
 }
 
 void Section::read(const std::string& key, int& value, Range range) {
-  const YAML::Node found = find(key);
-  if (!found) {
-    return;
-  }
-  int read_value = 0;
-  if (!found.IsScalar() || !convert(found, read_value)) {
-    fail(key, "is not a whole number, " + describe(range));
-  } else if (!inside(read_value, range)) {
-    fail(key, "= " + found.as<std::string>() + " is outside its " + describe(range));
-  } else {
-    value = read_value;
-  }
+  readNumber(key, "a whole number", value, range);
 }
 
 void Section::read(const std::string& key, bool& value) {
-  const YAML::Node found = find(key);
-  if (found && (!found.IsScalar() || !convert(found, value))) {
-    fail(key, "is not true or false");
-  }
+  value = get<bool>(key, YAML::NodeType::Scalar, "true or false").value_or(value);
 }
 
 void Section::read(const std::string& key, std::string& value) {
-  const YAML::Node found = find(key);
-  if (found && (!found.IsScalar() || !convert(found, value))) {
-    fail(key, "is not a text");
-  }
+  value = get<std::string>(key, YAML::NodeType::Scalar, "a text").value_or(value);
 }
 
 void Section::read(const std::string& key, std::string& value,
@@ -126,56 +115,44 @@ void Section::read(const std::string& key, std::string& value,
 
 void Section::read(const std::string& key, std::vector<double>& values, std::size_t size,
                    Range range) {
-  const YAML::Node found = find(key);
-  if (!found) {
-    return;
-  }
-  std::vector<double> read_values;
-  if (!found.IsSequence() || !convert(found, read_values) || read_values.size() != size) {
-    fail(key, "is not a list of " + std::to_string(size) + " numbers, " + describe(range));
-    return;
-  }
-  if (areInside(key, read_values, range)) {
-    values = std::move(read_values);
+  const std::string what = "a list of " + std::to_string(size) + " numbers, " + describe(range);
+  auto found = get<std::vector<double>>(key, YAML::NodeType::Sequence, what);
+  if (found && found->size() != size) {
+    fail(key, "is not " + what);
+  } else if (found && areInside(key, *found, range)) {
+    values = *std::move(found);
   }
 }
 
 void Section::read(const std::string& key, std::vector<double>& values, Range range) {
-  const YAML::Node found = find(key);
-  std::vector<double> read_values;
-  if (found && (!found.IsSequence() || !convert(found, read_values))) {
-    fail(key, "is not a list of numbers, " + describe(range));
-  } else if (found && areInside(key, read_values, range)) {
-    values = std::move(read_values);
+  auto found = get<std::vector<double>>(key, YAML::NodeType::Sequence,
+                                        "a list of numbers, " + describe(range));
+  if (found && areInside(key, *found, range)) {
+    values = *std::move(found);
   }
 }
 
 void Section::read(const std::string& key, std::vector<std::vector<double>>& rows,
                    std::size_t columns, Range range) {
-  const YAML::Node found = find(key);
+  const std::string what = "a list of lists of " + std::to_string(columns) + " numbers";
+  auto found = get<std::vector<std::vector<double>>>(key, YAML::NodeType::Sequence, what);
   if (!found) {
     return;
   }
-  std::vector<std::vector<double>> read_rows;
-  const bool lists = found.IsSequence() && convert(found, read_rows);
-  if (!lists || std::any_of(read_rows.begin(), read_rows.end(),
-                            [&](const auto& row) { return row.size() != columns; })) {
-    fail(key, "is not a list of lists of " + std::to_string(columns) + " numbers");
-    return;
-  }
-  for (const std::vector<double>& row : read_rows) {
-    if (!areInside(key, row, range)) {
-      return;
+  for (const std::vector<double>& row : *found) {
+    if (row.size() != columns) {
+      return fail(key, "is not " + what);
     }
   }
-  rows = std::move(read_rows);
+  if (std::all_of(found->begin(), found->end(),
+                  [&](const auto& row) { return areInside(key, row, range); })) {
+    rows = *std::move(found);
+  }
 }
 
 void Section::read(const std::string& key, std::vector<std::string>& values) {
-  const YAML::Node found = find(key);
-  if (found && (!found.IsSequence() || !convert(found, values))) {
-    fail(key, "is not a list of texts");
-  }
+  values = get<std::vector<std::string>>(key, YAML::NodeType::Sequence, "a list of texts")
+               .value_or(values);
 }
 
 Section Section::child(const std::string& key) {

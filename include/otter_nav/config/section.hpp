@@ -11,6 +11,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,12 @@ class Section {
 
  private:
   [[nodiscard]] YAML::Node find(const std::string& key);
+  // What is there, if it is of that shape and such a value: `what` says which.
+  template <typename Value>
+  [[nodiscard]] std::optional<Value> get(const std::string& key, YAML::NodeType::value shape,
+                                         const std::string& what);
+  template <typename Number>
+  void readNumber(const std::string& key, const std::string& what, Number& value, Range range);
   void fail(const std::string& key, const std::string& what);
   bool areInside(const std::string& key, const std::vector<double>& values, Range range);
 
