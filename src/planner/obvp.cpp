@@ -1,7 +1,5 @@
 #include "planner/obvp.hpp"
 
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "otter_nav/trajectory/polynomial/real_roots.hpp"

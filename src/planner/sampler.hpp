@@ -25,7 +25,6 @@ class Sampler {
           std::uint64_t seed);
 
   [[nodiscard]] KinoState next();
-  [[nodiscard]] int keyStates() const { return key_states_; }
 
  private:
   [[nodiscard]] KinoState keyState(int index) const;

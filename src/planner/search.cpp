@@ -135,25 +135,16 @@ int Search::steerNeighbours(const Tree& tree, const KinoState& sample, int found
 // local optimisation can make so.
 int Search::grow(Tree& tree, const KinoState& sample) {
   const int found = steerNeighbours(tree, sample, findNeighbours(tree, sample));
-  for (int i = 0; i < found; ++i) {
-    const Candidate& candidate = candidates_[static_cast<std::size_t>(i)];
+  const int repairs = options_.repair_edges ? std::min(found, kRepairsPerSample) : 0;
+  for (int i = 0; i < found + repairs; ++i) {
+    const bool repair = i >= found;
+    const Candidate& candidate = candidates_[static_cast<std::size_t>(repair ? i - found : i)];
     const KinoState& state = tree.node(candidate.node).state;
-    const auto edge = feasibleEdge(tree.from(state, sample), tree.to(state, sample),
-                                   candidate.steer, occasionOf(tree, candidate.node));
+    const auto edge = (this->*(repair ? &Search::repairedEdge : &Search::feasibleEdge))(
+        tree.from(state, sample), tree.to(state, sample), candidate.steer,
+        occasionOf(tree, candidate.node));
     if (edge) {
-      return tree.add(sample, candidate.node, *edge);
-    }
-  }
-  if (!options_.repair_edges) {
-    return kNone;
-  }
-  for (int i = 0; i < std::min(found, kRepairsPerSample); ++i) {
-    const Candidate& candidate = candidates_[static_cast<std::size_t>(i)];
-    const KinoState& state = tree.node(candidate.node).state;
-    const auto edge = repairedEdge(tree.from(state, sample), tree.to(state, sample),
-                                   candidate.steer, occasionOf(tree, candidate.node));
-    if (edge) {
-      ++counts_.repairs;
+      counts_.repairs += repair ? 1 : 0;
       return tree.add(sample, candidate.node, *edge);
     }
   }
