@@ -2,7 +2,6 @@
 // jump up to the third derivative, or the sailed way taken more slowly.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "otter_nav/trajectory/trajectory.hpp"

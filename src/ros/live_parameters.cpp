@@ -3,6 +3,7 @@
 #include <std_msgs/String.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <utility>
 

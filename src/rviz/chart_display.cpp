@@ -13,7 +13,6 @@
 
 #include <QTransform>
 
-#include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/grids.hpp"
 #include "overlay_image.hpp"
 

@@ -1,8 +1,6 @@
 #include "otter_nav/stopping/splice.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 #include <vector>
 

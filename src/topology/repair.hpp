@@ -1,7 +1,6 @@
 // The Dubins curve as a chain of samples, its colliding stretches, and the way round each.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"

@@ -20,7 +20,6 @@ class PredictiveController {
   void start(bool keep_plan);
   // Of the method `flatness`; the other keeps its own.
   void setWeights(const Weights& weights);
-  void dropPlan() { plan_valid_ = false; }
 
   // Linearises and factors for the step at `next_s`, the thrusters being at `last`.
   void prepare(double next_s, const vessel::Thrusts& last, const Navigator& navigator,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::traffic {

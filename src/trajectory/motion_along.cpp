@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"

@@ -34,10 +34,8 @@ State column(const Position& position, const Acceleration& acceleration) {
 
 OutsideLoad outsideLoad(double psi_rad, const ManoeuvringModel& model,
                         const Disturbance& disturbance) {
-  const Turned<0, double> psi(std::cos(psi_rad), std::sin(psi_rad));
-  const auto force = outsideForce(psi.cosine, psi.sine, model, disturbance);
-  return {valueOf(force.surge),  valueOf(force.sway),  valueOf(force.yaw),
-          slope<0>(force.surge), slope<0>(force.sway), slope<0>(force.yaw)};
+  const auto force = outsideForce(std::cos(psi_rad), std::sin(psi_rad), model, disturbance);
+  return {force.surge, force.sway, force.yaw};
 }
 
 State stateDerivative(const State& x, const Thrusts& thrusts, const ManoeuvringModel& model,

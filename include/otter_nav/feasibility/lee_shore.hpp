@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "otter_nav/feasibility/obstacles.hpp"
 

@@ -9,7 +9,6 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <functional>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>

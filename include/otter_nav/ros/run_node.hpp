@@ -6,7 +6,6 @@
 #include <ros/ros.h>
 #include <std_msgs/String.h>
 
-#include <memory>
 #include <optional>
 #include <type_traits>
 #include <vector>

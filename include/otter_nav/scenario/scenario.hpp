@@ -11,7 +11,6 @@
 // and with `ais: false` keeps silent.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,8 +2,6 @@
 // trajectory does.
 #pragma once
 
-#include <Eigen/Core>
-
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/motion_law.hpp"

@@ -3,7 +3,6 @@
 // with assertions; it serves as the tests' cross-check.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 
 #include "otter_nav/vessel/pose.hpp"

@@ -2,8 +2,6 @@
 // what nobody need set, is constants beside what they rule.
 #pragma once
 
-#include <string>
-
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/tracker/limits.hpp"
 

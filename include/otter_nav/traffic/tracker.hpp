@@ -15,7 +15,6 @@
 
 #include "otter_nav/ais/local_frame.hpp"
 #include "otter_nav/base/result.hpp"
-#include "otter_nav/config/section.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
 #include "otter_nav/traffic/track.hpp"
 #include "otter_nav/vessel/parameters.hpp"

@@ -7,15 +7,12 @@
 
 namespace otter_nav::vessel {
 
-// What `disturbance` pushes with on heading psi, body frame, and how that changes with psi (the
-// current apart: it acts through the drag).
+// What `disturbance` pushes with on heading psi, body frame (the current apart: it acts through the
+// drag).
 struct OutsideLoad {
   double surge_n = 0.0;
   double sway_n = 0.0;
   double yaw_nm = 0.0;
-  double surge_slope_n = 0.0;  // per rad
-  double sway_slope_n = 0.0;
-  double yaw_slope_nm = 0.0;
 };
 [[nodiscard]] OutsideLoad outsideLoad(double psi_rad, const ManoeuvringModel& model,
                                       const Disturbance& disturbance);

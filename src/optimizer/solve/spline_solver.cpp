@@ -1,7 +1,6 @@
 #include "optimizer/solve/spline_solver.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace otter_nav::optimizer {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::trajectory {
 namespace {
 

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include "otter_nav/base/planar.hpp"
 #include "otter_nav/trajectory/piece.hpp"
 
 namespace otter_nav::trajectory {
