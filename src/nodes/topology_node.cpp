@@ -32,11 +32,8 @@ using Level = ros_bridge::Diagnostics::Level;
 constexpr int kQueue = 50;
 constexpr std::chrono::seconds kMapPatience{1};
 
-Result<topology::Pose> toPose(const geometry_msgs::PoseStamped& message, const char* what) {
+Result<vessel::Pose> toPose(const geometry_msgs::PoseStamped& message, const char* what) {
   return ros_bridge::planarPose(message, ros_bridge::frames().map)
-      .map([](const vessel::Pose& pose) {
-        return topology::Pose{pose.position, pose.psi_rad};
-      })
       .map_error([&](const Error& error) { return Error{what + (": " + error.message)}; });
 }
 
@@ -135,11 +132,11 @@ bool TopologyNode::onRequest(FindGuidePath::Request& request, FindGuidePath::Res
 }
 
 Result<topology::GuidePath> TopologyNode::find(const FindGuidePath::Request& request) {
-  const Result<topology::Pose> start = toPose(request.start, "start");
+  const Result<vessel::Pose> start = toPose(request.start, "start");
   if (!start) {
     return failure(start.error().message);
   }
-  const Result<topology::Pose> goal = toPose(request.goal, "goal");
+  const Result<vessel::Pose> goal = toPose(request.goal, "goal");
   if (!goal) {
     return failure(goal.error().message);
   }
