@@ -4,10 +4,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "bits.hpp"
 #include "layout.hpp"
+#include "otter_nav/base/text.hpp"
 
 namespace otter_nav::ais {
 namespace {
@@ -97,9 +97,8 @@ Result<Sentence> parse(std::string_view text) {
   const std::optional<int> sum = wholeNumber(text.substr(star + 1), 16);
   const std::string_view body = text.substr(1, star - 1);
   if (!sum || static_cast<unsigned>(*sum) != checksumOf(body)) {
-    char right[8];
-    std::snprintf(right, sizeof(right), "%02X", checksumOf(body));
-    return failure("checksum is '" + std::string(text.substr(star + 1)) + "', not " + right);
+    return failure("checksum is '" + std::string(text.substr(star + 1)) +
+                   otter_nav::text("', not %02X", checksumOf(body)));
   }
   std::array<std::string_view, 7> fields;
   std::size_t count = 0;
@@ -166,9 +165,7 @@ Result<std::vector<std::string>> encode(const Message& message, char channel, in
                        (parts > 1 ? std::to_string(sequence) : "") + "," + channel + "," +
                        payload.substr(part * kLettersPerSentence, kLettersPerSentence) + "," +
                        std::to_string(part + 1 == parts ? fill : 0);
-    char sum[8];
-    std::snprintf(sum, sizeof(sum), "*%02X", checksumOf(body));
-    sentences.push_back("!" + body + sum);
+    sentences.push_back("!" + body + text("*%02X", checksumOf(body)));
   }
   return sentences;
 }

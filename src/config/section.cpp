@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
+
+#include "otter_nav/base/text.hpp"
 
 namespace otter_nav::config {
 namespace {
 
 std::string describe(const Range& range) {
-  std::ostringstream out;
-  out << "allowed range [" << range.min << ", " << range.max << "]";
-  return out.str();
+  return text("allowed range [%g, %g]", range.min, range.max);
 }
 
 bool inside(double value, const Range& range) {

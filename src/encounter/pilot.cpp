@@ -1,9 +1,7 @@
 #include "otter_nav/encounter/pilot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <deque>
 #include <functional>
 #include <iterator>
@@ -13,6 +11,7 @@
 #include "encounter/manoeuvre.hpp"
 #include "encounter/prospect.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 
 namespace otter_nav::encounter {
@@ -155,14 +154,11 @@ Course along(const trajectory::TimedTrajectory& sailed, double from_s, double ze
 }  // namespace
 
 std::string describe(const Encounter& e) {
-  std::array<char, 240> text{};
-  std::snprintf(text.data(), text.size(),
-                "vessel %d: %s (rule %s), since %.0f s, when she bore %.0f deg and saw us at %.0f "
-                "deg; %.0f m off, nearest %.0f m in %.0f s%s",
-                e.id, name(e.role), rule(e.role), e.since_s, e.bearing_rad / kDegree,
-                e.aspect_rad / kDegree, e.range_m, e.approach.distance_m, e.approach.time_s,
-                e.acted ? ", acted" : "");
-  return text.data();
+  return text(
+      "vessel %d: %s (rule %s), since %.0f s, when she bore %.0f deg and saw us at %.0f "
+      "deg; %.0f m off, nearest %.0f m in %.0f s%s",
+      e.id, name(e.role), rule(e.role), e.since_s, e.bearing_rad / kDegree, e.aspect_rad / kDegree,
+      e.range_m, e.approach.distance_m, e.approach.time_s, e.acted ? ", acted" : "");
 }
 
 class Pilot::Impl {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/feasibility/piece_check.hpp"
 #include "otter_nav/trajectory/motion_along.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
@@ -70,11 +70,9 @@ class Verifier {
 
  private:
   void fail(double t_s, const std::string& what, double value, double limit) {
-    char numbers[96];
-    std::snprintf(numbers, sizeof numbers, " at %.2f s: %.3f (limit %.3f)", t_s, value, limit);
     result_.ok = false;
     result_.fault_s = t_s;
-    result_.reason = what + numbers;
+    result_.reason = what + text(" at %.2f s: %.3f (limit %.3f)", t_s, value, limit);
   }
 
   void checkFinite() {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/text.hpp"
 #include "thrust_history.hpp"
 
 namespace otter_nav::identification {
@@ -18,10 +17,7 @@ constexpr std::array<const char*, vessel::kInputSize> kThrustNames = {"f_left", 
 
 // "/odom, message 12 (stamp 1.1 s)" or "run.csv, row 12 (stamp 1.1 s)".
 std::string place(const std::string& stream, const char* unit, std::size_t number, double stamp_s) {
-  std::ostringstream out;
-  out.precision(15);
-  out << stream << ", " << unit << ' ' << number << " (stamp " << stamp_s << " s)";
-  return out.str();
+  return text("%s, %s %zu (stamp %.15g s)", stream.c_str(), unit, number, stamp_s);
 }
 
 // A record that is sent again, stamp and values alike, does no harm.
@@ -188,14 +184,12 @@ double usableDuration(const DataSet& data) {
 }  // namespace
 
 std::string describe(const std::vector<Holes>& holes) {
-  std::ostringstream out;
-  out << std::fixed;
+  std::string all;
   for (const Holes& h : holes) {
-    out << "\nholes in " << h.stream << ": " << h.count << ", " << std::setprecision(2)
-        << h.missing_s << " s are missing; the longest from " << std::setprecision(3)
-        << h.longest_from_s << " s to " << h.longest_to_s << " s";
+    all += text("\nholes in %s: %d, %.2f s are missing; the longest from %.3f s to %.3f s",
+                h.stream.c_str(), h.count, h.missing_s, h.longest_from_s, h.longest_to_s);
   }
-  return out.str();
+  return all;
 }
 
 Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
@@ -219,11 +213,11 @@ Result<DataSet> assemble(const Recording& recording, const DataOptions& options,
   }
   const double duration_s = usableDuration(data);
   if (duration_s < options.min_duration_s) {
-    std::ostringstream out;
-    out << "the recording is too short: " << recording.odometry_name << " and "
-        << recording.command_name << " overlap for " << duration_s << " s, at least "
-        << options.min_duration_s << " s are needed";
-    return failure(out.str() + describe(data.holes));
+    return failure(
+        "the recording is too short: " + recording.odometry_name + " and " +
+        recording.command_name +
+        text(" overlap for %g s, at least %g s are needed", duration_s, options.min_duration_s) +
+        describe(data.holes));
   }
   return data;
 }

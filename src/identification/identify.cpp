@@ -1,11 +1,10 @@
 #include "otter_nav/identification/identify.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "problem.hpp"
 #include "regression.hpp"
@@ -82,9 +81,7 @@ Eigen::VectorXd betterStart(const Problem& problem, const Eigen::VectorXd& a,
 
 // Digits beyond the standard errors say nothing, and hide that two runs found the same.
 double rounded(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return std::strtod(text.data(), nullptr);
+  return std::strtod(text("%.6g", value).c_str(), nullptr);
 }
 
 // The barrier keeps a solution a hair's breadth off a bound.

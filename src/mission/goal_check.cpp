@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "text.hpp"
+#include "otter_nav/base/text.hpp"
 
 namespace otter_nav::mission {
 

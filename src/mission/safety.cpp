@@ -5,9 +5,9 @@
 #include <iterator>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
-#include "text.hpp"
 
 namespace otter_nav::mission {
 namespace {

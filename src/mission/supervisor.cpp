@@ -8,6 +8,7 @@
 
 #include "goal_check.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
@@ -17,7 +18,6 @@
 #include "otter_nav/vessel/thrusters.hpp"
 #include "plan_requests.hpp"
 #include "retry_budget.hpp"
-#include "text.hpp"
 
 namespace otter_nav::mission {
 namespace {

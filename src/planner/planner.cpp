@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "otter_nav/feasibility/lee_shore.hpp"
@@ -37,34 +36,6 @@ constexpr int kPatience = 3;
 constexpr double kPatienceShare = 0.3;
 constexpr double kNearM = 0.3;    // a goal nearer than this needs no search
 constexpr int kTrySamples = 150;  // what one more try may draw, and any try counts for
-
-std::string describe(const Eigen::Vector2d& p) {
-  std::ostringstream text;
-  text.precision(5);
-  text << "(" << p.x() << ", " << p.y() << ") m";
-  return text.str();
-}
-
-// Why a vessel can't begin or end there, or nothing.
-std::string blocked(const feasibility::Obstacles& obstacles, const trajectory::Boundary& end,
-                    double clearance_m) {
-  const Eigen::Vector2d& p = end.flat.position;
-  if (!p.allFinite() || !std::isfinite(end.psi_rad)) {
-    return "is not a finite pose";
-  }
-  if (!obstacles.field().geometry().contains(p)) {
-    return describe(p) + " is outside the map";
-  }
-  const double clearance = obstacles.field().clearance(p);
-  if (clearance < clearance_m) {
-    std::ostringstream text;
-    text.precision(3);
-    text << describe(p) << " is " << clearance << " m from an obstacle, " << clearance_m
-         << " m are asked for";
-    return text.str();
-  }
-  return "";
-}
 
 double costOf(const trajectory::Trajectory& trajectory, double sigma) {
   double cost = 0.0;
@@ -299,18 +270,17 @@ class Planner::Pipeline {
   enum class Roots { kAtEnds, kLaunched };
 
   static bool checkEnds(Run& run) {
-    const double clearance = run.query.limits.clearance_m;
-    if (const std::string why = blocked(run.obstacles, run.query.start, clearance); !why.empty()) {
-      run.plan.outcome = Outcome::kStartBlocked;
-      run.plan.reason = "the start " + why;
-      return false;
-    }
-    if (const std::string why = blocked(run.obstacles, run.query.goal, clearance); !why.empty()) {
-      run.plan.outcome = Outcome::kGoalBlocked;
-      run.plan.reason = "the goal " + why;
-      return false;
-    }
-    return true;
+    const auto passes = [&run](const trajectory::Boundary& end, const char* name, Outcome outcome) {
+      const std::string why = topology::whyBlocked(
+          run.obstacles.field(), {end.flat.position, end.psi_rad}, run.query.limits.clearance_m);
+      if (!why.empty()) {
+        run.plan.outcome = outcome;
+        run.plan.reason = name + why;
+      }
+      return why.empty();
+    };
+    return passes(run.query.start, "the start ", Outcome::kStartBlocked) &&
+           passes(run.query.goal, "the goal ", Outcome::kGoalBlocked);
   }
 
   // A goal within reach of the hull: straight there, turning on the spot.

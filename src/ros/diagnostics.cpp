@@ -3,8 +3,9 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
+
+#include "otter_nav/base/text.hpp"
 
 namespace otter_nav::ros_bridge {
 namespace {
@@ -44,9 +45,7 @@ void Diagnostics::setValue(const std::string& key, std::string value) {
 }
 
 void Diagnostics::setValue(const std::string& key, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  values_[key] = text;
+  values_[key] = text("%.4g", value);
 }
 
 void Diagnostics::received(const std::string& topic) {

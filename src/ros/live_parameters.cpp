@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/ros/parameters.hpp"
 
 namespace otter_nav::ros_bridge {
@@ -205,9 +206,7 @@ void LiveParameters::change(const std::vector<Change>& changes) {
       continue;
     }
     *value = XmlRpcValue(one.value);
-    std::ostringstream text;
-    text << (told.empty() ? "" : ", ") << one.path << ": " << one.value;
-    told += text.str();
+    told += (told.empty() ? "" : ", ") + one.path + text(": %g", one.value);
   }
   if (told.empty()) {
     return;

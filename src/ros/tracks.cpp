@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 
@@ -49,9 +50,7 @@ Marker nameMarker(const traffic::Track& track, const ros::Time& stamp) {
   marker.points.clear();
   marker.pose.position = toPoint(track.position, 3.0);
   marker.scale.z = 2.0;
-  char text[64];
-  std::snprintf(text, sizeof(text), "%d  %.1f m/s", track.id, track.velocity.norm());
-  marker.text = text;
+  marker.text = text("%d  %.1f m/s", track.id, track.velocity.norm());
   return marker;
 }
 

@@ -1,10 +1,11 @@
 #include "otter_nav/scenario/report.hpp"
 
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
+
+#include "otter_nav/base/text.hpp"
 
 namespace otter_nav::scenario {
 
@@ -76,13 +77,10 @@ Result<TrackWriter> TrackWriter::open(const std::string& path) {
 void TrackWriter::write(const MotionSample& sample) {
   const vessel::State& x = sample.state;
   const Eigen::Vector3d reference = sample.reference.value_or(x.head<3>());
-  char line[320];
-  std::snprintf(line, sizeof(line),
-                "%.3f,%.4f,%.4f,%.5f,%.4f,%.4f,%.5f,%.5f,%.5f,%.3f,%.3f,%.4f,%.4f,%.5f\n",
+  file_ << text("%.3f,%.4f,%.4f,%.5f,%.4f,%.4f,%.5f,%.5f,%.5f,%.3f,%.3f,%.4f,%.4f,%.5f\n",
                 sample.t_s, x[0], x[1], x[2], x[3], x[4], x[5], sample.roll_rad, sample.pitch_rad,
                 sample.thrusts_n[vessel::kLeft], sample.thrusts_n[vessel::kRight], reference.x(),
                 reference.y(), reference.z());
-  file_ << line;
 }
 
 Status TrackWriter::close() {
@@ -106,11 +104,8 @@ Result<VesselsWriter> VesselsWriter::open(const std::string& path) {
 }
 
 void VesselsWriter::write(double t_s, int id, const vessel::ScriptedMotion& motion) {
-  char line[160];
-  std::snprintf(line, sizeof(line), "%.3f,%d,%.4f,%.4f,%.5f,%.4f\n", t_s, id,
-                motion.pose.position.x(), motion.pose.position.y(), motion.pose.psi_rad,
-                motion.speed_mps);
-  file_ << line;
+  file_ << text("%.3f,%d,%.4f,%.4f,%.5f,%.4f\n", t_s, id, motion.pose.position.x(),
+                motion.pose.position.y(), motion.pose.psi_rad, motion.speed_mps);
 }
 
 Status VesselsWriter::close() {
@@ -122,12 +117,10 @@ Status VesselsWriter::close() {
 }
 
 std::string progressText(const Progress& progress) {
-  char text[192];
-  std::snprintf(text, sizeof(text),
-                "t %5.1f s  left %5.1f m  speed %4.2f m/s  clearance %5.2f m  error %4.2f m  ",
-                progress.t_s, progress.distance_left_m, progress.speed_mps, progress.clearance_m,
-                progress.tracking_error_m);
-  return text + progress.state + (progress.detail.empty() ? "" : ": " + progress.detail);
+  return text("t %5.1f s  left %5.1f m  speed %4.2f m/s  clearance %5.2f m  error %4.2f m  ",
+              progress.t_s, progress.distance_left_m, progress.speed_mps, progress.clearance_m,
+              progress.tracking_error_m) +
+         progress.state + (progress.detail.empty() ? "" : ": " + progress.detail);
 }
 
 std::string summaryText(const MissionResult& result) {
@@ -136,15 +129,14 @@ std::string summaryText(const MissionResult& result) {
                            label.vessel + ", disturbance " + label.disturbance + ", seed " +
                            std::to_string(label.seed) + ": " + name(result.outcome) +
                            (result.reason.empty() ? "" : ": " + result.reason) + "\n";
-  char text[384];
-  std::snprintf(text, sizeof(text),
-                "  %.1f s, %.1f m sailed, hull never nearer than %.2f m to anything\n"
-                "  tracking error %.3f m mean, %.3f m at most; %d replans\n"
-                "  planning %.1f ms median, %.1f ms at most; tracker %.3f ms (99th percentile)\n",
-                result.duration_s, result.distance_m, result.min_clearance_m,
-                result.tracking_error_mean_m, result.tracking_error_max_m, result.replans,
-                result.planning_ms_median, result.planning_ms_max, result.tracker_ms_p99);
-  return head + text;
+  return head +
+         text(
+             "  %.1f s, %.1f m sailed, hull never nearer than %.2f m to anything\n"
+             "  tracking error %.3f m mean, %.3f m at most; %d replans\n"
+             "  planning %.1f ms median, %.1f ms at most; tracker %.3f ms (99th percentile)\n",
+             result.duration_s, result.distance_m, result.min_clearance_m,
+             result.tracking_error_mean_m, result.tracking_error_max_m, result.replans,
+             result.planning_ms_median, result.planning_ms_max, result.tracker_ms_p99);
 }
 
 }  // namespace otter_nav::scenario

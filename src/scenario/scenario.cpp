@@ -1,11 +1,11 @@
 #include "otter_nav/scenario/scenario.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <utility>
 
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/map/chart.hpp"
 
@@ -94,21 +94,16 @@ Status readVessels(const YAML::Node& list, const std::string& path,
 
 std::string vesselText(const vessel::ScriptedVessel& vessel) {
   std::string waypoints;
-  char text[64];
   for (const Eigen::Vector2d& p : vessel.waypoints) {
-    std::snprintf(text, sizeof(text), "%s[%.2f, %.2f]", waypoints.empty() ? "" : ", ", p.x(),
-                  p.y());
-    waypoints += text;
+    waypoints += text("%s[%.2f, %.2f]", waypoints.empty() ? "" : ", ", p.x(), p.y());
   }
   std::string speeds;
   for (const double speed : vessel.speeds_mps) {
-    std::snprintf(text, sizeof(text), "%s%.3f", speeds.empty() ? "" : ", ", speed);
-    speeds += text;
+    speeds += text("%s%.3f", speeds.empty() ? "" : ", ", speed);
   }
-  std::snprintf(text, sizeof(text), "{id: %d, length_m: %.2f, beam_m: %.2f, ", vessel.id,
-                vessel.hull.length_m, vessel.hull.beam_m);
-  return text + std::string(vessel.ais ? "" : "ais: false, ") + "waypoints: [" + waypoints +
-         "], speeds_mps: [" + speeds + "]}";
+  return text("{id: %d, length_m: %.2f, beam_m: %.2f, %swaypoints: [%s], speeds_mps: [%s]}",
+              vessel.id, vessel.hull.length_m, vessel.hull.beam_m, vessel.ais ? "" : "ais: false, ",
+              waypoints.c_str(), speeds.c_str());
 }
 
 Result<std::string> besideFile(const std::string& path, const std::string& key,
@@ -121,10 +116,7 @@ Result<std::string> besideFile(const std::string& path, const std::string& key,
 }
 
 std::string poseText(const vessel::Pose& pose) {
-  char text[96];
-  std::snprintf(text, sizeof(text), "[%.2f, %.2f, %.4f]", pose.position.x(), pose.position.y(),
-                pose.psi_rad);
-  return text;
+  return text("[%.2f, %.2f, %.4f]", pose.position.x(), pose.position.y(), pose.psi_rad);
 }
 
 }  // namespace

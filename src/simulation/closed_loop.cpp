@@ -1,9 +1,9 @@
 #include "otter_nav/simulation/closed_loop.hpp"
 
 #include <chrono>
-#include <cstdio>
 #include <utility>
 
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "simulation/sensing.hpp"
 
@@ -143,10 +143,8 @@ std::string ClosedLoop::touched() const {
   if (!vessel) {
     return "something";
   }
-  char text[64];
-  std::snprintf(text, sizeof(text), "vessel %d at %.2f m/s of our own", *vessel,
-                plant_.truth().planar.segment<2>(vessel::kSurge).norm());
-  return text;
+  return text("vessel %d at %.2f m/s of our own", *vessel,
+              plant_.truth().planar.segment<2>(vessel::kSurge).norm());
 }
 
 void ClosedLoop::carryOut(const mission::Orders& orders) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/plant/hull_contact.hpp"
 #include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/rest.hpp"
@@ -16,9 +16,7 @@ using mission::Phase;
 using trajectory::TimedTrajectory;
 
 std::string at(const char* what, const Eigen::Vector2d& p) {
-  char text[96];
-  std::snprintf(text, sizeof(text), "%s at (%.2f m, %.2f m)", what, p.x(), p.y());
-  return text;
+  return text("%s at (%.2f m, %.2f m)", what, p.x(), p.y());
 }
 
 }  // namespace
@@ -152,9 +150,7 @@ void Monitor::watch(const ClosedLoop& loop) {
   if (!fault.empty()) {
     ++result_.violations;
     if (result_.first.empty()) {
-      char text[32];
-      std::snprintf(text, sizeof(text), "%.2f s: ", now.t_s);
-      result_.first = text + fault;
+      result_.first = text("%.2f s: ", now.t_s) + fault;
     }
   }
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "otter_nav/base/text.hpp"
 #include "topology/flood.hpp"
 #include "topology/lattice_search.hpp"
 #include "topology/repair.hpp"
@@ -32,30 +32,7 @@ constexpr int kMaxRepairs = 2;       // with more colliding stretches the whole 
 constexpr double kGoodRatio = 1.01;  // a repaired path this close to the straight is not improved
 
 std::string describe(const Eigen::Vector2d& p) {
-  std::ostringstream out;
-  out << '(' << p.x() << ", " << p.y() << ')';
-  return out.str();
-}
-
-// Why a vessel cannot be there, or nothing.
-std::string whyBlocked(const map::DistanceField& field, const Pose& pose, double clearance_m) {
-  if (!pose.position.allFinite() || !std::isfinite(pose.psi_rad)) {
-    return "is not a number";
-  }
-  if (!field.geometry().contains(pose.position)) {
-    return describe(pose.position) + " is outside the map";
-  }
-  if (field.isClear(pose.position, clearance_m)) {
-    return "";
-  }
-  const double clearance = field.clearance(pose.position);
-  if (clearance == 0.0) {
-    return describe(pose.position) + " is inside an obstacle";
-  }
-  std::ostringstream out;
-  out << describe(pose.position) << " is " << clearance << " m from an obstacle, " << clearance_m
-      << " m are needed";
-  return out.str();
+  return text("(%g, %g)", p.x(), p.y());
 }
 
 LatticeQuery wholeMap(const map::DistanceField& field, const Options& options, double clearance_m,
@@ -75,6 +52,24 @@ LatticeQuery wholeMap(const map::DistanceField& field, const Options& options, d
 }
 
 }  // namespace
+
+std::string whyBlocked(const map::DistanceField& field, const Pose& pose, double clearance_m) {
+  if (!pose.position.allFinite() || !std::isfinite(pose.psi_rad)) {
+    return "is not a number";
+  }
+  if (!field.geometry().contains(pose.position)) {
+    return describe(pose.position) + " is outside the map";
+  }
+  if (field.isClear(pose.position, clearance_m)) {
+    return "";
+  }
+  const double clearance = field.clearance(pose.position);
+  if (clearance == 0.0) {
+    return describe(pose.position) + " is inside an obstacle";
+  }
+  return describe(pose.position) +
+         text(" is %g m from an obstacle, %g m are needed", clearance, clearance_m);
+}
 
 GuidePathFinder::GuidePathFinder(const Options& options)
     : options_(options), workspace_(std::make_unique<Workspace>()) {}

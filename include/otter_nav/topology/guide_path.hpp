@@ -46,6 +46,10 @@ struct GuidePath {
   bool repaired_dubins = true;
 };
 
+// Why a vessel can't be there, in words that follow its name; empty: it can.
+[[nodiscard]] std::string whyBlocked(const map::DistanceField& field, const Pose& pose,
+                                     double clearance_m);
+
 enum class Failure { kStartBlocked, kGoalBlocked, kNoPath };
 struct FindError {
   Failure failure;
