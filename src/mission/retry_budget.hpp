@@ -34,6 +34,8 @@ class RetryBudget {
     newRounds(now_s);
     return true;
   }
+  // A part of the way was sailed as planned: all rounds are to be had again from there.
+  void wayMade(double now_s) { newRounds(now_s); }
   void pause(double now_s) {
     constexpr double kPauseS = 0.5;
     not_before_s_ = now_s + kPauseS;

@@ -519,6 +519,7 @@ class Supervisor::Impl {
     plans_.drop();
     if (planned_left_m_ > 0.0 && planned_left_m_ < nearest_left_m_ - kNearerM) {
       nearest_left_m_ = planned_left_m_;  // as far as it was planned: no stop that counts
+      retries_.wayMade(m.now_s);
       safety().tryWidest();
       return enter(Phase::kStopped, text("%.0f m of the way are to be planned", planned_left_m_));
     }

@@ -290,5 +290,44 @@ TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {
   EXPECT_TRUE(m.update(0.1).plan);
 }
 
+// The last request before the mission would give up is answered with a part of the way.
+TEST(Supervisor, HasAllRoundsAgainAfterAPartOfTheWay) {
+  ScriptedMission m;
+  m.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const std::size_t levels = m.options.side_clearances_m.size();
+  const std::size_t most = levels * static_cast<std::size_t>(m.options.rounds_from_rest);
+  std::optional<PlanRequest> asked = m.goTo({40.0, 0.0})->plan;
+  const auto next = [&] {
+    asked.reset();
+    for (int k = 0; k < 100 && !asked && m.supervisor.phase() != Phase::kFailed; ++k) {
+      asked = m.update(0.1).plan;
+    }
+  };
+  for (std::size_t k = 1; k < most; ++k) {
+    ASSERT_TRUE(asked);
+    (void)m.refuse(*asked, "none");
+    next();
+  }
+  ASSERT_TRUE(asked);
+  planner::Plan plan;
+  plan.outcome = planner::Outcome::kSolved;
+  plan.trajectory = eastward({-40.0, 0.0}, 40.0, 4.0);
+  plan.left_m = 40.0;
+  ASSERT_TRUE(
+      m.supervisor.planFinished(m.now_s, asked->id, plan, m.situation(), m.obstacles()).sail);
+  for (int k = 0; k < 400 && m.supervisor.phase() != Phase::kStopped; ++k) {
+    if (const Orders later = m.update(0.1); later.plan) {
+      (void)m.refuse(*later.plan, "none");
+    }
+  }
+  ASSERT_EQ(m.supervisor.phase(), Phase::kStopped);
+  for (std::size_t k = 0; k < levels; ++k) {
+    next();
+    ASSERT_TRUE(asked);
+    (void)m.refuse(*asked, "none");
+  }
+  EXPECT_NE(m.supervisor.phase(), Phase::kFailed);
+}
+
 }  // namespace
 }  // namespace otter_nav::mission
