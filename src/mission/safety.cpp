@@ -88,14 +88,18 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   limits.limitSpeed(options_.speed_max_mps);
   limits.speed_max_mps *= slowShare();
   // Where it wanders by most of the room it has, a slower plan leaves thrust to keep it on its way.
-  if (!restsInLoad() && wander_.reach() > kMostOfRoom * beside) {
+  if (!plansWithWeather() && wander_.reach() > kMostOfRoom * beside) {
     limits.speed_max_mps *= kSlower;
   }
   return limits;
 }
 
-bool Safety::plansWithWeather() const {
+bool Safety::mayPlanWithWeather() const {
   return options_.plan_with_weather && !vessel_.manoeuvring.feelsWind();
+}
+
+bool Safety::plansWithWeather() const {
+  return mayPlanWithWeather() && weather_.isKnown() && vessel::isFirmLoad(vessel_, weather_.mean());
 }
 
 vessel::Disturbance Safety::planDisturbance() const {
@@ -127,7 +131,7 @@ bool Safety::plansBlind() const {
 
 double Safety::slowShare() const {
   constexpr double kLeast = 0.5;  // slower still, the hull hardly answers
-  if (restsInLoad()) {
+  if (plansWithWeather()) {
     return 1.0;  // slower, it would be carried by what pushes, and hold no heading
   }
   return std::max(kLeast, std::pow(0.5, times_refused_));
@@ -135,17 +139,13 @@ double Safety::slowShare() const {
 
 double Safety::restHeading(double psi_rad) const {
   const vessel::ManoeuvringModel& model = vessel_.manoeuvring;
-  return !restsInLoad() && vessel::canLie(model, weather_.mean(), psi_rad)
+  return !plansWithWeather() && vessel::canLie(model, weather_.mean(), psi_rad)
              ? psi_rad
              : wrapAngle(vessel::headingIntoLoad(model, weather_.mean(), psi_rad));
 }
 
-bool Safety::restsInLoad() const {
-  return plansWithWeather() && weather_.isKnown() && vessel::isFirmLoad(vessel_, weather_.mean());
-}
-
 double Safety::turnIntoLoad(double psi_rad) const {
-  return restsInLoad() ? wrapAngle(restHeading(psi_rad) - psi_rad) : 0.0;
+  return plansWithWeather() ? wrapAngle(restHeading(psi_rad) - psi_rad) : 0.0;
 }
 
 // Bow to it, the gusts' force must not exceed the thrust; and on the way from one heading to

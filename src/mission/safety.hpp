@@ -89,11 +89,11 @@ class Safety {
 
   // A goal's heading, or where that can't be held the one into what wind and current push with.
   [[nodiscard]] double restHeading(double psi_rad) const;
-  // Loads that turn with the heading leave no plan in a fresh wind (docs/weather.md): those plans
-  // are made for still water.
+  // Whether plans are made with the weather where that is a firm load. One that turns with the
+  // heading leaves no plan in a fresh wind (docs/weather.md).
+  [[nodiscard]] bool mayPlanWithWeather() const;
+  // And it is: plans begin and end bow to it. In a light load those for still water do better.
   [[nodiscard]] bool plansWithWeather() const;
-  // Whether plans begin and end bow to it.
-  [[nodiscard]] bool restsInLoad() const;
   // From `psi_rad` to the heading that a plan from rest begins on; 0 in a light load.
   [[nodiscard]] double turnIntoLoad(double psi_rad) const;
   // Why no leg can be sailed nor a spot be held in this weather; empty if that's not so.

@@ -187,7 +187,7 @@ class Supervisor::Impl {
   bool mustWait(const Moment& m) { return plans_.waits() || retries_.pauses(m.now_s); }
   // The tracker has just begun to estimate it.
   bool doesNotKnowTheWeather(const Moment& /*m*/) {
-    return !weather().isKnown() || (safety().plansWithWeather() && weather().rises());
+    return !weather().isKnown() || (safety().mayPlanWithWeather() && weather().rises());
   }
 
   // Or so near the edge that no plan starts there: it counts as occupied.
@@ -272,7 +272,7 @@ class Supervisor::Impl {
   // Broadside to where it should point and carried off.
   bool hasLostItsHeading(const Moment& m) {
     // Crabbing in a firm load the bow is far off the course anyhow.
-    const double lost_rad = safety().restsInLoad() ? 1.2 : 0.8;
+    const double lost_rad = safety().plansWithWeather() ? 1.2 : 0.8;
     constexpr double kFirmShare = 0.25;  // of the thrust; with less the path wants no heading
     const trajectory::Sample wanted =
         sailed_.trajectory.sample(sailed_.elapsed(m.now_s), vessel_, planned_disturbance_);
@@ -348,7 +348,7 @@ class Supervisor::Impl {
     constexpr double kStillRadps = 0.25;
     const vessel::State& x = m.situation.state;
     const bool still = speedOf(x) < kStillMps && std::abs(x[vessel::kYawRate]) < kStillRadps;
-    if (!safety().restsInLoad() ||
+    if (!safety().plansWithWeather() ||
         (still && std::abs(safety().turnIntoLoad(x[vessel::kPsi])) < kIntoLoadRad)) {
       across_since_s_.reset();
       return false;

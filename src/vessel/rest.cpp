@@ -44,7 +44,7 @@ double headingIntoLoad(const ManoeuvringModel& model, const Disturbance& disturb
 }
 
 bool isFirmLoad(const Parameters& vessel, const Disturbance& disturbance) {
-  constexpr double kFirmShare = 0.07;  // of both thrusters' force
+  constexpr double kFirmShare = 0.09;  // of both thrusters' force
   const ManoeuvringModel& model = vessel.manoeuvring;
   const bool turns = model.feelsWind() && !disturbance.wind_mps.isZero(0.0);
   return !turns && surgeAtRest(model, disturbance, headingIntoLoad(model, disturbance, 0.0)) >

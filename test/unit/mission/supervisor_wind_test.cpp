@@ -149,7 +149,7 @@ TEST(SupervisorInWind, WaitsAMomentMoreInAFreshWind) {
   mission.supervisor = Supervisor(mission.options, vessel::Parameters{}, 1);
   mission.rest[vessel::kPsi] = kPi;
   ASSERT_TRUE(mission.goTo({20.0, 0.0}).has_value());
-  const Force rising = [](double t) { return Vector2d(std::min(7.0 * t, 21.0), 0.0); };
+  const Force rising = [](double t) { return Vector2d(std::min(14.0 * t, 42.0), 0.0); };
   EXPECT_TRUE(blow(mission, 2.5, rising).plans.empty());
   const Blown blown = blow(mission, 1.5, rising);
   ASSERT_FALSE(blown.plans.empty());

@@ -47,14 +47,14 @@ TEST(Rest, LiesOnHeadingsAlongTheLoadAndOnAnyInCalmWater) {
   EXPECT_FALSE(canLie(windy(), gale, kPi - 0.7));
 }
 
-// 7 % of both thrusters; a wind whose loads turn with the hull is no such load.
+// 9 % of both thrusters; a wind whose loads turn with the hull is no such load.
 TEST(Rest, ALoadIsFirmThatGivesPathsAHeading) {
   Parameters vessel;
   vessel.thrusters.ahead_max_n = 100.0;
   Disturbance push;
-  push.force_n = {0.0, 13.0};
+  push.force_n = {0.0, 17.0};
   EXPECT_FALSE(isFirmLoad(vessel, push));
-  push.force_n = {0.0, 15.0};
+  push.force_n = {0.0, 19.0};
   EXPECT_TRUE(isFirmLoad(vessel, push));
   vessel.manoeuvring = windy();
   EXPECT_TRUE(isFirmLoad(vessel, push));
