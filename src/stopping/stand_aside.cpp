@@ -16,7 +16,7 @@ using trajectory::Trajectory;
 constexpr double kAheadS = 8.0;  // how far ahead is looked at least
 constexpr double kRestsS = 4.0;  // and after the vessel has come to rest
 constexpr double kStepS = 0.2;
-constexpr double kClearM = 0.3;  // of the outline, off what lies still
+constexpr double kAsideClearM = 0.3;  // of the outline, off what lies still
 
 Piece straight(const Eigen::Vector2d& start, double psi_rad, double ahead_m, double duration_s) {
   vessel::FlatPoint from;
@@ -57,7 +57,7 @@ std::optional<Piece> quickest(const vessel::State& state, double ahead_m,
     const Piece piece = straight(state.head<2>(), state[vessel::kPsi], ahead_m, longer * least_s);
     const Trajectory path({piece});
     if (feasibility::verify(path, still, vessel, limits, tolerances).ok) {
-      return outlineConflict(path, 0.0, path.duration(), still, vessel, kClearM, true).found
+      return outlineConflict(path, 0.0, path.duration(), still, vessel, kAsideClearM, true).found
                  ? std::nullopt
                  : std::optional(piece);
     }
