@@ -14,7 +14,7 @@ using trajectory::Piece;
 using trajectory::Trajectory;
 
 constexpr double kAheadS = 8.0;  // how far ahead is looked at least
-constexpr double kRestsS = 4.0;  // and after the vessel has come to rest
+constexpr double kStaysS = 4.0;  // and after the vessel has come to rest
 constexpr double kStepS = 0.2;
 constexpr double kAsideClearM = 0.3;  // of the outline, off what lies still
 
@@ -30,7 +30,7 @@ Piece straight(const Eigen::Vector2d& start, double psi_rad, double ahead_m, dou
 
 // The least room on the way and at its end, until the others have passed.
 double leastRoom(const Piece& piece, const feasibility::Obstacles& obstacles) {
-  const double until = std::max(kAheadS, piece.duration_s + kRestsS);
+  const double until = std::max(kAheadS, piece.duration_s + kStaysS);
   double least = obstacles.clearance(piece.flat(0.0).position, 0.0);
   for (double t = kStepS; t <= until; t += kStepS) {
     const Eigen::Vector2d there = piece.flat(std::min(t, piece.duration_s)).position;
