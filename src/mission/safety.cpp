@@ -13,9 +13,9 @@ namespace otter_nav::mission {
 namespace {
 
 constexpr double kLeastThrustShare = 0.4;
-constexpr double kLessThrust = 0.1;    // each time the vessel couldn't follow
-constexpr double kBlindReserve = 2.0;  // of the mean's share, for a plan that knows nothing of it
+constexpr double kLessThrust = 0.1;  // each time the vessel couldn't follow
 constexpr int kRefusedMost = 2;
+constexpr std::size_t kLevelsInLoad = 2;
 constexpr double kMoreThrust = 0.2;  // each time there was no plan at any clearance
 // Around the discs that cover the hull, at least. A plan keeps a little more than a stop, so that
 // what the map adds by cells on the way leaves the stops clear.
@@ -111,18 +111,14 @@ double Safety::freeThrustShare() const {
   // more, for it is the tracker that finds the thrust.
   constexpr double kLittle = 0.05;
   constexpr double kMostForMean = 0.1;
-  const double mean =
-      plansWithWeather() ? 0.0 : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
+  const bool found = plansWithWeather() && !plansBlind();  // by the plan itself
+  const double mean = found ? 0.0 : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
   return planThrustShare(options_.thrust_share, weather_.gustShare() + mean, times_left_behind_);
 }
 
 double Safety::nextThrustShare() const {
-  if (plansBlind()) {
-    return planThrustShare(options_.thrust_share,
-                           weather_.gustShare() + kBlindReserve * weather_.meanShare(),
-                           times_left_behind_);
-  }
-  return std::min(options_.thrust_share, freeThrustShare() + times_refused_ * kMoreThrust);
+  const int times_refused = times_refused_ - (plansBlind() ? kRefusedMost : 0);
+  return std::min(options_.thrust_share, freeThrustShare() + times_refused * kMoreThrust);
 }
 
 bool Safety::plansBlind() const {
@@ -178,6 +174,13 @@ void Safety::newGoal() {
 }
 
 bool Safety::refused() {
+  // On the narrower levels a hull in a firm load is set aside by more than they leave beside it: a
+  // wide way planned for still water, and left again when it is set aside, comes first.
+  if (plansWithWeather() && !plansBlind() && levels_.level() + 1 >= kLevelsInLoad) {
+    times_refused_ = kRefusedMost;
+    levels_.widest();
+    return true;
+  }
   const bool more = levels_.narrower();
   if (!more) {
     ++times_refused_;

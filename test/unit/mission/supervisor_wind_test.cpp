@@ -190,28 +190,53 @@ TEST(SupervisorInWind, SteadyWeatherIsNoGroundForAnotherPlan) {
   EXPECT_TRUE(blow(mission, 15.0, steady).plans.empty());
 }
 
-TEST(SupervisorInWind, AllowsMoreThrustWhereThereIsNoPlanWithLess) {
-  ScriptedMission mission(openWater(), knowing());
-  blow(mission, 60.0, gusty);
+std::vector<PlanRequest> refusedAll(ScriptedMission& mission, const Force& force,
+                                    std::size_t times) {
+  blow(mission, 60.0, force);
   mission.setOut(6.0);
   std::vector<PlanRequest> asked;
-  for (int k = 0; k < 9; ++k) {
+  while (asked.size() < times) {
     Situation behind = mission.situation();
     behind.tracking_error_m = 2.0;
     const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
-    ASSERT_TRUE(orders.plan);
+    if (!orders.plan) {
+      ADD_FAILURE() << "no request after " << asked.size();
+      break;
+    }
     asked.push_back(*orders.plan);
     (void)mission.refuse(*orders.plan, "too fast");
   }
+  return asked;
+}
+
+TEST(SupervisorInWind, AllowsMoreThrustWhereThereIsNoPlanWithLess) {
+  ScriptedMission mission(openWater(), forStillWater());
+  const std::vector<PlanRequest> asked = refusedAll(mission, gusty, 8);
+  ASSERT_EQ(asked.size(), 8U);
   for (std::size_t k = 0; k < 8; ++k) {  // once for each clearance
     EXPECT_NEAR(asked[k].thrust_share,
                 std::min(mission.options.thrust_share, asked[0].thrust_share + (k < 4 ? 0.0 : 0.2)),
                 1e-9);
-    EXPECT_LT(asked[k].query.limits.disturbance.force_n.x(), -10.0);
   }
-  // At last one that knows nothing of the weather and leaves thrust for it.
-  EXPECT_LT(asked[8].thrust_share, asked[0].thrust_share);
-  EXPECT_EQ(asked[8].query.limits.disturbance.force_n.x(), 0.0);
+}
+
+// In a firm load, on a narrow level, it is set aside by more than that leaves.
+TEST(SupervisorInWind, TriesWideWaysForStillWaterBeforeNarrowOnesWithTheLoad) {
+  ScriptedMission mission(openWater(), knowing());
+  const std::vector<PlanRequest> asked = refusedAll(mission, gusty, 6);
+  ASSERT_EQ(asked.size(), 6U);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double east_n = asked[k].query.limits.disturbance.force_n.x();
+    if (k < 2) {
+      EXPECT_LT(east_n, -10.0);
+    } else {
+      EXPECT_EQ(east_n, 0.0);
+      EXPECT_LE(asked[k].thrust_share, asked[0].thrust_share);  // some is left for the load
+    }
+  }
+  EXPECT_GT(asked[0].query.limits.clearance_m, asked[1].query.limits.clearance_m);
+  EXPECT_NEAR(asked[2].query.limits.clearance_m, asked[0].query.limits.clearance_m, 0.05);
+  EXPECT_GT(asked[4].query.limits.clearance_m, asked[5].query.limits.clearance_m);
 }
 
 // Off its trajectory nothing was verified: it waits for a plan no longer than one takes.
