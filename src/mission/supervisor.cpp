@@ -434,10 +434,10 @@ class Supervisor::Impl {
     if (doesNotKnowTheWeather(m)) {
       return holdHere();  // without thrust it would be set aside and turned meanwhile
     }
-    if (!isOverTheEdge(m) && liesAcrossTheLoad(m)) {
-      return turnIntoTheLoad(m);
+    if (isOverTheEdge(m)) {
+      return turnBack(m);
     }
-    return isOverTheEdge(m) ? turnBack(m) : planFromRest(m);
+    return liesAcrossTheLoad(m) ? turnIntoTheLoad(m) : planFromRest(m);
   }
   Orders planForNewGoal(const Moment& m) {
     enter(Phase::kReplanning, "new goal");

@@ -64,7 +64,7 @@ double StationKeeper::intoLoad(const vessel::Disturbance& disturbance) const {
   const double stern = bow + kPi;
   const bool stern_is_nearer = std::cos(bow - held_rad_) < 0.0;
   if (vessel::isFirmLoad(vessel_, disturbance)) {
-    return bow;  // from where a plan leads on
+    return bow;
   }
   const double astern = -vessel::surgeAtRest(model, disturbance, stern);
   return stern_is_nearer && astern < kSternShare * 2.0 * vessel_.thrusters.astern_max_n ? stern

@@ -3,7 +3,8 @@
 // The hull cannot be pushed sideways, so heading and position compete. The wanted heading is held
 // where wind and current set the resting hull aside but slowly; else bow or stern turns into what
 // they push with, which also is how a vessel at anchor lies: the bow, unless the stern is nearer
-// and little thrust is asked for.
+// and little thrust is asked for. Into a firm load (vessel/rest.hpp) it is always the bow, from
+// where a plan leads on.
 #pragma once
 
 #include "otter_nav/vessel/motion_law.hpp"

@@ -90,8 +90,8 @@ struct SupervisorOptions {
     fields("improve_period_s", o.improve_period_s, {0.0, 600.0},
            "of plans asked for only to be faster; 0: none");
     fields("plan_with_weather", o.plan_with_weather,
-           "plans are made with the estimate of wind and current; without, for still water with "
-           "thrust and room left for gusts");
+           "plans are made with the estimate of wind and current where that is a firm load that "
+           "does not turn with the heading; else for still water with thrust and room left for it");
     fields.group("encounter", o.encounter, "other vessels, and the rules of the road");
   }
 };

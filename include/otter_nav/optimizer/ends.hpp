@@ -64,7 +64,7 @@ struct EndOptions {
   double arrival_speed_max_mps = 4.2;  // and after it was moved
   double turn_least_rad = 0.4;    // turns at the goal narrower than this are made on the way there
   bool careful = false;           // turns at rest, slow arrival
-  bool in_load = false;           // bow to a firm load it begins and ends without a manoeuvre
+  bool in_load = false;           // firm: bow to it the path begins and ends without a manoeuvre
   bool straight_arrival = false;  // no turn at the goal: the way leads to it on its heading
 };
 

@@ -72,10 +72,12 @@ bool EndChooser::clear(const map::DistanceField& field, const Manoeuvre& manoeuv
 
 // Bow to a firm load a path begins and ends without a manoeuvre.
 bool EndChooser::liesInLoad(const trajectory::Boundary& end) const {
-  const vessel::Disturbance& load = options_.limits.disturbance;
-  const double into = vessel::headingIntoLoad(vessel_.manoeuvring, load, end.psi_rad);
-  return options_.in_load && vessel::isFirmLoad(vessel_, load) &&
-         std::abs(wrapAngle(into - end.psi_rad)) < kBowToLoadRad;
+  if (!options_.in_load) {
+    return false;
+  }
+  const double into =
+      vessel::headingIntoLoad(vessel_.manoeuvring, options_.limits.disturbance, end.psi_rad);
+  return std::abs(wrapAngle(into - end.psi_rad)) < kBowToLoadRad;
 }
 
 void EndChooser::make(End& end) const {
