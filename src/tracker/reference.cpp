@@ -66,9 +66,11 @@ void ReferenceSource::start(const trajectory::Trajectory* trajectory, double sta
   joins_ = false;
   rests_ = false;
   // The heading in force goes on where the new trajectory's own is about the same.
-  const double psi = course(now_s).psi_rad;
-  if (!started_ || std::abs(wrapAngle(psi - psi_rad_)) > kSameHeadingRad) {
-    psi_rad_ = psi;
+  const Course c = course(now_s);
+  const bool goes_on = started_ && (std::abs(wrapAngle(c.psi_rad - psi_rad_)) <= kSameHeadingRad ||
+                                    isAstern(c, psi_rad_));
+  if (!goes_on) {
+    psi_rad_ = c.psi_rad;
     psi_time_s_ = now_s;
     started_ = true;
   }
@@ -150,12 +152,15 @@ ReferenceSource::Course ReferenceSource::course(double time_s) const {
   return c;
 }
 
+// Where a plan goes astern for a moment the course turns round and the hull does not.
+bool ReferenceSource::isAstern(const Course& c, double psi_rad) {
+  return c.flat.velocity.norm() < vessel::kWalkingMps && !c.spins &&
+         std::cos(c.psi_rad - psi_rad) < 0.0;
+}
+
 vessel::SwayHeading ReferenceSource::heading(const Course& c, double psi_rad, double dt_s,
                                              const vessel::Disturbance& disturbance) const {
-  // Where a plan goes astern for a moment the course turns round and the hull does not.
-  const bool astern = c.flat.velocity.norm() < vessel::kWalkingMps && !c.spins &&
-                      std::cos(c.psi_rad - psi_rad) < 0.0;
-  const double psi_path_rad = astern ? psi_rad : c.psi_rad;
+  const double psi_path_rad = isAstern(c, psi_rad) ? psi_rad : c.psi_rad;
   // A heading on which the hull would be set aside yields to the position.
   return c.spins && (rests_ || vessel::canLie(vessel_.manoeuvring, disturbance, c.psi_rad))
              ? vessel::SwayHeading{c.psi_rad, 1.0}

@@ -46,6 +46,7 @@ class ReferenceSource {
   struct Course;
   [[nodiscard]] Course course(double time_s) const;
   [[nodiscard]] bool joining(double time_s) const;
+  [[nodiscard]] static bool isAstern(const Course& course, double psi_rad);
   // The heading a step of `dt_s` after `psi_rad`.
   [[nodiscard]] vessel::SwayHeading heading(const Course& course, double psi_rad, double dt_s,
                                             const vessel::Disturbance& disturbance) const;

@@ -162,8 +162,10 @@ TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
 }
 
 // A plan by the manoeuvring model may go astern for a moment, slower than walking: the hull isn't
-// turned round for that.
-TEST(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
+// turned round for that, nor if the way is given anew just then.
+class TrackerOfAnOtter : public ::testing::TestWithParam<bool> {};
+
+TEST_P(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
   const auto options = config::load<Options>(kSource + "/config/tracker.yaml");
   ASSERT_TRUE(options) << options.error().message;
   const auto vessel = vessel::loadParameters(kSource + "/config/vessels/otter.yaml");
@@ -181,6 +183,7 @@ TEST(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
   state[vessel::kSurge] = 0.25;
   double now_s = 10.0;
   double slowest = 0.0;
+  int given_anew = 0;
   tracker.addOdometry(now_s, state);
   ASSERT_TRUE(tracker.setTrajectory(path, now_s));
   while (now_s < 10.0 + path.duration()) {
@@ -193,12 +196,19 @@ TEST(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
         },
         0.0, state, 0.01);
     now_s += 0.01;
+    if (given_anew == 0 && GetParam() && path.flat(now_s - 10.0).velocity.x() < -0.05) {
+      ++given_anew;
+      ASSERT_TRUE(tracker.setTrajectory(path, 10.0));
+    }
     slowest = std::min(slowest, state[vessel::kSurge]);
     ASSERT_LT(std::abs(wrapAngle(state[vessel::kPsi])), 0.2) << "at " << now_s - 10.0 << " s";
   }
+  EXPECT_EQ(given_anew, GetParam() ? 1 : 0);
   EXPECT_LT(slowest, -0.05);
   EXPECT_LT((state.head<2>() - end.position).norm(), 0.1);
 }
+
+INSTANTIATE_TEST_SUITE_P(GivenOnceAndAgain, TrackerOfAnOtter, ::testing::Bool());
 
 // What is sent is cut as the bow comes up (BowGuard says how), and what turns the hull is kept.
 TEST_F(TrackerTest, PushesNothingAheadWithTheBowHigh) {
