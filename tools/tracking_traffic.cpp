@@ -31,8 +31,8 @@ struct Arguments {
   std::string vessel = "otter_gazebo";
 };
 
-map::HullPose ownOf(const json& line) {
-  map::HullPose own;
+vessel::Pose ownOf(const json& line) {
+  vessel::Pose own;
   if (line.contains("own")) {
     const json& pose = line.at("own");
     own.position = {pose.at("x").get<double>(), pose.at("y").get<double>()};
@@ -59,8 +59,8 @@ map::SensorPose sensorOf(const json& pose) {
 }
 
 // JSON has no infinity: null is a beam that met nothing.
-map::Scan scanOf(const json& from) {
-  map::Scan scan;
+otter_nav::Scan scanOf(const json& from) {
+  otter_nav::Scan scan;
   scan.angle_min_rad = from.at("angle_min");
   scan.angle_increment_rad = from.at("angle_increment");
   scan.range_min_m = from.at("range_min");
@@ -75,7 +75,7 @@ map::Scan scanOf(const json& from) {
 // Throws json::exception for a line that lacks something or holds something else.
 Status take(const json& line, traffic::Tracker& tracker) {
   const double t = line.at("t");
-  const map::HullPose own = ownOf(line);
+  const vessel::Pose own = ownOf(line);
   if (line.contains("ais")) {
     return tracker.addAis(t, line.at("ais").get<std::string>());
   }
@@ -92,7 +92,7 @@ Status take(const json& line, traffic::Tracker& tracker) {
     return {};
   }
   if (line.contains("scan")) {
-    const map::Scan scan = scanOf(line.at("scan"));
+    const otter_nav::Scan scan = scanOf(line.at("scan"));
     if (scan.ranges_m.empty() || scan.angle_increment_rad == 0.0) {
       return failure("a scan needs ranges and an increment");
     }

@@ -6,6 +6,7 @@
 
 #include "csv_path.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::benchmark {
 namespace {
@@ -59,7 +60,7 @@ FlatPoint spiralAt(double angle, double top_speed) {
   const double radius = kInner + kRadiusPerRad * angle;
   const double k = kRadiusPerRad;
   const Vector2d e(std::cos(angle), std::sin(angle));
-  const Vector2d n(-e.y(), e.x());
+  const Vector2d n = across(e);
   const Vector2d d1 = k * e + radius * n;
   const Vector2d d2 = 2 * k * n - radius * e;
   const Vector2d d3 = -3 * k * e - radius * n;

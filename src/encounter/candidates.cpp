@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::encounter {
 namespace {
@@ -164,7 +165,7 @@ double Chooser::price(const Course& course, const std::vector<Other>& others,
   for (std::size_t k = 1; k < course.legs.size() && k < 5; ++k) {
     const Eigen::Vector2d& a = course.legs[k - 1].velocity;
     const Eigen::Vector2d& b = course.legs[k].velocity;
-    turning += std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
+    turning += std::abs(std::atan2(cross(a, b), a.dot(b)));
   }
   const double own = course.end_s + kTurnS * turning;
   return own + prospect_.price(course, others, give_up_above - own);

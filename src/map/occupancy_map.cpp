@@ -1,6 +1,5 @@
 #include "otter_nav/map/occupancy_map.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,13 +9,6 @@
 
 namespace otter_nav::map {
 namespace {
-
-Eigen::Matrix3d rotationOf(const SensorPose& sensor) {
-  return (Eigen::AngleAxisd(sensor.yaw_rad, Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(sensor.pitch_rad, Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(sensor.roll_rad, Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
 
 // Why the scan cannot be used, or nothing.
 std::string whyRefused(const GridGeometry& grid, const SensorPose& sensor, const Scan& scan) {
@@ -74,9 +66,8 @@ struct OccupancyMap::Sensed {
   }
   // A column that changed: what it is now.
   void project(std::size_t index, CellRectangle& changed);
-  [[nodiscard]] bool onOwnHull(const HullPose& own, const Eigen::Vector2d& p) const;
-  void clearOwnHull(const HullPose& own, CellRectangle& changed);
-  void insert(const SensorPose& sensor, const HullPose& own, const Scan& scan,
+  void clearOwnHull(const vessel::Pose& own, CellRectangle& changed);
+  void insert(const SensorPose& sensor, const vessel::Pose& own, const Scan& scan,
               CellRectangle& changed);
 
   vessel::Hull hull;
@@ -101,14 +92,8 @@ void OccupancyMap::Sensed::project(std::size_t index, CellRectangle& changed) {
   }
 }
 
-bool OccupancyMap::Sensed::onOwnHull(const HullPose& own, const Eigen::Vector2d& p) const {
-  const Eigen::Vector2d local = Eigen::Rotation2Dd(-own.psi_rad) * (p - own.position);
-  return std::abs(local.x()) <= 0.5 * hull.length_m + hull_margin_m &&
-         std::abs(local.y()) <= 0.5 * hull.beam_m + hull_margin_m;
-}
-
 // Where the vessel is, nothing else is.
-void OccupancyMap::Sensed::clearOwnHull(const HullPose& own, CellRectangle& changed) {
+void OccupancyMap::Sensed::clearOwnHull(const vessel::Pose& own, CellRectangle& changed) {
   const GridGeometry& g = chart.geometry;
   const double reach = vessel::circumscribedRadius(hull) + 2.0 * hull_margin_m;
   const Eigen::Vector2i low = g.cellAt(own.position - Eigen::Vector2d::Constant(reach));
@@ -116,7 +101,8 @@ void OccupancyMap::Sensed::clearOwnHull(const HullPose& own, CellRectangle& chan
   for (int row = std::max(0, low.y()); row <= std::min(g.height - 1, high.y()); ++row) {
     for (int column = std::max(0, low.x()); column <= std::min(g.width - 1, high.x()); ++column) {
       const std::size_t index = g.index(column, row);
-      if (layers.occupied(index) && onOwnHull(own, g.centreOf(column, row)) &&
+      if (layers.occupied(index) &&
+          vessel::covers(hull, own, g.centreOf(column, row), hull_margin_m) &&
           layers.clear(index)) {
         project(index, changed);
       }
@@ -128,27 +114,21 @@ void OccupancyMap::Sensed::clearOwnHull(const HullPose& own, CellRectangle& chan
 // echo comes from a thing's near face, and often that is where two cells meet: a little further on
 // is the thing, whatever the range's noise. Without, things grow by a cell on the sides that are
 // seen.
-void OccupancyMap::Sensed::insert(const SensorPose& sensor, const HullPose& own, const Scan& scan,
-                                  CellRectangle& changed) {
+void OccupancyMap::Sensed::insert(const SensorPose& sensor, const vessel::Pose& own,
+                                  const Scan& scan, CellRectangle& changed) {
   constexpr double kBehindItsFaceM = 0.03;  // three standard deviations of a usual lidar
   const GridGeometry& g = chart.geometry;
-  const Eigen::Matrix3d rotation = rotationOf(sensor);
-  const auto direction = [&](std::size_t i) -> Eigen::Vector3d {
-    const double angle = scan.angle_min_rad + scan.angle_increment_rad * static_cast<double>(i);
-    return rotation * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
-  };
-  const auto measured = [&](double range) {
-    return range >= scan.range_min_m && range <= scan.range_max_m;
-  };
+  const Eigen::Matrix3d rotation = sensor.rotation();
   layers.beginScan();
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const double range = scan.ranges_m[i];
-    if (!measured(range)) {
+    if (!scan.metSomething(i)) {
       continue;
     }
-    const Eigen::Vector3d end = sensor.position + (range + kBehindItsFaceM) * direction(i);
+    const Eigen::Vector3d end =
+        sensor.position + (scan.ranges_m[i] + kBehindItsFaceM) * (rotation * scan.direction(i));
     const int layer = layers.layers().at(end.z());
-    if (layer < 0 || !g.contains(end.head<2>()) || onOwnHull(own, end.head<2>())) {
+    if (layer < 0 || !g.contains(end.head<2>()) ||
+        vessel::covers(hull, own, end.head<2>(), hull_margin_m)) {
       continue;
     }
     const Eigen::Vector2i cell = g.cellAt(end.head<2>());
@@ -158,13 +138,12 @@ void OccupancyMap::Sensed::insert(const SensorPose& sensor, const HullPose& own,
     }
   }
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const double range = scan.ranges_m[i];
-    const bool nothing_met = range > 0.0 && std::isinf(range);
-    if (!nothing_met && !measured(range)) {
+    if (!scan.metNothing(i) && !scan.metSomething(i)) {
       continue;
     }
-    walkBeam(g, layers.layers(), sensor.position, direction(i),
-             nothing_met ? scan.range_max_m : range, [&](std::size_t index, int layer) {
+    walkBeam(g, layers.layers(), sensor.position, rotation * scan.direction(i),
+             scan.metNothing(i) ? scan.range_max_m : scan.ranges_m[i],
+             [&](std::size_t index, int layer) {
                if (chart.cells[index] != Cell::kOccupied && layers.miss(index, layer)) {
                  project(index, changed);
                }
@@ -186,7 +165,7 @@ const OccupancyGrid& OccupancyMap::chart() const {
   return sensed_->chart;
 }
 
-Result<CellRectangle> OccupancyMap::insertScan(const SensorPose& sensor, const HullPose& own,
+Result<CellRectangle> OccupancyMap::insertScan(const SensorPose& sensor, const vessel::Pose& own,
                                                const Scan& scan) {
   std::string why = whyRefused(sensed_->chart.geometry, sensor, scan);
   if (why.empty() && !(own.position.allFinite() && std::isfinite(own.psi_rad))) {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "otter_nav/base/attitude.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/tracks.hpp"
@@ -99,9 +100,7 @@ void PlantPublisher::publishOdometry(const plant::Simulator& simulator, const ro
       toQuaternion(odometry.roll_rad, odometry.pitch_rad, state[vessel::kPsi]);
   // The twist is in the body's axes, which roll and pitch; the state's velocities are level.
   const Eigen::Matrix3d level_from_body =
-      (Eigen::AngleAxisd(odometry.pitch_rad, Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(odometry.roll_rad, Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
+      attitude(odometry.roll_rad, odometry.pitch_rad, 0.0).toRotationMatrix();
   set(level_from_body.transpose() *
           Eigen::Vector3d(state[vessel::kSurge], state[vessel::kSway], 0.0),
       message.twist.twist.linear);
@@ -177,11 +176,12 @@ void PlantPublisher::publishVessels(const plant::Simulator& simulator, const ros
   }
 }
 
-void PlantPublisher::publishRadar(const plant::RadarScan& radar, const ros::Time& stamp) {
+void PlantPublisher::publishRadar(const std::vector<Eigen::Vector2d>& radar_in_base,
+                                  const ros::Time& stamp) {
   geometry_msgs::PoseArray message;
   message.header.frame_id = frames().base;
   message.header.stamp = stamp;
-  for (const Eigen::Vector2d& position : radar.positions_in_base) {
+  for (const Eigen::Vector2d& position : radar_in_base) {
     message.poses.push_back(toPose(position, 0.0));
   }
   radar_.publish(message);
@@ -210,18 +210,18 @@ void PlantPublisher::publishContact(const plant::Simulator& simulator, const ros
   contact_.publish(event);
 }
 
-void PlantPublisher::publishScan(const plant::Scan& scan, const ros::Time& stamp) {
+void PlantPublisher::publishScan(const Scan& scan, const ros::Time& stamp) {
   sensor_msgs::LaserScan& message = last_scan_;
   message.header.frame_id = frames().lidar;
   message.header.stamp = stamp;
   message.angle_min = static_cast<float>(scan.angle_min_rad);
   message.angle_increment = static_cast<float>(scan.angle_increment_rad);
   message.angle_max =
-      static_cast<float>(scan.angle_min_rad +
-                         scan.angle_increment_rad * (static_cast<double>(scan.ranges.size()) - 1));
+      static_cast<float>(scan.angle_min_rad + scan.angle_increment_rad *
+                                                  (static_cast<double>(scan.ranges_m.size()) - 1));
   message.range_min = static_cast<float>(scan.range_min_m);
   message.range_max = static_cast<float>(scan.range_max_m);
-  message.ranges = scan.ranges;
+  message.ranges = scan.ranges_m;
   scan_.publish(message);
 }
 

@@ -9,6 +9,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include "otter_nav/base/scan.hpp"
 #include "otter_nav/plant/simulator.hpp"
 #include "otter_nav/ros/trail.hpp"
 
@@ -20,8 +21,8 @@ class PlantPublisher {
 
   // Clock, transform, odometry and truth at `stamp`; contact when it begins and ends.
   void publish(const plant::Simulator& simulator, const ros::Time& stamp);
-  void publishScan(const plant::Scan& scan, const ros::Time& stamp);
-  void publishRadar(const plant::RadarScan& radar, const ros::Time& stamp);
+  void publishScan(const Scan& scan, const ros::Time& stamp);
+  void publishRadar(const std::vector<Eigen::Vector2d>& radar_in_base, const ros::Time& stamp);
   void publishAis(const std::vector<std::string>& sentences);
   // The last of clock, odometry, state and scan once more, for whoever was not there
   // yet.

@@ -21,6 +21,7 @@
 #include "cycle_statistics.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/first_failure.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/config/field_list.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/config/share.hpp"
@@ -388,7 +389,7 @@ TrackerStatus TrackerNode::status() const {
   message.at_goal = static_cast<std::uint8_t>(command.at_goal);
   message.position_error = command.tracking_error_m;
   message.along_error = error.dot(ahead);
-  message.cross_error = ahead.x() * error.y() - ahead.y() * error.x();
+  message.cross_error = cross(ahead, error);
   message.heading_error = wrapAngle(command.estimate[vessel::kPsi] - psi_rad);
   message.speed_error = command.estimate[vessel::kSurge] - command.reference[vessel::kSurge];
   message.solver_ms_median = cycles.solver_ms_median;

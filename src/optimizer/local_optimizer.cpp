@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "optimizer/objective/cost.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/trajectory/polynomial/block_tridiagonal.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 
@@ -54,8 +55,7 @@ void LocalOptimizer::guideStretch(const feasibility::EdgeCheck& check, const Sta
     for (int i = first; i <= last && farthest < best_m; ++i) {
       const auto index = static_cast<std::size_t>(i);
       const Eigen::Vector2d& course = states[index].col(1);
-      const Eigen::Vector2d aside =
-          side / std::max(course.norm(), 1e-6) * Eigen::Vector2d(-course.y(), course.x());
+      const Eigen::Vector2d aside = side / std::max(course.norm(), 1e-6) * across(course);
       double moved = 0.0;
       double distance = field.smooth(states[index].col(0)).distance_m;
       while (distance < safe && moved < best_m) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::planner {
 namespace {
 
@@ -37,14 +39,14 @@ KinoState Sampler::keyState(int index) const {
   KinoState state;
   state.position = point.position;
   state.velocity = point.speed_mps * point.direction;
-  const Eigen::Vector2d port(-point.direction.y(), point.direction.x());
+  const Eigen::Vector2d port = across(point.direction);
   state.acceleration = point.speed_mps * point.speed_mps * point.curvature_per_m * port;
   return state;
 }
 
 KinoState Sampler::inCorridor() {
   const GuideLine::Point point = line_->at(random_.uniform() * line_->length());
-  const Eigen::Vector2d port(-point.direction.y(), point.direction.x());
+  const Eigen::Vector2d port = across(point.direction);
   const double aside = point.half_width_m * std::clamp(0.4 * random_.normal(), -1.0, 1.0);
   const double speed = std::min(options_.speed_max_mps,
                                 point.speed_mps * (1.0 + options_.speed_spread * random_.normal()));

@@ -1,21 +1,14 @@
 #include "lidar.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/attitude.hpp"
 
 namespace otter_nav::plant {
 namespace {
-
-Eigen::Matrix3d mapFromBody(const Truth& truth) {
-  return (Eigen::AngleAxisd(truth.yaw_rad, Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(truth.pitch_rad, Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(truth.roll_rad, Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
 
 // Range at which a beam from `height_m` over the water meets it.
 double rangeToWater(double height_m, double rise) {
@@ -32,7 +25,7 @@ Lidar::Lidar(const LidarOptions& options, std::uint64_t seed) : options_(options
   scan_.angle_increment_rad = 2.0 * kPi / options.beams;
   scan_.range_min_m = options.range_min_m;
   scan_.range_max_m = options.range_max_m;
-  scan_.ranges.resize(static_cast<std::size_t>(options.beams));
+  scan_.ranges_m.resize(static_cast<std::size_t>(options.beams));
   for (int i = 0; i < options.beams; ++i) {
     const double angle = scan_.angle_min_rad + i * scan_.angle_increment_rad;
     beams_.emplace_back(std::cos(angle), std::sin(angle));
@@ -57,9 +50,9 @@ float Lidar::report(double range_m) {
 }
 
 const Scan& Lidar::scan(const WorldMap& world, const OtherVessels& others, const Truth& truth) {
-  const Eigen::Matrix3d rotation = mapFromBody(truth);
+  const Eigen::Matrix3d rotation =
+      attitude(truth.roll_rad, truth.pitch_rad, truth.yaw_rad).toRotationMatrix();
   const Eigen::Vector3d eye = truth.position + rotation * options_.position_m;
-  scan_.stamp_s = truth.stamp_s;
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     const Eigen::Vector3d beam = rotation.leftCols<2>() * beams_[i];
     const double level = beam.head<2>().norm();  // metres over ground a metre of range
@@ -67,7 +60,7 @@ const Scan& Lidar::scan(const WorldMap& world, const OtherVessels& others, const
     const Eigen::Vector2d direction = beam.head<2>() / level;
     const double distance = std::min(world.castRay(eye.head<2>(), direction, reach * level),
                                      others.castRay(eye.head<2>(), direction, reach * level));
-    scan_.ranges[i] = report(distance / level);
+    scan_.ranges_m[i] = report(distance / level);
   }
   return scan_;
 }

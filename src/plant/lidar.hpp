@@ -7,6 +7,7 @@
 
 #include "other_vessels.hpp"
 #include "otter_nav/base/random.hpp"
+#include "otter_nav/base/scan.hpp"
 #include "otter_nav/plant/options.hpp"
 #include "otter_nav/plant/signals.hpp"
 #include "otter_nav/plant/world_map.hpp"

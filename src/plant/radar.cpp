@@ -5,25 +5,25 @@
 
 namespace otter_nav::plant {
 
-const RadarScan& Radar::scan(const std::vector<OtherVessel>& others, const Truth& truth) {
-  scan_.stamp_s = truth.stamp_s;
-  scan_.positions_in_base.clear();
+std::vector<Eigen::Vector2d> Radar::scan(const std::vector<OtherVessel>& others,
+                                         const Truth& truth) {
+  std::vector<Eigen::Vector2d> in_base;
   const Eigen::Rotation2Dd base_from_map(-truth.yaw_rad);
   for (const OtherVessel& other : others) {
     const Eigen::Vector2d off = other.motion.pose.position - truth.position.head<2>();
     const bool seen = random_.uniform() < RadarOptions::kDetectionProbability;
     const Eigen::Vector2d noise(random_.normal(), random_.normal());
     if (seen && off.norm() <= options_.range_m) {
-      scan_.positions_in_base.emplace_back(base_from_map * off + options_.noise_m * noise);
+      in_base.emplace_back(base_from_map * off + options_.noise_m * noise);
     }
   }
   // Evenly over the disc.
   if (random_.uniform() < RadarOptions::kFalsePerScan) {
     const double range = options_.range_m * std::sqrt(random_.uniform());
     const double bearing = random_.uniform(-kPi, kPi);
-    scan_.positions_in_base.emplace_back(range * std::cos(bearing), range * std::sin(bearing));
+    in_base.emplace_back(range * std::cos(bearing), range * std::sin(bearing));
   }
-  return scan_;
+  return in_base;
 }
 
 }  // namespace otter_nav::plant

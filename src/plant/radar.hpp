@@ -15,12 +15,11 @@ class Radar {
  public:
   Radar(const RadarOptions& options, std::uint64_t seed) : options_(options), random_(seed) {}
 
-  const RadarScan& scan(const std::vector<OtherVessel>& others, const Truth& truth);
+  std::vector<Eigen::Vector2d> scan(const std::vector<OtherVessel>& others, const Truth& truth);
 
  private:
   RadarOptions options_;
   Random random_;
-  RadarScan scan_;
 };
 
 }  // namespace otter_nav::plant

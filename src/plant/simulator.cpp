@@ -91,7 +91,7 @@ class Simulator::Impl {
   [[nodiscard]] bool radarDue() const {
     return options_.radar.range_m > 0.0 && time_s_ >= next_radar_s_;
   }
-  const RadarScan& radar() {
+  std::vector<Eigen::Vector2d> radar() {
     next_radar_s_ = time_s_ + 1.0 / RadarOptions::kRateHz - 1e-9;
     return radar_.scan(others_.now(), truth_);
   }
@@ -259,7 +259,7 @@ const std::vector<OtherVessel>& Simulator::others() const {
 bool Simulator::radarDue() const {
   return impl_->radarDue();
 }
-const RadarScan& Simulator::radar() {
+std::vector<Eigen::Vector2d> Simulator::radar() {
   return impl_->radar();
 }
 std::vector<std::string> Simulator::takeAis() {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/attitude.hpp"
+
 namespace otter_nav::ros_bridge {
 namespace {
 
@@ -56,9 +58,7 @@ geometry_msgs::Point toPoint(const Eigen::Vector2d& p, double z_m) {
 }
 
 geometry_msgs::Quaternion toQuaternion(double roll_rad, double pitch_rad, double yaw_rad) {
-  const Eigen::Quaterniond q = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
-                               Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-                               Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
+  const Eigen::Quaterniond q = attitude(roll_rad, pitch_rad, yaw_rad);
   geometry_msgs::Quaternion message;
   message.w = q.w();
   message.x = q.x();

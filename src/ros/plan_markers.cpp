@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/speed_colour.hpp"
@@ -137,7 +138,7 @@ MarkerArray clearanceMarkers(const trajectory::Trajectory& trajectory, double cl
     // Turning on the spot it has no direction.
     if (speed > 0.3) {
       const Eigen::Vector2d ahead = flat.velocity / speed;
-      const Eigen::Vector2d port = clearance_m * Eigen::Vector2d(-ahead.y(), ahead.x());
+      const Eigen::Vector2d port = clearance_m * across(ahead);
       const std::array<Eigen::Vector2d, 2> sides = {flat.position + port, flat.position - port};
       if (before) {
         const bool narrower = field.clearance(flat.position) < clearance_m - kNarrowerM;

@@ -5,8 +5,8 @@
 
 namespace otter_nav::ros_bridge {
 
-map::Scan toScan(const sensor_msgs::LaserScan& message) {
-  map::Scan scan;
+Scan toScan(const sensor_msgs::LaserScan& message) {
+  Scan scan;
   scan.angle_min_rad = static_cast<double>(message.angle_min);
   scan.angle_increment_rad = static_cast<double>(message.angle_increment);
   scan.range_min_m = static_cast<double>(message.range_min);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -32,7 +33,7 @@ Marker outlineMarker(const traffic::Outline& outline, const std::string& name, i
   marker.color.g = 0.5F;
   marker.color.a = static_cast<float>(alpha);
   const Eigen::Vector2d ahead(std::cos(outline.heading_rad), std::sin(outline.heading_rad));
-  const Eigen::Vector2d port(-ahead.y(), ahead.x());
+  const Eigen::Vector2d port = across(ahead);
   const double half_length = outline.half_length_m + outline.radius_m;
   const double half_beam = outline.half_beam_m + outline.radius_m;
   const double corners[][2] = {{1.0, 0.0},  {0.6, 1.0}, {-1.0, 1.0}, {-1.0, -1.0},

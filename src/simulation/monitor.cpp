@@ -69,23 +69,20 @@ std::string Monitor::faultAt(const Eigen::Vector2d& position, double psi_rad) co
   const map::GridGeometry& g = world_.geometry();
   const bool touches = plant::hullTouches(world_, vessel_.hull, position, psi_rad);
   const double reach = vessel::circumscribedRadius(vessel_.hull) + g.resolution_m;
-  const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
-  const Eigen::Vector2d port(-ahead.y(), ahead.x());
   const Eigen::Vector2i low = g.cellAt(position - Eigen::Vector2d::Constant(reach));
   const Eigen::Vector2i high = g.cellAt(position + Eigen::Vector2d::Constant(reach));
   for (int row = std::max(0, low.y()); row <= std::min(g.height - 1, high.y()); ++row) {
     for (int column = std::max(0, low.x()); column <= std::min(g.width - 1, high.x()); ++column) {
       const std::size_t index = g.index(column, row);
-      const Eigen::Vector2d off = g.centreOf(column, row) - position;
+      const Eigen::Vector2d square = g.centreOf(column, row);
       const bool occupied = world_.freeCells(column, row) == 0;
       const double wider = occupied ? 0.71 * g.resolution_m : 0.0;
-      const bool under_it = std::abs(off.dot(ahead)) <= 0.5 * vessel_.hull.length_m + wider &&
-                            std::abs(off.dot(port)) <= 0.5 * vessel_.hull.beam_m + wider;
+      const bool under_it = vessel::covers(vessel_.hull, {position, psi_rad}, square, wider);
       if (under_it && occupied && touches && seen_[index]) {
-        return at("the stop touches something that was in sight", position + off);
+        return at("the stop touches something that was in sight", square);
       }
       if (under_it && !occupied && !known_[index]) {
-        return at("the stop leads into water that was not seen", position + off);
+        return at("the stop leads into water that was not seen", square);
       }
     }
   }

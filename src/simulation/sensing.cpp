@@ -12,12 +12,8 @@ map::SensorPose sensorPose(const plant::Odometry& odometry, const Eigen::Vector3
   pose.roll_rad = odometry.roll_rad;
   pose.pitch_rad = odometry.pitch_rad;
   pose.yaw_rad = odometry.state[vessel::kPsi];
-  const Eigen::Quaterniond map_from_base =
-      Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ()) *
-      Eigen::AngleAxisd(pose.pitch_rad, Eigen::Vector3d::UnitY()) *
-      Eigen::AngleAxisd(pose.roll_rad, Eigen::Vector3d::UnitX());
   const Eigen::Vector3d base(odometry.state[vessel::kX], odometry.state[vessel::kY], odometry.z_m);
-  pose.position = base + map_from_base * lidar_in_base;
+  pose.position = base + attitude(pose.roll_rad, pose.pitch_rad, pose.yaw_rad) * lidar_in_base;
   return pose;
 }
 
@@ -30,26 +26,21 @@ Sensing::Sensing(map::OccupancyGrid chart, const LoopOptions& options)
       traffic_(options.traffic, map_.chart(), options.vessel.hull),
       lidar_in_base_(options.plant.lidar.position_m) {}
 
-Status Sensing::insert(const plant::Scan& scan, const plant::Odometry& odometry) {
-  scan_.angle_min_rad = scan.angle_min_rad;
-  scan_.angle_increment_rad = scan.angle_increment_rad;
-  scan_.range_min_m = scan.range_min_m;
-  scan_.range_max_m = scan.range_max_m;
-  scan_.ranges_m.assign(scan.ranges.begin(), scan.ranges.end());
+Status Sensing::insert(Scan scan, const plant::Odometry& odometry) {
   const map::SensorPose pose = sensorPose(odometry, lidar_in_base_);
-  const map::HullPose own{odometry.state.head<2>(), odometry.state[vessel::kPsi]};
+  const vessel::Pose own{odometry.state.head<2>(), odometry.state[vessel::kPsi]};
   // What moves stays out of the map, and what it has left there.
-  const traffic::ScanVerdict& verdict = traffic_.addScan(odometry.stamp_s, pose, own, scan_);
-  for (std::size_t i = 0; i < scan_.ranges_m.size(); ++i) {
+  const traffic::ScanVerdict& verdict = traffic_.addScan(odometry.stamp_s, pose, own, scan);
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (verdict.on_vessel[i]) {
-      scan_.ranges_m[i] = std::numeric_limits<float>::quiet_NaN();
+      scan.ranges_m[i] = std::numeric_limits<float>::quiet_NaN();
     }
   }
   update(map_.forget(verdict.ghosts));
   if (!field_.geometry().contains(pose.position.head<2>())) {
     return {};
   }
-  const Result<map::CellRectangle> changed = map_.insertScan(pose, own, scan_);
+  const Result<map::CellRectangle> changed = map_.insertScan(pose, own, scan);
   if (!changed) {
     return failure(changed.error().message);
   }
@@ -64,11 +55,12 @@ void Sensing::update(const map::CellRectangle& changed) {
   }
 }
 
-void Sensing::hear(const plant::RadarScan& radar, const plant::Odometry& odometry) {
+void Sensing::hear(const std::vector<Eigen::Vector2d>& radar_in_base,
+                   const plant::Odometry& odometry) {
   const Eigen::Vector2d own = odometry.state.head<2>();
   const Eigen::Rotation2Dd map_from_base(odometry.state[vessel::kPsi]);
   std::vector<Eigen::Vector2d> positions;
-  for (const Eigen::Vector2d& position : radar.positions_in_base) {
+  for (const Eigen::Vector2d& position : radar_in_base) {
     positions.emplace_back(own + map_from_base * position);
   }
   traffic_.addRadar(odometry.stamp_s, positions, own);

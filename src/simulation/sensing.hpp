@@ -21,8 +21,8 @@ class Sensing {
 
   // Where the odometry says the vessel was, the scan is put into the map. A scan from over the
   // map's edge is left out.
-  [[nodiscard]] Status insert(const plant::Scan& scan, const plant::Odometry& odometry);
-  void hear(const plant::RadarScan& radar, const plant::Odometry& odometry);
+  [[nodiscard]] Status insert(Scan scan, const plant::Odometry& odometry);
+  void hear(const std::vector<Eigen::Vector2d>& radar_in_base, const plant::Odometry& odometry);
   [[nodiscard]] Status hear(double stamp_s, const std::vector<std::string>& ais);
 
   [[nodiscard]] const map::DistanceField& field() const { return field_; }
@@ -41,7 +41,6 @@ class Sensing {
   map::DistanceField known_;
   traffic::Tracker traffic_;
   Eigen::Vector3d lidar_in_base_;
-  map::Scan scan_;
 
   void update(const map::CellRectangle& changed);
 };

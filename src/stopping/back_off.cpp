@@ -239,7 +239,7 @@ double insideMap(const map::GridGeometry& map, const Eigen::Vector2d& p) {
 
 double turningRoom(const vessel::Hull& hull) {
   constexpr double kMarginM = 0.3;
-  return 0.5 * std::hypot(hull.length_m, hull.beam_m) + kMarginM;
+  return vessel::circumscribedRadius(hull) + kMarginM;
 }
 
 std::optional<Trajectory> backOff(const vessel::State& state, const Obstacles& obstacles,

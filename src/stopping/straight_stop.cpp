@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::stopping {
 namespace {
 
@@ -60,7 +62,7 @@ struct Course {
 Course courseOf(const FlatPoint& z) {
   const double v = z.velocity.norm();
   const Eigen::Vector2d along = z.velocity / v;
-  const Eigen::Vector2d port(-along.y(), along.x());
+  const Eigen::Vector2d port = across(along);
   Course course;
   course.angle_rad = std::atan2(along.y(), along.x());
   const double w = z.acceleration.dot(port) / v;
@@ -90,7 +92,7 @@ class Profile {
     const Jet w = t < straighten_s_ ? turn_.at(t) : Jet{};
     const double angle = course_.angle_rad + turn_.integral(t);
     const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
-    const Eigen::Vector2d port(-along.y(), along.x());
+    const Eigen::Vector2d port = across(along);
     FlatPoint z;
     z.velocity = v.value * along;
     z.acceleration = v.rate * along + v.value * w.value * port;

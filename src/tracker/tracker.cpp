@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "tracker/bow_guard.hpp"
 #include "tracker/handover.hpp"
@@ -38,7 +39,7 @@ constexpr double kBrakeBlindS = 5.0;  // braking by the model alone without odom
 
 Vector2d velocityOverGround(const vessel::State& x) {
   const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
-  return x[kSurge] * e + x[kSway] * Vector2d(-e.y(), e.x());
+  return x[kSurge] * e + x[kSway] * across(e);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "scan_clusters.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/vessel/hull.hpp"
 
 namespace otter_nav::traffic {
 namespace {
@@ -52,15 +52,9 @@ bool ScanClusters::isCharted(const Eigen::Vector2d& point) const {
   return charted_[geometry_.index(cell.x(), cell.y())];
 }
 
-void ScanClusters::readEchoes(const map::SensorPose& sensor, const map::HullPose& own,
-                              const map::Scan& scan) {
-  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(sensor.yaw_rad, Eigen::Vector3d::UnitZ()) *
-                                    Eigen::AngleAxisd(sensor.pitch_rad, Eigen::Vector3d::UnitY()) *
-                                    Eigen::AngleAxisd(sensor.roll_rad, Eigen::Vector3d::UnitX()))
-                                       .toRotationMatrix();
-  const Eigen::Rotation2Dd hull_from_map(-own.psi_rad);
-  const Eigen::Vector2d half(0.5 * own_hull_.length_m + kHullMarginM,
-                             0.5 * own_hull_.beam_m + kHullMarginM);
+void ScanClusters::readEchoes(const map::SensorPose& sensor, const vessel::Pose& own,
+                              const Scan& scan) {
+  const Eigen::Matrix3d rotation = sensor.rotation();
   echoes_.clear();
   low_.clear();
   others_.clear();
@@ -69,12 +63,11 @@ void ScanClusters::readEchoes(const map::SensorPose& sensor, const map::HullPose
   ends_at_standing_.assign(scan.ranges_m.size(), false);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double range = scan.ranges_m[i];
-    const bool nothing = std::isinf(range) && range > 0.0;
-    if (!nothing && !(range >= scan.range_min_m && range <= scan.range_max_m)) {
+    const bool nothing = scan.metNothing(i);
+    if (!nothing && !scan.metSomething(i)) {
       continue;
     }
-    const double angle = scan.angle_min_rad + scan.angle_increment_rad * static_cast<double>(i);
-    const Eigen::Vector3d beam = rotation * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    const Eigen::Vector3d beam = rotation * scan.direction(i);
     const double level = beam.head<2>().norm();
     // No farther than where the beam comes too near the water.
     double reach = nothing ? scan.range_max_m : range;
@@ -91,7 +84,7 @@ void ScanClusters::readEchoes(const map::SensorPose& sensor, const map::HullPose
       low_.push_back({i, point, range * level, false, false});
       continue;
     }
-    if (((hull_from_map * (point - own.position)).cwiseAbs().array() <= half.array()).all()) {
+    if (vessel::covers(own_hull_, own, point, kHullMarginM)) {
       continue;
     }
     if (isCharted(point)) {
@@ -175,7 +168,7 @@ void ScanClusters::findCuts(Cluster& cluster) const {
 }
 
 const std::vector<Cluster>& ScanClusters::gather(double stamp_s, const map::SensorPose& sensor,
-                                                 const map::HullPose& own, const map::Scan& scan) {
+                                                 const vessel::Pose& own, const Scan& scan) {
   eye_ = sensor.position.head<2>();
   yaw_rad_ = sensor.yaw_rad;
   angle_min_rad_ = scan.angle_min_rad;

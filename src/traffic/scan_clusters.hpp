@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "otter_nav/base/scan.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "outline_fit.hpp"
@@ -23,7 +24,7 @@ class ScanClusters {
 
   // In the order of the beams. The reference stays valid until the next scan.
   const std::vector<Cluster>& gather(double stamp_s, const map::SensorPose& sensor,
-                                     const map::HullPose& own, const map::Scan& scan);
+                                     const vessel::Pose& own, const Scan& scan);
   // All that the scan gathered last has met, but for charted land and the own hull.
   [[nodiscard]] const std::vector<Echo>& echoes() const { return echoes_; }
   // Next to the water: waves, or a hull's foot. They make no thing, but a map may take them.
@@ -37,7 +38,7 @@ class ScanClusters {
 
  private:
   [[nodiscard]] bool isCharted(const Eigen::Vector2d& point) const;
-  void readEchoes(const map::SensorPose& sensor, const map::HullPose& own, const map::Scan& scan);
+  void readEchoes(const map::SensorPose& sensor, const vessel::Pose& own, const Scan& scan);
   void remember();
   void divide(std::size_t beams, double increment_rad);
   void findCuts(Cluster& cluster) const;

@@ -83,8 +83,8 @@ class Tracker::Impl {
   Impl(const Options& options, const map::OccupancyGrid& chart, const vessel::Hull& own_hull)
       : options_(options), frame_(options.datum), clusters_(chart, own_hull) {}
 
-  const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor,
-                             const map::HullPose& own, const map::Scan& scan) {
+  const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor, const vessel::Pose& own,
+                             const Scan& scan) {
     const std::vector<Cluster>& clusters = clusters_.gather(stamp_s, sensor, own, scan);
     const Eigen::Vector2d eye = sensor.position.head<2>();
     verdict_.on_vessel.assign(scan.ranges_m.size(), false);
@@ -605,7 +605,7 @@ Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
 const ScanVerdict& Tracker::addScan(double stamp_s, const map::SensorPose& sensor,
-                                    const map::HullPose& own, const map::Scan& scan) {
+                                    const vessel::Pose& own, const Scan& scan) {
   return impl_->addScan(stamp_s, sensor, own, scan);
 }
 void Tracker::addRadar(double stamp_s, const std::vector<Eigen::Vector2d>& positions,

@@ -21,14 +21,6 @@ Result<Parameters> loadParameters(const std::string& path) {
   return readParameters(config::Section(*node, path));
 }
 
-Parameters withThrustShare(const Parameters& parameters, double share) {
-  Parameters less = parameters;
-  less.thrusters.ahead_max_n *= share;
-  less.thrusters.astern_max_n *= share;
-  less.top_speed_mps *= share;
-  return less;
-}
-
 std::string toYaml(const Parameters& parameters) {
   return config::toYaml(parameters);
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::scenario {
 namespace {
 
@@ -82,7 +84,7 @@ void drawBar(OccupancyGrid& grid, double length_m, double width_m, Random& rando
   const Eigen::Vector2d along(std::cos(psi), std::sin(psi));
   fill(grid, anywhere(grid, random), 0.5 * std::hypot(length_m, width_m),
        [&](const Eigen::Vector2d& p) {
-         const double across = along.x() * p.y() - along.y() * p.x();
+         const double across = cross(along, p);
          return std::abs(along.dot(p)) < 0.5 * length_m && std::abs(across) < 0.5 * width_m;
        });
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/vessel/hull.hpp"
 
@@ -63,7 +64,7 @@ struct HullCover {
   template <typename Near>
   [[nodiscard]] double sevenClear(const Eigen::Vector2d& position, const Eigen::Vector2d& ahead,
                                   double centre_m, const Near& near) const {
-    const Eigen::Vector2d port = corner.y() * Eigen::Vector2d(-ahead.y(), ahead.x());
+    const Eigen::Vector2d port = corner.y() * across(ahead);
     double least = centre_m - middle_m;
     for (const double side : {-1.0, 1.0}) {
       const Eigen::Vector2d end = position + side * corner.x() * ahead;
@@ -80,7 +81,7 @@ template <typename Clearance>
                                       double psi_rad, const Clearance& clearance) {
   constexpr int kSteps = 20;
   const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
-  const Eigen::Vector2d port(-ahead.y(), ahead.x());
+  const Eigen::Vector2d port = across(ahead);
   double least = std::numeric_limits<double>::infinity();
   for (int k = -kSteps; k <= kSteps; ++k) {
     const Eigen::Vector2d along = 0.5 * hull.length_m * k / kSteps * ahead;

@@ -8,11 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "otter_nav/base/attitude.hpp"
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/base/scan.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/pose.hpp"
 
 namespace otter_nav::map {
 
@@ -45,29 +48,16 @@ struct OccupancyMapOptions {
 [[nodiscard]] Result<OccupancyMapOptions> readOccupancyMapOptions(config::Section section);
 [[nodiscard]] Result<OccupancyMapOptions> loadOccupancyMapOptions(const std::string& path);
 
-// The sensor in the map frame (ENU, FLU); z over the mean water surface, angles as yaw, then
-// pitch, then roll.
+// The sensor in the map frame (ENU, FLU); z over the mean water surface.
 struct SensorPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
   double yaw_rad = 0.0;
-};
 
-// Where the own hull's middle (base_link) is while the sensor looks, in the map frame.
-struct HullPose {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double psi_rad = 0.0;
-};
-
-// sensor_msgs/LaserScan's figures; REP-117: +inf is free water up to range_max, -inf (too close)
-// and NaN (no measurement) say nothing.
-struct Scan {
-  double angle_min_rad = 0.0;
-  double angle_increment_rad = 0.0;
-  double range_min_m = 0.0;
-  double range_max_m = 0.0;
-  std::vector<float> ranges_m;
+  [[nodiscard]] Eigen::Matrix3d rotation() const {
+    return attitude(roll_rad, pitch_rad, yaw_rad).toRotationMatrix();
+  }
 };
 
 // Changed cells, half open; empty if width or height is 0.
@@ -103,8 +93,9 @@ class OccupancyMap {
 
   // The cells whose projection changed, or why the scan is refused (a pose or angle that is no
   // number, no beams, limits that make no sense, a negative range): then nothing changes. Echoes
-  // within the own hull's outline and its margin are dropped, and what was sensed there is cleared.
-  [[nodiscard]] Result<CellRectangle> insertScan(const SensorPose& sensor, const HullPose& own,
+  // within the own hull's outline and its margin are dropped, and what was sensed there is cleared;
+  // `own` is where its middle (base_link) is while the sensor looks.
+  [[nodiscard]] Result<CellRectangle> insertScan(const SensorPose& sensor, const vessel::Pose& own,
                                                  const Scan& scan);
 
   [[nodiscard]] const OccupancyGrid& projection() const;

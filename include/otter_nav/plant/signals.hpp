@@ -45,29 +45,11 @@ struct Odometry {
   double pitch_rad = 0.0;
 };
 
-// ranges[i] is the beam at angle_min_rad + i * angle_increment_rad in the lidar's own plane. Values
-// after REP-117: +inf no return (or the water's surface came first), -inf too close, NaN a lost
-// measurement.
-struct Scan {
-  double stamp_s = 0.0;
-  double angle_min_rad = 0.0;
-  double angle_increment_rad = 0.0;
-  double range_min_m = 0.0;
-  double range_max_m = 0.0;
-  std::vector<float> ranges;
-};
-
 // Another vessel as it is now.
 struct OtherVessel {
   int id = 0;
   vessel::Hull hull;
   vessel::ScriptedMotion motion;
-};
-
-// The middles of other vessels, as a radar sees them: m ahead and to port of base_link, level.
-struct RadarScan {
-  double stamp_s = 0.0;
-  std::vector<Eigen::Vector2d> positions_in_base;
 };
 
 }  // namespace otter_nav::plant

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/base/scan.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
 #include "otter_nav/plant/options.hpp"
 #include "otter_nav/plant/signals.hpp"
@@ -64,10 +65,10 @@ class Simulator {
   void setVessels(std::vector<vessel::ScriptedVessel> vessels);
   [[nodiscard]] const std::vector<OtherVessel>& others() const;
 
-  // True once a second of simulated time where there is a radar, until radar() is called. The
-  // reference stays valid until the next call.
+  // True once a second of simulated time where there is a radar, until radar() is called: the
+  // middles of other vessels, m ahead and to port of base_link, level.
   [[nodiscard]] bool radarDue() const;
-  [[nodiscard]] const RadarScan& radar();
+  [[nodiscard]] std::vector<Eigen::Vector2d> radar();
   // The AIS sentences (!AIVDM) sent since the last call.
   [[nodiscard]] std::vector<std::string> takeAis();
 

@@ -7,11 +7,12 @@
 #include <string>
 
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/base/scan.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
 
 namespace otter_nav::ros_bridge {
 
-[[nodiscard]] map::Scan toScan(const sensor_msgs::LaserScan& message);
+[[nodiscard]] Scan toScan(const sensor_msgs::LaserScan& message);
 // A frame's pose in the map frame, or what tf says instead.
 [[nodiscard]] Result<map::SensorPose> poseInMap(const tf2_ros::Buffer& transforms,
                                                 const std::string& frame, const ros::Time& stamp);

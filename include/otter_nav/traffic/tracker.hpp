@@ -50,8 +50,8 @@ class Tracker {
   Tracker& operator=(Tracker&&) noexcept;
 
   // The reference stays valid until the next scan.
-  const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor,
-                             const map::HullPose& own, const map::Scan& scan);
+  const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor, const vessel::Pose& own,
+                             const Scan& scan);
   // All positions seen at once, from a sensor at `own`.
   void addRadar(double stamp_s, const std::vector<Eigen::Vector2d>& positions,
                 const Eigen::Vector2d& own);

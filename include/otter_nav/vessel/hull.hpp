@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/pose.hpp"
 
 namespace otter_nav::vessel {
 
@@ -13,11 +16,18 @@ namespace otter_nav::vessel {
 inline std::array<Eigen::Vector2d, 4> outline(const Hull& hull, const Eigen::Vector2d& position,
                                               double psi_rad) {
   const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
-  const Eigen::Vector2d port(-ahead.y(), ahead.x());
   const Eigen::Vector2d half_length = 0.5 * hull.length_m * ahead;
-  const Eigen::Vector2d half_beam = 0.5 * hull.beam_m * port;
+  const Eigen::Vector2d half_beam = 0.5 * hull.beam_m * across(ahead);
   return {position + half_length + half_beam, position - half_length + half_beam,
           position - half_length - half_beam, position + half_length - half_beam};
+}
+
+// Whether a point lies within the hull's sides, all moved out by `margin_m`.
+inline bool covers(const Hull& hull, const Pose& at, const Eigen::Vector2d& point,
+                   double margin_m) {
+  const Eigen::Vector2d local = Eigen::Rotation2Dd(-at.psi_rad) * (point - at.position);
+  return std::abs(local.x()) <= 0.5 * hull.length_m + margin_m &&
+         std::abs(local.y()) <= 0.5 * hull.beam_m + margin_m;
 }
 
 inline double circumscribedRadius(const Hull& hull) {

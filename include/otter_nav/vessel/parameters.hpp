@@ -152,10 +152,6 @@ struct Parameters {
   }
 };
 
-// The vessel as it is with `share` of its thrust, in (0, 1]: what is left beside the rest kept for
-// wind and current. The top speed falls with it, as under linear drag.
-[[nodiscard]] Parameters withThrustShare(const Parameters& parameters, double share);
-
 // Reads config/vessels/NAME.yaml. A file without `manoeuvring_model` gets fromPaper().
 [[nodiscard]] Result<Parameters> loadParameters(const std::string& path);
 [[nodiscard]] Result<Parameters> readParameters(config::Section section);

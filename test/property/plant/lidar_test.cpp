@@ -112,13 +112,13 @@ TEST(LidarScan, LevelScanIsTheCastBeams) {
   const Truth truth = levelAt({4.0, 8.0}, 0.9);
   const Scan& scan = lidar.scan(world, {}, truth);
   const Eigen::Vector2d eye(4.0 + 0.5 * std::cos(0.9), 8.0 + 0.5 * std::sin(0.9));
-  ASSERT_EQ(scan.ranges.size(), 720U);
+  ASSERT_EQ(scan.ranges_m.size(), 720U);
   int hits = 0;
   for (int i = 0; i < 720; ++i) {
     const double angle = 0.9 + scan.angle_min_rad + i * scan.angle_increment_rad;
     const double expected =
         castByTryingEveryCell(grid, eye, {std::cos(angle), std::sin(angle)}, 25.0);
-    const float found = scan.ranges[static_cast<std::size_t>(i)];
+    const float found = scan.ranges_m[static_cast<std::size_t>(i)];
     if (std::isinf(expected)) {
       ASSERT_TRUE(std::isinf(found) && found > 0.0F);
     } else if (expected < options.range_min_m) {
@@ -149,16 +149,16 @@ TEST(LidarScan, TiltedBeamsMeetTheWaterFirst) {
   Lidar lidar(options, 1);
   Truth truth = levelAt({0.0, 0.0}, 0.0);
   constexpr std::size_t kAhead = 360;
-  EXPECT_NEAR(lidar.scan(world, {}, truth).ranges[kAhead], 10.0, 1e-4);
+  EXPECT_NEAR(lidar.scan(world, {}, truth).ranges_m[kAhead], 10.0, 1e-4);
   truth.pitch_rad = 0.07;                   // bow down: water at 11.4 m
   const double eye = 0.8 * std::sin(0.07);  // the mast leans ahead
-  EXPECT_NEAR(lidar.scan(world, {}, truth).ranges[kAhead], (10.0 - eye) / std::cos(0.07), 1e-4);
+  EXPECT_NEAR(lidar.scan(world, {}, truth).ranges_m[kAhead], (10.0 - eye) / std::cos(0.07), 1e-4);
   truth.pitch_rad = 0.10;  // water at 8 m
-  EXPECT_TRUE(std::isinf(lidar.scan(world, {}, truth).ranges[kAhead]));
+  EXPECT_TRUE(std::isinf(lidar.scan(world, {}, truth).ranges_m[kAhead]));
   truth.pitch_rad = -0.10;  // bow up: over the water to the wall
-  EXPECT_TRUE(std::isfinite(lidar.scan(world, {}, truth).ranges[kAhead]));
+  EXPECT_TRUE(std::isfinite(lidar.scan(world, {}, truth).ranges_m[kAhead]));
   truth.position.z() = -1.0;  // the eye under water sees nothing
-  EXPECT_TRUE(std::isinf(lidar.scan(world, {}, truth).ranges[kAhead]));
+  EXPECT_TRUE(std::isinf(lidar.scan(world, {}, truth).ranges_m[kAhead]));
 }
 
 TEST(LidarScan, NoiseAndDropoutsHaveTheirShare) {
@@ -173,7 +173,7 @@ TEST(LidarScan, NoiseAndDropoutsHaveTheirShare) {
   int hits = 0;
   double variance = 0.0;
   for (int turn = 0; turn < 2000; ++turn) {
-    const float range = lidar.scan(world, {}, truth).ranges[360];
+    const float range = lidar.scan(world, {}, truth).ranges_m[360];
     lost += std::isnan(range) ? 1 : 0;
     if (std::isfinite(range)) {
       ++hits;
@@ -189,7 +189,7 @@ TEST(LidarScan, TooNearIsMinusInfinity) {
   LidarOptions options = noiseless();
   options.position_m = {0.0, 0.0, 0.8};
   Lidar lidar(options, 7);
-  const float range = lidar.scan(world, {}, levelAt({-0.05, 0.0}, 0.0)).ranges[360];
+  const float range = lidar.scan(world, {}, levelAt({-0.05, 0.0}, 0.0)).ranges_m[360];
   EXPECT_TRUE(std::isinf(range) && range < 0.0F);
 }
 

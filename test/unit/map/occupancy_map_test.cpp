@@ -143,7 +143,7 @@ TEST(OccupancyMap, OwnHullIsNeitherMarkedNorStays) {
 
 // A lidar ahead of the hull's middle: the mask lies where the hull lies, not around the sensor.
 TEST(OccupancyMap, OnlyTheHullIsMaskedWhereverTheSensorSits) {
-  const HullPose own{{0.0, 0.0}, 0.5 * kPi};  // bow north at y = 1, stern at y = -1
+  const vessel::Pose own{{0.0, 0.0}, 0.5 * kPi};  // bow north at y = 1, stern at y = -1
   const SensorPose sensor = sensorAt(0.0, 0.5, 0.5 * kPi);
   OccupancyMap map(coast(), kHull, kOptions);
   ASSERT_TRUE(map.insertScan(sensor, own, aheadOnly(0.6F)));  // 0.1 m off the bow: the margin

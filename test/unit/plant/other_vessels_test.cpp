@@ -93,8 +93,8 @@ TEST(OtherVessels, AreSeenByTheLidarWhereTheyAre) {
   const Scan& scan = simulator.scan();
   const auto abeam = static_cast<std::size_t>(
       std::lround((0.5 * kPi - scan.angle_min_rad) / scan.angle_increment_rad));
-  EXPECT_NEAR(scan.ranges[abeam], 7.0, 0.02);
-  EXPECT_TRUE(std::isinf(scan.ranges[abeam / 3]));
+  EXPECT_NEAR(scan.ranges_m[abeam], 7.0, 0.02);
+  EXPECT_TRUE(std::isinf(scan.ranges_m[abeam / 3]));
 }
 
 TEST(OtherVessels, TouchAndAreNamed) {
@@ -132,7 +132,7 @@ TEST(Radar, SeesFarAndSometimesWrong) {
       continue;
     }
     ++scans;
-    for (const Eigen::Vector2d& p : simulator.radar().positions_in_base) {
+    for (const Eigen::Vector2d& p : simulator.radar()) {
       const double off = (p - expected).norm();
       seen += off < 12.0 ? 1 : 0;
       other += off < 12.0 ? 0 : 1;
@@ -199,8 +199,8 @@ TEST(OtherVessels, LeaveTheRestAsItIs) {
       (void)busy.radar();
     }
     EXPECT_EQ(alone.truth().planar, busy.truth().planar);
-    const std::vector<float> a = alone.scan().ranges;
-    const std::vector<float>& b = busy.scan().ranges;
+    const std::vector<float> a = alone.scan().ranges_m;
+    const std::vector<float>& b = busy.scan().ranges_m;
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_TRUE(a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i])));
     }

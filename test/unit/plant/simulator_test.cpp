@@ -80,8 +80,8 @@ TEST_P(EveryVessel, AreTheSameForASeedAndDifferForAnother) {
   EXPECT_NE(one.truth().planar, other.truth().planar);
   const Scan& scan = one.scan();
   const Scan& same_scan = same.scan();
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    ASSERT_TRUE(scan.ranges[i] == same_scan.ranges[i] || std::isnan(scan.ranges[i]));
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    ASSERT_TRUE(scan.ranges_m[i] == same_scan.ranges_m[i] || std::isnan(scan.ranges_m[i]));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "otter_nav/base/attitude.hpp"
 #include "otter_nav/plant/simulator.hpp"
 #include "otter_nav/traffic/tracker.hpp"
 
@@ -48,7 +49,7 @@ class Sea {
       if (simulator.radarDue()) {
         const vessel::State& own = simulator.odometry().state;
         std::vector<Eigen::Vector2d> positions;
-        for (const Eigen::Vector2d& p : simulator.radar().positions_in_base) {
+        for (const Eigen::Vector2d& p : simulator.radar()) {
           positions.emplace_back(own.head<2>() + Eigen::Rotation2Dd(own[vessel::kPsi]) * p);
         }
         tracker.addRadar(simulator.time(), positions, own.head<2>());
@@ -60,7 +61,7 @@ class Sea {
   }
 
   // Changes a scan before it is looked at.
-  std::function<void(map::Scan&)> disturb;
+  std::function<void(Scan&)> disturb;
 
   // The track of a vessel: the nearest one within 5 m of where she truly was at its stamp.
   [[nodiscard]] std::optional<Track> trackOf(std::size_t index) const {
@@ -85,19 +86,14 @@ class Sea {
 
  private:
   const ScanVerdict& look() {
-    const plant::Scan& scan = simulator.scan();
+    Scan seen = simulator.scan();
     const plant::Odometry& odometry = simulator.odometry();
-    map::Scan seen{scan.angle_min_rad, scan.angle_increment_rad, scan.range_min_m, scan.range_max_m,
-                   scan.ranges};
     if (disturb) {
       disturb(seen);
     }
     const double psi = odometry.state[vessel::kPsi];
     const Eigen::Matrix3d rotation =
-        (Eigen::AngleAxisd(psi, Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(odometry.pitch_rad, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(odometry.roll_rad, Eigen::Vector3d::UnitX()))
-            .toRotationMatrix();
+        attitude(odometry.roll_rad, odometry.pitch_rad, psi).toRotationMatrix();
     map::SensorPose pose;
     pose.position =
         Eigen::Vector3d(odometry.state[vessel::kX], odometry.state[vessel::kY], odometry.z_m) +

@@ -84,7 +84,7 @@ TEST(TrafficTracker, MeasuresHullsByLidar) {
     Sea sea(lidarOnly("none"), {}, {vessel}, static_cast<std::uint64_t>(run) + 1);
     double seen_s = -1.0;
     double confirmed_s = -1.0;
-    sea.disturb = [&](const map::Scan& scan) {
+    sea.disturb = [&](const Scan& scan) {
       const auto echoes = std::count_if(scan.ranges_m.begin(), scan.ranges_m.end(),
                                         [](float range) { return std::isfinite(range); });
       seen_s = seen_s < 0.0 && echoes >= 3 ? sea.simulator.time() : seen_s;
@@ -132,7 +132,7 @@ TEST(TrafficTracker, IsNotFooledByWindDrivenClutter) {
   int tracks = 0;
   int last_id = 0;
   Sea sea(test::plantOptions("paper"), {}, {}, 3);
-  sea.disturb = [&](map::Scan& scan) {
+  sea.disturb = [&](Scan& scan) {
     const double now = sea.simulator.time();
     const vessel::State& own = sea.simulator.truth().planar;
     clutter.erase(std::remove_if(clutter.begin(), clutter.end(),
@@ -257,8 +257,8 @@ std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double k
 }
 
 // Half a degree a beam.
-map::Scan nothingMet() {
-  map::Scan scan;
+Scan nothingMet() {
+  Scan scan;
   scan.angle_min_rad = -kPi;
   scan.angle_increment_rad = 2.0 * kPi / 720.0;
   scan.range_min_m = 0.2;
@@ -273,7 +273,7 @@ TEST(TrafficTracker, TellsTheMapOfSingleEchoes) {
   for (int k = 0; k <= 20; ++k) {
     ASSERT_TRUE(tracker.addAis(k, report(257000004, {2.0 * k, 0.0}, 2.0 / ais::kKnotMps, 90.0)));
   }
-  map::Scan scan = nothingMet();
+  Scan scan = nothingMet();
   scan.ranges_m[360] = scan.ranges_m[361] = 24.0F;
   scan.ranges_m[180] = scan.ranges_m[181] = 24.0F;  // likewise, where nobody is
   const Eigen::Vector2d eye(40.0 - 1.0 - 24.0, 0.0);
@@ -293,7 +293,7 @@ TEST(TrafficTracker, TellsTheMapOfEchoesAtAHullsFoot) {
   for (int k = 0; k <= 20; ++k) {
     ASSERT_TRUE(tracker.addAis(k, report(257000004, {2.0 * k, 0.0}, 2.0 / ais::kKnotMps, 90.0)));
   }
-  map::Scan scan = nothingMet();
+  Scan scan = nothingMet();
   scan.ranges_m[360] = static_cast<float>(kRangeM);
   map::SensorPose sensor;
   sensor.pitch_rad = std::asin((0.8 - kHeightM) / kRangeM);

@@ -64,17 +64,6 @@ TEST(LoadParameters, WithoutManoeuvringModelThePapersIsUsed) {
   EXPECT_EQ(read->manoeuvring.sway_drag_kgps, 33.0);
 }
 
-TEST(WithThrustShare, LeavesEverythingButThrustAndSpeed) {
-  const Parameters whole;
-  Parameters less = withThrustShare(whole, 0.8);
-  EXPECT_DOUBLE_EQ(less.thrusters.ahead_max_n, 40.0);
-  EXPECT_DOUBLE_EQ(less.thrusters.astern_max_n, 40.0);
-  EXPECT_DOUBLE_EQ(less.top_speed_mps, 4.0);
-  less.thrusters = whole.thrusters;
-  less.top_speed_mps = whole.top_speed_mps;
-  EXPECT_EQ(toYaml(less), toYaml(whole));
-}
-
 TEST(LoadParameters, SailsItsOwnModelUnlessTheFileSaysElse) {
   YAML::Node node = YAML::Load(toYaml(Parameters{}));
   node.remove("plant_model");
