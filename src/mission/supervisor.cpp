@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -927,25 +928,41 @@ class Supervisor::Impl {
     return found.clear ? found : stop(m, sailed_, at, safety().leastStop(planned_limits_));
   }
   // A stop that begins a little later than now: when the next decision is due, there is time to
-  // take it. Kept if there is one.
+  // take it. A launch, or sailing crabwise, may leave none that keeps to the thrusters' limits at
+  // the moment: then one that begins later, where the way until then is clear in known water. Kept
+  // if there is one.
   bool findStop(const Moment& m, const TimedTrajectory& way,
                 const feasibility::SafetyLimits& planned) {
     constexpr double kReserveS = 0.25;
-    const double at = way.elapsed(m.now_s) + kReserveS;
+    constexpr double kLaterS[] = {0.5, 1.0, 2.0, 3.5, 5.0};
+    const stopping::StopLimits limits = safety().stop(planned);
+    if (keepStop(m, way, kReserveS, limits)) {
+      return true;
+    }
+    const bool clear = isClearInKnownWater(m, way, limits);
+    for (std::size_t k = 0; clear && k < std::size(kLaterS); ++k) {
+      if (keepStop(m, way, kReserveS + kLaterS[k], limits)) {
+        break;
+      }
+    }
+    return clear;
+  }
+  // One that begins so much later; the way's own end is one.
+  bool keepStop(const Moment& m, const TimedTrajectory& way, double later_s,
+                const stopping::StopLimits& limits) {
+    const double at = way.elapsed(m.now_s) + later_s;
     if (at >= way.trajectory.duration()) {
       fallback_ = way;
       return true;
     }
-    const stopping::StopLimits limits = safety().stop(planned);
     stopping::Braking found = stop(m, way, at, limits);
     if (found.clear) {
       fallback_ =
           stopping::splice(way, m.now_s, {std::move(found.trajectory), way.start_time_s + at});
     }
-    return found.clear || isClearInKnownWater(m, way, limits);
+    return found.clear;
   }
-  // For long enough to rest later. A launch, or sailing crabwise, may leave no stop that keeps to
-  // the thrusters' limits at the moment; that alone is no ground to rest.
+  // For long enough to rest later.
   bool isClearInKnownWater(const Moment& m, const TimedTrajectory& way,
                            const stopping::StopLimits& limits) {
     constexpr double kHorizonS = 8.0;

@@ -249,6 +249,33 @@ TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
                   .sail);
 }
 
+// Where none can begin at the moment, as in a bend taken at the limit, one that begins later is
+// kept.
+TEST(Supervisor, KeepsAStopInAHardBend) {
+  ScriptedMission m;
+  const auto orders = m.goTo({20.0, 0.0});
+  std::vector<trajectory::Piece> pieces = test::circle(2.0, 4.0, 3.0).pieces();
+  const vessel::FlatPoint out = pieces.back().flat(pieces.back().duration_s);
+  vessel::FlatPoint end;
+  end.position = out.position + 5.0 * out.velocity;
+  pieces.push_back(trajectory::hermitePiece(out, end, 10.0));
+  ASSERT_TRUE(m.answer(*orders->plan, trajectory::Trajectory(pieces)).sail);
+  for (int k = 0; k < 25; ++k) {
+    (void)m.update(0.1);
+    ASSERT_EQ(m.supervisor.phase(), Phase::kSailing);
+    const trajectory::TimedTrajectory& sailed = m.supervisor.sailed();
+    const std::optional<trajectory::TimedTrajectory>& stop = m.supervisor.lastStop();
+    ASSERT_TRUE(stop);
+    const trajectory::Trajectory& path = stop->trajectory;
+    EXPECT_LT((path.flat(stop->elapsed(m.now_s)).position -
+               sailed.trajectory.flat(sailed.elapsed(m.now_s)).position)
+                  .norm(),
+              0.01);
+    EXPECT_LT(path.flat(path.duration()).velocity.norm(), 1e-3);
+    EXPECT_LT(stop->left(m.now_s), sailed.left(m.now_s));
+  }
+}
+
 // A plan that leads a part of the way is sailed; one that leads on is taken though it takes longer,
 // and where none came the way is planned on from its end, which is no stop that counts.
 TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {
