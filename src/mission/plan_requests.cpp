@@ -49,6 +49,26 @@ double roomAround(const vessel::Hull& hull, const trajectory::Boundary& at,
       field, at.flat.position, 0.0, kNoCentreM, [&] { return bow; }, centre);
 }
 
+// Whether a part of the water near `place` is known to nobody.
+bool isUnknownNear(const Eigen::Vector2d& place, const feasibility::Obstacles& obstacles) {
+  constexpr double kNearM = 8.0;
+  constexpr double kStepM = 0.5;
+  constexpr int kSteps = static_cast<int>(kNearM / kStepM);
+  constexpr int kFew = 8;  // of about 800 places
+  const map::DistanceField& known = obstacles.inKnownWater().field();
+  int unknown = 0;
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    for (int j = -kSteps; j <= kSteps; ++j) {
+      const Eigen::Vector2d off = kStepM * Eigen::Vector2d(i, j);
+      unknown += off.norm() <= kNearM && known.clearance(place + off) <= 0.0 &&
+                         obstacles.field().clearance(place + off) > 0.0
+                     ? 1
+                     : 0;
+    }
+  }
+  return unknown > kFew;
+}
+
 }  // namespace
 
 PlanRequests::PlanRequests(const SupervisorOptions& options, const vessel::Parameters& vessel,
@@ -150,6 +170,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   const map::DistanceField& field = obstacles.field();
   const double room =
       std::min(field.clearance(request.query.start.flat.position), field.clearance(goal.position));
+  safety.inUnknownWater(isUnknownNear(request.query.start.flat.position, obstacles));
   request.id = next_id_++;
   request.query.goal.flat.position = goal.position;
   request.query.goal.psi_rad = safety.restHeading(goal.psi_rad);

@@ -24,6 +24,11 @@ constexpr double kOffTrajectoryM = 0.02;
 constexpr double kMostOfRoom = 0.75;
 constexpr double kSlower = 0.65;
 constexpr double kWanderM = 0.2;  // of what it wanders, kept on the narrow levels too
+// Among what nobody has charted: a pace at which the tracker leaves waves alone, in hull's lengths
+// a second; and so many times what it wanders on the levels that have room for it, for what comes
+// into sight takes some.
+constexpr double kCrawlingPerS = 0.4;
+constexpr double kTimesWander = 2.0;
 
 }  // namespace
 
@@ -83,15 +88,24 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   // What it wanders, as far as the level has room for it; half as much each time there was no plan.
   const double beside = options_.side_clearances_m[levels_.level()];
   const double most = std::max(kWanderM, beside);
+  const double wanted = (in_unknown_water_ && beside > kWanderM ? kTimesWander : 1.0) * reach();
   limits.hull_margin_m =
-      std::max(kPlanMarginM, std::pow(0.5, times_refused_) * std::min(most, wander_.reach()));
+      std::max(kPlanMarginM, std::pow(0.5, times_refused_) * std::min(most, wanted));
   limits.limitSpeed(options_.speed_max_mps);
   limits.speed_max_mps *= slowShare();
   // Where it wanders by most of the room it has, a slower plan leaves thrust to keep it on its way.
-  if (!plansWithWeather() && wander_.reach() > kMostOfRoom * beside) {
+  if (!plansWithWeather() && wanted > kMostOfRoom * beside) {
     limits.speed_max_mps *= kSlower;
+    if (in_unknown_water_) {
+      limits.speed_max_mps = std::min(limits.speed_max_mps, kCrawlingPerS * vessel_.hull.length_m);
+    }
   }
   return limits;
+}
+
+double Safety::reach() const {
+  return in_unknown_water_ && !wander_.isKnown() ? std::max(kWanderM, wander_.reach())
+                                                 : wander_.reach();
 }
 
 bool Safety::mayPlanWithWeather() const {

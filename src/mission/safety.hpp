@@ -106,7 +106,9 @@ class Safety {
   // How far the vessel is off its trajectory.
   void wander(double now_s, double off_m) { wander_.feel(now_s, off_m); }
   // What it needs around it for that, m, where there is room.
-  [[nodiscard]] double reach() const { return wander_.reach(); }
+  [[nodiscard]] double reach() const;
+  // Whether there is water near that nobody has seen or charted.
+  void inUnknownWater(bool is) { in_unknown_water_ = is; }
   void leftBehind() { ++times_left_behind_; }
   // A plan failed: the next is tried narrower; false where all levels were tried.
   bool refused();
@@ -122,6 +124,7 @@ class Safety {
   ClearanceLevels levels_;
   Weather weather_;
   Wander wander_;
+  bool in_unknown_water_ = false;
   int times_refused_ = 0;      // at all levels, from where the vessel is, in a row
   int times_left_behind_ = 0;  // on the way to this goal
 };

@@ -20,6 +20,11 @@ class Wander {
     const double off = std::min(off_m, kMostM);
     square_m2_ += dt / std::min(kMemoryS, felt_s_) * (off * off - square_m2_);
   }
+  // It has been under way for long enough to tell.
+  [[nodiscard]] bool isKnown() const {
+    constexpr double kLongEnoughS = 5.0;
+    return felt_s_ > kUsualS + kLongEnoughS;
+  }
   // Twice the root of the mean square lately, m.
   [[nodiscard]] double reach() const { return 2.0 * std::sqrt(square_m2_); }
 

@@ -72,6 +72,50 @@ TEST(Safety, MarginsGrowWithWhatTheVesselWanders) {
   EXPECT_EQ(safety.leastStop(safety.limits(0.95, kWideWater)).hull_margin_m, 0.02);
 }
 
+// Among what nobody has charted: twice what it wanders where there is room for it, and at a crawl
+// where that is most of the room.
+TEST(Safety, CrawlsInUnknownWaterWhereItWanders) {
+  const vessel::Parameters vessel;
+  Safety safety(SupervisorOptions{}, vessel);
+  const auto limits = [&] { return safety.limits(0.95, kWideWater); };
+  for (int k = 0; k < 400; ++k) {
+    safety.wander(0.1 * k, 0.1);
+  }
+  const double fast = limits().speed_max_mps;
+  const double crawl = 0.4 * vessel.hull.length_m;
+  EXPECT_NEAR(limits().hull_margin_m, 0.2, 0.01);
+  safety.inUnknownWater(true);
+  EXPECT_NEAR(limits().hull_margin_m, 0.4, 0.02);
+  EXPECT_EQ(limits().speed_max_mps, fast);
+  ASSERT_TRUE(safety.refused());
+  EXPECT_NEAR(limits().hull_margin_m, 0.4, 0.02);
+  EXPECT_NEAR(limits().speed_max_mps, crawl, 1e-9);
+  while (safety.refused()) {
+    EXPECT_NEAR(limits().hull_margin_m, 0.2, 0.01);
+    EXPECT_NEAR(limits().speed_max_mps, crawl, 1e-9);
+  }
+  // As soon as the water is known again.
+  safety.planTaken();
+  safety.inUnknownWater(false);
+  EXPECT_EQ(limits().speed_max_mps, fast);
+}
+
+// In the first seconds under way nobody knows how far it wanders.
+TEST(Safety, ReckonsWithWanderingInUnknownWater) {
+  Safety safety(SupervisorOptions{}, vessel::Parameters{});
+  const auto feel = [&](double from_s, double to_s) {
+    for (double t = from_s; t < to_s; t += 0.1) {
+      safety.wander(t, 0.01);
+    }
+  };
+  feel(0.0, 4.0);
+  EXPECT_LT(safety.reach(), 0.06);
+  safety.inUnknownWater(true);
+  EXPECT_EQ(safety.reach(), 0.2);
+  feel(4.0, 8.0);
+  EXPECT_LT(safety.reach(), 0.06);
+}
+
 // A wider hull is kept as far from everything, beside it.
 TEST(Safety, ClearancesGrowWithTheBeam) {
   vessel::Parameters wam_v;

@@ -42,6 +42,9 @@ class ScriptedMission {
   }
   [[nodiscard]] feasibility::Obstacles obstacles() const {
     feasibility::Obstacles all(field);
+    if (known) {
+      all.setKnownWater(*known);
+    }
     if (layer != nullptr) {
       all.add(*layer);
     }
@@ -85,6 +88,7 @@ class ScriptedMission {
 
   map::OccupancyGrid grid;
   map::DistanceField field;
+  std::optional<map::DistanceField> known;            // what of the water is; nothing: all
   const feasibility::ObstacleLayer* layer = nullptr;  // besides the field
   std::vector<traffic::Track> tracks;
   SupervisorOptions options;

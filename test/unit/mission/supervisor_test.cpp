@@ -249,6 +249,25 @@ TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
                   .sail);
 }
 
+// Near what nobody has seen, a vessel that has just set out is taken to wander, and crawls on the
+// levels with little room.
+TEST(Supervisor, CrawlsNearUnknownWater) {
+  const auto speedAsked = [](double unknown_from_m) {
+    ScriptedMission m;
+    map::OccupancyGrid seen = m.grid;
+    test::block(seen, {unknown_from_m, -10.0}, {unknown_from_m + 10.0, 10.0});
+    m.known.emplace(test::fieldOf(seen));
+    std::optional<PlanRequest> asked = m.goTo({20.0, 0.0})->plan;
+    for (std::size_t k = 1; k < m.options.side_clearances_m.size() && asked; ++k) {
+      (void)m.refuse(*asked, "none");
+      asked = m.update(0.1).plan;
+    }
+    return asked ? asked->query.limits.speed_max_mps : 0.0;
+  };
+  EXPECT_GT(speedAsked(9.0), 3.0);
+  EXPECT_NEAR(speedAsked(4.0), 0.8, 1e-9);
+}
+
 // Where none can begin at the moment, as in a bend taken at the limit, one that begins later is
 // kept.
 TEST(Supervisor, KeepsAStopInAHardBend) {
