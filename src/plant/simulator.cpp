@@ -28,160 +28,81 @@ constexpr std::uint64_t kAisSeed = 0x61697362ULL;
 
 }  // namespace
 
-class Simulator::Impl {
- public:
-  Impl(const Options& options, std::unique_ptr<PlantModel> model, const map::OccupancyGrid& world,
-       std::uint64_t seed)
-      : environment_(options.disturbance, seed),
-        odometry_(options.odometry, seed ^ kOdometrySeed),
-        lidar_(options.lidar, seed ^ kLidarSeed),
-        radar_(options.radar, seed ^ kRadarSeed),
-        transmitters_(options.datum, seed ^ kAisSeed),
-        options_(options),
-        world_(world),
-        model_(std::move(model)) {
-    placeAt(Eigen::Vector2d::Zero(), 0.0);
-  }
-
-  void placeAt(const Eigen::Vector2d& position, double psi_rad) {
-    state_ = placed(model_->settled(), position, psi_rad);
-    had_contact_ = false;
-    touched_vessel_.reset();
-    odometry_.reset();
-    observe();
-  }
-
-  bool command(const vessel::Thrusts& thrusts_n) {
-    if (!thrusts_n.allFinite()) {
-      return false;
-    }
-    command_ = model_->commandFor(thrusts_n);
-    command_time_s_ = time_s_;
-    return true;
-  }
-
-  void advance(double dt_s) {
-    constexpr double kRounding = 1e-9;
-    const double count = std::ceil(dt_s / kStepS - kRounding);
-    const int steps = count > 1.0 ? static_cast<int>(count) : 1;
-    for (int i = 0; i < steps; ++i) {
-      stepOnce(dt_s / steps);
-    }
-  }
+// The instruments, the others, and where everything has got to.
+struct Simulator::Parts {
+  Parts(const Options& asked, std::unique_ptr<PlantModel> sailed, const map::OccupancyGrid& grid,
+        std::uint64_t seed)
+      : environment(asked.disturbance, seed),
+        odometry(asked.odometry, seed ^ kOdometrySeed),
+        lidar(asked.lidar, seed ^ kLidarSeed),
+        radar(asked.radar, seed ^ kRadarSeed),
+        transmitters(asked.datum, seed ^ kAisSeed),
+        options(asked),
+        world(grid),
+        model(std::move(sailed)) {}
 
   [[nodiscard]] bool commandTimedOut() const {
     constexpr double kRounding = 1e-9;
-    return time_s_ - command_time_s_ >= options_.command_timeout_s - kRounding;
+    return time_s - command_time_s >= options.command_timeout_s - kRounding;
   }
 
-  [[nodiscard]] bool scanDue() const { return time_s_ >= next_scan_s_; }
-  const Scan& scan() {
-    constexpr double kRounding = 1e-9;
-    const double period = 1.0 / options_.lidar.rate_hz;
-    next_scan_s_ = (std::floor(time_s_ / period + kRounding) + 1.0) * period - kRounding;
-    return lidar_.scan(world_, others_, truth_);
-  }
-
-  void setVessels(std::vector<vessel::ScriptedVessel> vessels) {
-    transmitters_.set(vessels, time_s_);
-    others_.set(std::move(vessels), time_s_);
-    sentences_.clear();
-  }
-  [[nodiscard]] const std::vector<OtherVessel>& others() const { return others_.now(); }
-  [[nodiscard]] bool radarDue() const {
-    return options_.radar.range_m > 0.0 && time_s_ >= next_radar_s_;
-  }
-  std::vector<Eigen::Vector2d> radar() {
-    next_radar_s_ = time_s_ + 1.0 / RadarOptions::kRateHz - 1e-9;
-    return radar_.scan(others_.now(), truth_);
-  }
-  [[nodiscard]] std::vector<std::string> takeAis() { return std::exchange(sentences_, {}); }
-
-  [[nodiscard]] double clearance() const {
-    const double world = hullClearance(world_, options_.vessel.hull, truth_.planar.head<2>(),
-                                       truth_.yaw_rad, kClearanceLimit);
-    const auto nearest = nearestVessel();
-    return nearest ? std::min(world, nearest->distance_m) : world;
-  }
-  [[nodiscard]] Eigen::Vector2d thrustLimits() const {
-    constexpr double kMore = 1e6;
-    const auto most = [&](double asked) {
-      PlantState x = PlantState::Zero();
-      x.tail<2>() = model_->commandFor(vessel::Thrusts::Constant(asked));
-      return std::abs(model_->thrusts(x)[vessel::kLeft]);
-    };
-    return {most(kMore), most(-kMore)};
-  }
-
-  [[nodiscard]] double time() const { return time_s_; }
-  [[nodiscard]] const Truth& truth() const { return truth_; }
-  [[nodiscard]] const Odometry& odometry() const { return odometry_.latest(); }
-  [[nodiscard]] bool inContact() const { return in_contact_; }
-  [[nodiscard]] bool hadContact() const { return had_contact_; }
-  [[nodiscard]] std::optional<int> touchedVessel() const { return touched_vessel_; }
-  [[nodiscard]] const Options& options() const { return options_; }
-
- private:
   // Wind, current and waves are taken in the step's middle and held through it.
   void stepOnce(double dt_s) {
-    environment_.advance(dt_s);
-    const Conditions conditions =
-        environment_.at(time_s_ + 0.5 * dt_s, planarPose(state_), *model_);
-    const Eigen::Vector2d command =
-        commandTimedOut() ? model_->commandFor(vessel::Thrusts::Zero()) : command_;
-    state_ = model_->step(state_, command, dt_s, [&](const PlantState& x) {
-      return surroundings(conditions, x, *model_);
-    });
-    time_s_ += dt_s;
-    others_.advance(time_s_);
-    transmitters_.advance(others_.now(), time_s_, sentences_);
-    truth_.wind_mps = conditions.wind_mps;
-    truth_.current_mps = conditions.current_mps;
+    environment.advance(dt_s);
+    const Conditions conditions = environment.at(time_s + 0.5 * dt_s, planarPose(state), *model);
+    const Eigen::Vector2d held =
+        commandTimedOut() ? model->commandFor(vessel::Thrusts::Zero()) : command;
+    state = model->step(state, held, dt_s,
+                        [&](const PlantState& x) { return surroundings(conditions, x, *model); });
+    time_s += dt_s;
+    others.advance(time_s);
+    transmitters.advance(others.now(), time_s, sentences);
+    truth.wind_mps = conditions.wind_mps;
+    truth.current_mps = conditions.current_mps;
     observe();
   }
 
   void observe() {
-    const Eigen::Vector2d wind = truth_.wind_mps;
-    const Eigen::Vector2d current = truth_.current_mps;
-    truth_ = toTruth(state_, model_->poseRate(state_));
-    truth_.stamp_s = time_s_;
-    truth_.thrusts_n = model_->thrusts(state_);
-    truth_.wind_mps = wind;
-    truth_.current_mps = current;
-    odometry_.measure(truth_);
-    in_contact_ =
-        hullTouches(world_, options_.vessel.hull, truth_.planar.head<2>(), truth_.yaw_rad);
+    const Eigen::Vector2d wind = truth.wind_mps;
+    const Eigen::Vector2d current = truth.current_mps;
+    truth = toTruth(state, model->poseRate(state));
+    truth.stamp_s = time_s;
+    truth.thrusts_n = model->thrusts(state);
+    truth.wind_mps = wind;
+    truth.current_mps = current;
+    odometry.measure(truth);
+    in_contact = hullTouches(world, options.vessel.hull, truth.planar.head<2>(), truth.yaw_rad);
     if (const auto nearest = nearestVessel(); nearest && nearest->distance_m == 0.0) {
-      in_contact_ = true;
-      touched_vessel_ = others_.now()[nearest->index].id;
+      in_contact = true;
+      touched_vessel = others.now()[nearest->index].id;
     }
-    had_contact_ = had_contact_ || in_contact_;
+    had_contact = had_contact || in_contact;
   }
 
   [[nodiscard]] std::optional<OtherVessels::Nearest> nearestVessel() const {
-    return others_.nearest(options_.vessel.hull, truth_.planar.head<2>(), truth_.yaw_rad);
+    return others.nearest(options.vessel.hull, truth.planar.head<2>(), truth.yaw_rad);
   }
 
-  Environment environment_;
-  OdometrySensor odometry_;
-  Lidar lidar_;
-  Radar radar_;
-  OtherVessels others_;
-  AisTransmitters transmitters_;
-  std::vector<std::string> sentences_;  // sent and not yet taken
-  PlantState state_ = PlantState::Zero();
-  Truth truth_;
-  Eigen::Vector2d command_ = Eigen::Vector2d::Zero();
-  Options options_;
-  WorldMap world_;
-  std::unique_ptr<PlantModel> model_;
-  double time_s_ = 0.0;
-  double command_time_s_ = -std::numeric_limits<double>::infinity();
-  double next_scan_s_ = 0.0;
-  double next_radar_s_ = 0.0;
-  bool in_contact_ = false;
-  bool had_contact_ = false;
-  std::optional<int> touched_vessel_;
+  Environment environment;
+  OdometrySensor odometry;
+  Lidar lidar;
+  Radar radar;
+  OtherVessels others;
+  AisTransmitters transmitters;
+  std::vector<std::string> sentences;  // sent and not yet taken
+  PlantState state = PlantState::Zero();
+  Truth truth;
+  Eigen::Vector2d command = Eigen::Vector2d::Zero();
+  Options options;
+  WorldMap world;
+  std::unique_ptr<PlantModel> model;
+  double time_s = 0.0;
+  double command_time_s = -std::numeric_limits<double>::infinity();
+  double next_scan_s = 0.0;
+  double next_radar_s = 0.0;
+  bool in_contact = false;
+  bool had_contact = false;
+  std::optional<int> touched_vessel;
 };
 
 Simulator::Simulator(const Options& options, const map::OccupancyGrid& world, std::uint64_t seed) {
@@ -189,7 +110,8 @@ Simulator::Simulator(const Options& options, const map::OccupancyGrid& world, st
   if (!model) {
     throw std::invalid_argument(model.error().message);
   }
-  impl_ = std::make_unique<Impl>(options, std::move(*model), world, seed);
+  parts_ = std::make_unique<Parts>(options, std::move(*model), world, seed);
+  placeAt(Eigen::Vector2d::Zero(), 0.0);
 }
 
 Simulator::~Simulator() = default;
@@ -211,68 +133,103 @@ Result<Simulator> Simulator::create(const Options& options, const map::Occupancy
 }
 
 void Simulator::placeAt(const Eigen::Vector2d& position, double psi_rad) {
-  impl_->placeAt(position, psi_rad);
+  parts_->state = placed(parts_->model->settled(), position, psi_rad);
+  parts_->had_contact = false;
+  parts_->touched_vessel.reset();
+  parts_->odometry.reset();
+  parts_->observe();
 }
+
 bool Simulator::command(const vessel::Thrusts& thrusts_n) {
-  return impl_->command(thrusts_n);
+  if (!thrusts_n.allFinite()) {
+    return false;
+  }
+  parts_->command = parts_->model->commandFor(thrusts_n);
+  parts_->command_time_s = parts_->time_s;
+  return true;
 }
+
 void Simulator::advance(double dt_s) {
-  impl_->advance(dt_s);
+  constexpr double kRounding = 1e-9;
+  const double count = std::ceil(dt_s / kStepS - kRounding);
+  const int steps = count > 1.0 ? static_cast<int>(count) : 1;
+  for (int i = 0; i < steps; ++i) {
+    parts_->stepOnce(dt_s / steps);
+  }
 }
+
 void Simulator::step(const vessel::Thrusts& thrusts_n, double dt_s) {
-  impl_->command(thrusts_n);
-  impl_->advance(dt_s);
+  command(thrusts_n);
+  advance(dt_s);
 }
+
 double Simulator::time() const {
-  return impl_->time();
+  return parts_->time_s;
 }
 const Truth& Simulator::truth() const {
-  return impl_->truth();
+  return parts_->truth;
 }
 const Odometry& Simulator::odometry() const {
-  return impl_->odometry();
+  return parts_->odometry.latest();
 }
 bool Simulator::commandTimedOut() const {
-  return impl_->commandTimedOut();
+  return parts_->commandTimedOut();
 }
 bool Simulator::scanDue() const {
-  return impl_->scanDue();
+  return parts_->time_s >= parts_->next_scan_s;
 }
 const Scan& Simulator::scan() {
-  return impl_->scan();
+  constexpr double kRounding = 1e-9;
+  const double period = 1.0 / parts_->options.lidar.rate_hz;
+  parts_->next_scan_s =
+      (std::floor(parts_->time_s / period + kRounding) + 1.0) * period - kRounding;
+  return parts_->lidar.scan(parts_->world, parts_->others, parts_->truth);
 }
 bool Simulator::inContact() const {
-  return impl_->inContact();
+  return parts_->in_contact;
 }
 bool Simulator::hadContact() const {
-  return impl_->hadContact();
+  return parts_->had_contact;
 }
 std::optional<int> Simulator::touchedVessel() const {
-  return impl_->touchedVessel();
+  return parts_->touched_vessel;
 }
 void Simulator::setVessels(std::vector<vessel::ScriptedVessel> vessels) {
-  impl_->setVessels(std::move(vessels));
+  parts_->transmitters.set(vessels, parts_->time_s);
+  parts_->others.set(std::move(vessels), parts_->time_s);
+  parts_->sentences.clear();
 }
 const std::vector<OtherVessel>& Simulator::others() const {
-  return impl_->others();
+  return parts_->others.now();
 }
 bool Simulator::radarDue() const {
-  return impl_->radarDue();
+  return parts_->options.radar.range_m > 0.0 && parts_->time_s >= parts_->next_radar_s;
 }
 std::vector<Eigen::Vector2d> Simulator::radar() {
-  return impl_->radar();
+  parts_->next_radar_s = parts_->time_s + 1.0 / RadarOptions::kRateHz - 1e-9;
+  return parts_->radar.scan(parts_->others.now(), parts_->truth);
 }
 std::vector<std::string> Simulator::takeAis() {
-  return impl_->takeAis();
+  return std::exchange(parts_->sentences, {});
 }
 double Simulator::clearance() const {
-  return impl_->clearance();
+  const double world =
+      hullClearance(parts_->world, parts_->options.vessel.hull, parts_->truth.planar.head<2>(),
+                    parts_->truth.yaw_rad, kClearanceLimit);
+  const auto nearest = parts_->nearestVessel();
+  return nearest ? std::min(world, nearest->distance_m) : world;
 }
 const Options& Simulator::options() const {
-  return impl_->options();
+  return parts_->options;
 }
 Eigen::Vector2d Simulator::thrustLimits() const {
-  return impl_->thrustLimits();
+  constexpr double kMore = 1e6;
+  const auto most = [&](double asked) {
+    PlantState x = PlantState::Zero();
+    x.tail<2>() = parts_->model->commandFor(vessel::Thrusts::Constant(asked));
+    return std::abs(parts_->model->thrusts(x)[vessel::kLeft]);
+  };
+  return {most(kMore), most(-kMore)};
 }
 
 }  // namespace otter_nav::plant

@@ -87,8 +87,8 @@ class Simulator {
   [[nodiscard]] Eigen::Vector2d thrustLimits() const;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace otter_nav::plant
