@@ -86,7 +86,7 @@ Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
   const trajectory::Sample start = setup.trajectory.sample(0.0, setup.vessel);
   simulator->placeAt(start.state.head<2>(), start.state[vessel::kPsi]);
   tracker::Tracker tracker(setup.tracker, setup.vessel);
-  if (Status status = tracker.setTrajectory(setup.trajectory, simulator->time()); !status) {
+  if (Status status = tracker.setTrajectory({setup.trajectory, simulator->time()}); !status) {
     return failure(status.error().message);
   }
   if (dump != nullptr) {

@@ -92,8 +92,7 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                                                     const trajectory::TimedTrajectory& sailed,
                                                     double thrust_share, const vessel::Pose& goal,
                                                     const feasibility::Obstacles& obstacles) {
-  const std::optional<double> at =
-      joiningTime(sailed, now_s + latency.seconds() - sailed.start_time_s);
+  const std::optional<double> at = joiningTime(sailed, sailed.elapsed(now_s + latency.seconds()));
   if (!at) {
     return std::nullopt;
   }
@@ -119,8 +118,7 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
 
 std::optional<double> PlanRequests::joint(double now_s,
                                           const trajectory::TimedTrajectory& sailed) const {
-  const std::optional<double> at =
-      joiningTime(sailed, now_s + latency.seconds() - sailed.start_time_s);
+  const std::optional<double> at = joiningTime(sailed, sailed.elapsed(now_s + latency.seconds()));
   return at ? std::optional<double>(sailed.start_time_s + *at) : std::nullopt;
 }
 

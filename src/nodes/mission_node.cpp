@@ -15,6 +15,7 @@
 #include <cmath>
 #include <csignal>
 #include <deque>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -70,14 +71,6 @@ vessel::State stateOf(const PlantState& message) {
   vessel::State state;
   state << message.x, message.y, message.yaw, message.u, message.v, message.r;
   return state;
-}
-
-// The track lies beside the result.
-std::string trackPath(const std::string& result) {
-  const std::size_t dot = result.rfind('.');
-  const std::size_t slash = result.rfind('/');
-  const bool has_ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  return (has_ending ? result.substr(0, dot) : result) + ".csv";
 }
 
 }  // namespace
@@ -164,7 +157,9 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   }
   std::optional<scenario::TrackWriter> track;
   if (!options->result.empty()) {
-    Result<scenario::TrackWriter> opened = scenario::TrackWriter::open(trackPath(options->result));
+    // The track lies beside the result.
+    Result<scenario::TrackWriter> opened = scenario::TrackWriter::open(
+        std::filesystem::path(options->result).replace_extension(".csv").string());
     if (!opened) {
       return failure(opened.error().message);
     }
@@ -222,7 +217,7 @@ void MissionNode::onTrajectory(const Trajectory& message) {
   Result<trajectory::TimedTrajectory> timed =
       ros_bridge::toTrajectory(message, ros_bridge::frames().map);
   if (timed) {
-    references_.add(message.id, timed->start_time_s, std::move(timed->trajectory));
+    references_.add(message.id, std::move(*timed));
   }
 }
 

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <optional>
 
 #include "otter_nav/stopping/splice.hpp"
-#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/trajectory/timed_trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::nodes {
@@ -16,9 +17,9 @@ class ReferenceLog {
  public:
   explicit ReferenceLog(vessel::Parameters vessel) : vessel_(std::move(vessel)) {}
 
-  void add(std::uint32_t id, double start_s, trajectory::Trajectory trajectory) {
+  void add(std::uint32_t id, trajectory::TimedTrajectory planned) {
     if (entries_.empty() || id > entries_.back().id) {
-      entries_.push_back({id, start_s, std::move(trajectory)});
+      entries_.push_back({id, std::move(planned)});
     }
     while (entries_.size() > kSize) {
       entries_.pop_front();
@@ -29,37 +30,35 @@ class ReferenceLog {
   // [x m, y m, psi rad] on the latest trajectory that has begun by then; nothing if there is none
   // or it is an order to stop.
   [[nodiscard]] std::optional<Eigen::Vector3d> pose(double time_s) const {
-    const Entry* entry = at(time_s);
-    if (entry == nullptr || entry->trajectory.empty()) {
+    const trajectory::TimedTrajectory* planned = at(time_s);
+    if (planned == nullptr) {
       return std::nullopt;
     }
     return Eigen::Vector3d(
-        entry->trajectory.sample(time_s - entry->start_s, vessel_).state.head<3>());
+        planned->trajectory.sample(planned->elapsed(time_s), vessel_).state.head<3>());
   }
   // Along that trajectory to its end, m.
   [[nodiscard]] std::optional<double> distanceLeft(double time_s) const {
-    const Entry* entry = at(time_s);
-    if (entry == nullptr || entry->trajectory.empty()) {
+    const trajectory::TimedTrajectory* planned = at(time_s);
+    if (planned == nullptr) {
       return std::nullopt;
     }
-    return trajectory::length(stopping::remainder(entry->trajectory, time_s - entry->start_s));
+    return trajectory::length(stopping::remainder(planned->trajectory, planned->elapsed(time_s)));
   }
 
  private:
   struct Entry {
     std::uint32_t id = 0;
-    double start_s = 0.0;
-    trajectory::Trajectory trajectory;
+    trajectory::TimedTrajectory planned;
   };
   static constexpr std::size_t kSize = 20;
 
-  [[nodiscard]] const Entry* at(double time_s) const {
-    for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
-      if (entry->start_s <= time_s) {
-        return &*entry;
-      }
-    }
-    return nullptr;
+  [[nodiscard]] const trajectory::TimedTrajectory* at(double time_s) const {
+    const auto latest = std::find_if(entries_.rbegin(), entries_.rend(), [&](const Entry& entry) {
+      return entry.planned.start_time_s <= time_s;
+    });
+    return latest == entries_.rend() || latest->planned.trajectory.empty() ? nullptr
+                                                                           : &latest->planned;
   }
 
   vessel::Parameters vessel_;

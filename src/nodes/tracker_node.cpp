@@ -209,8 +209,7 @@ void TrackerNode::onTrajectory(const Trajectory& message) {
               tracker_.requestStop("asked to stop", options_.lockstep ? start_s : 0.0, message.id);
               return {};
             }
-            return tracker_.setTrajectory(timed.trajectory, timed.start_time_s, message.id,
-                                          timed.speed_max_mps);
+            return tracker_.setTrajectory(timed, message.id);
           });
   {
     const std::lock_guard<std::mutex> lock(mutex_);

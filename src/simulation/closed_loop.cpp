@@ -154,9 +154,7 @@ void ClosedLoop::carryOut(const mission::Orders& orders) {
   }
   if (orders.sail) {
     stop_ordered_ = false;
-    const Status status = tracker_.setTrajectory(orders.sail->trajectory, orders.sail->start_time_s,
-                                                 0, orders.sail->speed_max_mps);
-    if (!status) {
+    if (const Status status = tracker_.setTrajectory(*orders.sail); !status) {
       finish(scenario::Outcome::kError,
              "the tracker refused a trajectory: " + status.error().message);
     }
@@ -213,7 +211,7 @@ scenario::MotionSample ClosedLoop::motion() const {
   const trajectory::TimedTrajectory& sailed = supervisor_.sailed();
   if (!sailed.trajectory.empty()) {
     sample.reference =
-        sailed.trajectory.sample(time() - sailed.start_time_s, options_.vessel).state.head<3>();
+        sailed.trajectory.sample(sailed.elapsed(time()), options_.vessel).state.head<3>();
   }
   return sample;
 }
@@ -228,10 +226,10 @@ scenario::Progress ClosedLoop::progress() const {
   progress.state = mission::name(supervisor_.phase());
   progress.detail = supervisor_.reason();
   const trajectory::TimedTrajectory& sailed = supervisor_.sailed();
-  progress.distance_left_m = sailed.trajectory.empty()
-                                 ? (now.state.head<2>() - goal_.position).norm()
-                                 : trajectory::length(stopping::remainder(
-                                       sailed.trajectory, time() - sailed.start_time_s));
+  progress.distance_left_m =
+      sailed.trajectory.empty()
+          ? (now.state.head<2>() - goal_.position).norm()
+          : trajectory::length(stopping::remainder(sailed.trajectory, sailed.elapsed(time())));
   return progress;
 }
 

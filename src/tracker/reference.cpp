@@ -56,11 +56,10 @@ void ReferenceSource::wait(double now_s, const Vector2d& position) {
   }
 }
 
-void ReferenceSource::start(const trajectory::Trajectory* trajectory, double start_s,
-                            double speed_max_mps, double now_s) {
-  trajectory_ = trajectory;
-  start_s_ = start_s;
-  speed_max_mps_ = speed_max_mps;
+void ReferenceSource::start(const trajectory::TimedTrajectory& sailed, double now_s) {
+  trajectory_ = &sailed.trajectory;
+  start_s_ = sailed.start_time_s;
+  speed_max_mps_ = sailed.speed_max_mps;
   lag_s_ = 0.0;
   waited_at_s_ = now_s;
   joins_ = false;

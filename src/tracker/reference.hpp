@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "otter_nav/tracker/options.hpp"
-#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/trajectory/timed_trajectory.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "tracker/ocp/problem.hpp"
@@ -19,9 +19,8 @@ class ReferenceSource {
  public:
   ReferenceSource(const Options& options, const vessel::Parameters& vessel);
 
-  // A new trajectory, in force from `start_s`; the reference starts at psi of the trajectory.
-  void start(const trajectory::Trajectory* trajectory, double start_s, double speed_max_mps,
-             double now_s);
+  // A new trajectory, which stays where it is; the reference starts at psi of the trajectory.
+  void start(const trajectory::TimedTrajectory& sailed, double now_s);
   // From now on the reference is led from `offset` (position and velocity off the trajectory's,
   // earth frame) to the trajectory within `duration_s`.
   void join(double now_s, const Eigen::Vector2d& offset, const Eigen::Vector2d& velocity_offset,

@@ -67,8 +67,7 @@ class Tracker::Core {
  public:
   Core(const Options& options, const vessel::Parameters& vessel);
 
-  Status setTrajectory(trajectory::Trajectory trajectory, double start_s, std::uint32_t order,
-                       double speed_max_mps);
+  Status setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order);
   void addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad);
   void requestStop(std::string_view reason, double start_s, std::uint32_t order);
   void setWeights(const Weights& weights);
@@ -81,9 +80,7 @@ class Tracker::Core {
 
  private:
   struct Assignment {
-    trajectory::Trajectory trajectory;  // empty: stop
-    double start_s = 0.0;
-    double speed_max_mps = 0.0;
+    trajectory::TimedTrajectory sailed;  // empty: stop
     std::string_view reason;
     std::uint32_t order = 0;
   };
@@ -147,25 +144,22 @@ Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
       keeper_(vessel),
       controller_(options, vessel) {}
 
-Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double start_s,
-                                    std::uint32_t order, double speed_max_mps) {
-  if (Status status = checkTrajectory(trajectory, vessel_.top_speed_mps); !status) {
+Status Tracker::Core::setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order) {
+  if (Status status = checkTrajectory(sailed.trajectory, vessel_.top_speed_mps); !status) {
     return status;
   }
-  if (!std::isfinite(start_s)) {
+  if (!std::isfinite(sailed.start_time_s)) {
     return failure("trajectory start time is not finite");
   }
-  const double over_for = last_now_s_.load() - (start_s + trajectory.duration());
-  if (over_for > 0.0) {
-    return failure("trajectory ended " + std::to_string(over_for) + " s ago");
+  if (const double left_s = sailed.left(last_now_s_.load()); left_s < 0.0) {
+    return failure("trajectory ended " + std::to_string(-left_s) + " s ago");
   }
   auto assignment = std::make_unique<Assignment>();
-  assignment->trajectory = std::move(trajectory);
-  assignment->start_s = start_s;
+  assignment->sailed = std::move(sailed);
   assignment->order = order;
-  assignment->speed_max_mps = speed_max_mps;
   if (vessel_.speed_max_mps > 0.0) {
-    assignment->speed_max_mps = std::min(speed_max_mps, vessel_.speed_max_mps);
+    double& speed_max_mps = assignment->sailed.speed_max_mps;
+    speed_max_mps = std::min(speed_max_mps, vessel_.speed_max_mps);
   }
   incoming_.give(std::move(assignment));
   return {};
@@ -173,7 +167,7 @@ Status Tracker::Core::setTrajectory(trajectory::Trajectory trajectory, double st
 
 void Tracker::Core::requestStop(std::string_view reason, double start_s, std::uint32_t order) {
   auto assignment = std::make_unique<Assignment>();
-  assignment->start_s = start_s;
+  assignment->sailed.start_time_s = start_s;
   assignment->order = order;
   assignment->reason = reason;
   incoming_.give(std::move(assignment));
@@ -202,13 +196,13 @@ void Tracker::Core::takeAssignment(double now_s, const vessel::State& state) {
     fresh_ = true;
     order_taken_ = waiting_->order;
   }
-  if (!fresh_ || waiting_->start_s > now_s) {
+  if (!fresh_ || waiting_->sailed.start_time_s > now_s) {
     return;
   }
   // The one that ends stays in waiting_ until the next is taken; then the giver frees it.
   std::swap(waiting_, sailing_);
   fresh_ = false;
-  if (sailing_->trajectory.empty()) {
+  if (sailing_->sailed.trajectory.empty()) {
     beginStop(sailing_->reason, now_s, state);
   } else {
     beginTracking(now_s, state);
@@ -219,15 +213,15 @@ void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
   const bool under_way = mode_ == Mode::kTracking;
   mode_ = Mode::kTracking;
   stop_reason_ = {};
-  reference_source_.start(&sailing_->trajectory, sailing_->start_s, sailing_->speed_max_mps, now_s);
+  reference_source_.start(sailing_->sailed, now_s);
   const vessel::FlatPoint z = reference_source_.flat(now_s);
   const Vector2d offset = state.head<2>() - z.position;
   if (offset.norm() > kJoinLengths * vessel_.hull.length_m) {
     const Vector2d velocity_offset = velocityOverGround(state) - z.velocity;
     reference_source_.join(
         now_s, offset, velocity_offset,
-        std::max(4.0, offset.norm() /
-                          std::min(kJoinSpeedMps, kJoinSpeedShare * sailing_->speed_max_mps)));
+        std::max(4.0, offset.norm() / std::min(kJoinSpeedMps,
+                                               kJoinSpeedShare * sailing_->sailed.speed_max_mps)));
   }
   controller_.start(under_way && offset.norm() < kSamePathLengths * vessel_.hull.length_m);
 }
@@ -424,9 +418,8 @@ Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
-Status Tracker::setTrajectory(trajectory::Trajectory trajectory, double start_s,
-                              std::uint32_t order, double speed_max_mps) {
-  return core_->setTrajectory(std::move(trajectory), start_s, order, speed_max_mps);
+Status Tracker::setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order) {
+  return core_->setTrajectory(std::move(sailed), order);
 }
 
 void Tracker::addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad) {

@@ -126,11 +126,8 @@ class Vessel {
   }
 
   Status takeOrder(const Trajectory& message, std::size_t position) {
-    const double start_s = message.header.stamp.toSec();
-    const auto trajectory = ros_bridge::toTrajectory(message, message.header.frame_id);
-    if (trajectory) {
-      run().orders.push_back(
-          {message.id, start_s, position, trajectory->trajectory, trajectory->speed_max_mps});
+    if (const auto timed = ros_bridge::toTrajectory(message, message.header.frame_id)) {
+      run().orders.push_back({message.id, position, *timed});
     }
     return {};  // the node refuses what is none
   }

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/tracker/options.hpp"
-#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/trajectory/timed_trajectory.hpp"
 #include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/types.hpp"
 
@@ -23,10 +22,8 @@ struct RecordedOdometry {
 // A trajectory, or an order to stop if it is empty. `position` is its place among all messages.
 struct RecordedOrder {
   std::uint32_t id = 0;
-  double start_s = 0.0;
   std::size_t position = 0;
-  trajectory::Trajectory trajectory;
-  double speed_max_mps = std::numeric_limits<double>::infinity();
+  trajectory::TimedTrajectory timed;
 };
 
 // One control step (TrackerCycle.msg).

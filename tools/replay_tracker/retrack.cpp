@@ -86,12 +86,11 @@ class OrderFeed {
       return failure("trajectory " + std::to_string(taken_) + ", taken at " +
                      seconds(cycle.time_s) + ", is not in the recording");
     }
-    if (order->trajectory.empty()) {
-      tracker.requestStop("asked to stop", lockstep ? order->start_s : 0.0, order->id);
+    if (order->timed.trajectory.empty()) {
+      tracker.requestStop("asked to stop", lockstep ? order->timed.start_time_s : 0.0, order->id);
       return {};
     }
-    return tracker.setTrajectory(order->trajectory, order->start_s, order->id,
-                                 order->speed_max_mps);
+    return tracker.setTrajectory(order->timed, order->id);
   }
 
  private:

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -15,7 +14,7 @@
 #include "otter_nav/tracker/limits.hpp"
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/tracker/solver_status.hpp"
-#include "otter_nav/trajectory/trajectory.hpp"
+#include "otter_nav/trajectory/timed_trajectory.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
@@ -71,14 +70,11 @@ class Tracker {
   Tracker(Tracker&&) noexcept;
   Tracker& operator=(Tracker&&) noexcept;
 
-  // Any thread, at any time. The trajectory takes over at `start_s`, or at the next step when that
+  // Any thread, at any time. The trajectory takes over at its start, or at the next step when that
   // has passed. Errors: empty or malformed (piece and fault named), not finite, over already.
-  // `order` is the caller's number for it. `speed_max_mps`: over ground, to keep to also when the
-  // vessel is behind; what the trajectory itself sails counts where it is more, and the vessel's
-  // own limit where it is less.
-  [[nodiscard]] Status setTrajectory(
-      trajectory::Trajectory trajectory, double start_s, std::uint32_t order = 0,
-      double speed_max_mps = std::numeric_limits<double>::infinity());
+  // `order` is the caller's number for it. Its speed limit is kept to also when the vessel is
+  // behind; the vessel's own counts where that is less.
+  [[nodiscard]] Status setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order = 0);
   // Any one thread. Not finite or out of order: dropped, and the next status says so. The higher
   // the bow comes up, the less the vessel is pushed ahead: thrust below the centre of gravity and a
   // sea from ahead can turn a small hull over.

@@ -42,7 +42,7 @@ Outcome sail(double course_rad, double mean_mps, std::uint64_t seed) {
       kMeanMps * kDurationS * Eigen::Vector2d(std::cos(course_rad), std::sin(course_rad));
   sea.placeAt({0.0, 0.0}, kPi);  // bow to the wind
   EXPECT_TRUE(tracker.setTrajectory(
-      trajectory::Trajectory({trajectory::hermitePiece(start, end, kDurationS)}), 0.0));
+      {trajectory::Trajectory({trajectory::hermitePiece(start, end, kDurationS)}), 0.0}));
   Outcome outcome;
   for (int k = 0; k < static_cast<int>(100.0 * kDurationS); ++k) {
     tracker.addOdometry(sea.odometry().stamp_s, sea.odometry().state);

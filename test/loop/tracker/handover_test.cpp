@@ -15,7 +15,8 @@ double thrustRateLimit() {
 // The trajectory is 3 s old and the vessel at rest at its start.
 TEST(Handover, LateStartCatchesUpWithoutThrustShocks) {
   VesselAtSea sea("paper");
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 90.0), sea.now() - 3.0));
+  ASSERT_TRUE(
+      sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 2.0, 90.0), sea.now() - 3.0}));
   const Stretch start = sea.sail(30.0);
   EXPECT_LE(start.max_thrust_rate_nps, thrustRateLimit() * 1.001);
   EXPECT_LT((sea.truth().head<2>() - Eigen::Vector2d(2.0 * 33.0, 0.0)).norm(), 0.1);
@@ -25,7 +26,7 @@ TEST(Handover, LateStartCatchesUpWithoutThrustShocks) {
 TEST(Handover, OffsetIsJoinedAlongACurve) {
   VesselAtSea sea("none");
   sea.plant().placeAt({0.0, -8.0}, 0.0);
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 1.5, 90.0), sea.now()));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 1.5, 90.0), sea.now()}));
   double overshoot = 0.0;
   for (int i = 0; i < 40; ++i) {
     const Stretch stretch = sea.sail(1.0);
@@ -39,11 +40,11 @@ TEST(Handover, OffsetIsJoinedAlongACurve) {
 // The second trajectory is the rest of the first, given anew from a later instant.
 TEST(Handover, ATakeoverOnTheSameWayIsSeamless) {
   VesselAtSea sea("paper");
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()}));
   sea.sail(20.0);
   const Stretch before = sea.sail(2.0);
   const double later = sea.now() + 0.5;
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(2.0 * later, 2.0, 60.0), later));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(2.0 * later, 2.0, 60.0), later}));
   const Stretch across = sea.sail(2.0);
   EXPECT_EQ(across.last.mode, Mode::kTracking);
   EXPECT_LT(across.max_error_m, before.max_error_m + 0.01);
@@ -53,7 +54,7 @@ TEST(Handover, ATakeoverOnTheSameWayIsSeamless) {
 TEST(Handover, HoldsTheGoalAndItsHeadingInALightWind) {
   VesselAtSea sea("none");
   ASSERT_TRUE(
-      sea.tracker().setTrajectory(VesselAtSea::line({0.0, 0.0}, {20.0, 0.0}, 20.0), sea.now()));
+      sea.tracker().setTrajectory({VesselAtSea::line({0.0, 0.0}, {20.0, 0.0}, 20.0), sea.now()}));
   sea.sail(40.0);
   const Stretch held = sea.sail(20.0);
   EXPECT_EQ(held.last.mode, Mode::kHolding);
@@ -72,7 +73,7 @@ TEST(Handover, HoldsTheSpotInTheWeatherOfThePaper) {
       const Eigen::Vector2d goal(15.0 * std::cos(course), 15.0 * std::sin(course));
       sea.plant().placeAt({0.0, 0.0}, course);
       ASSERT_TRUE(
-          sea.tracker().setTrajectory(VesselAtSea::line({0.0, 0.0}, goal, 25.0), sea.now()));
+          sea.tracker().setTrajectory({VesselAtSea::line({0.0, 0.0}, goal, 25.0), sea.now()}));
       sea.sail(40.0);
       for (int i = 0; i < 100; ++i, ++seconds) {
         EXPECT_EQ(sea.sail(1.0).last.mode, Mode::kHolding);
@@ -94,7 +95,7 @@ TEST(Handover, CrawlsWithoutSwingingAgainstTheWaves) {
   start.velocity = end.velocity = {0.0, kSpeedMps};
   end.position = {0.0, kSpeedMps * kDurationS};
   ASSERT_TRUE(sea.tracker().setTrajectory(
-      trajectory::Trajectory({trajectory::hermitePiece(start, end, kDurationS)}), sea.now()));
+      {trajectory::Trajectory({trajectory::hermitePiece(start, end, kDurationS)}), sea.now()}));
   sea.sail(20.0);
   double headings = 0.0;
   double corners = 0.0;  // the farthest one's distance beside the way
@@ -113,7 +114,7 @@ TEST(Handover, CrawlsWithoutSwingingAgainstTheWaves) {
 TEST(Handover, WeathervanesWhereTheHeadingCannotBeHeld) {
   VesselAtSea sea("hard");
   ASSERT_TRUE(
-      sea.tracker().setTrajectory(VesselAtSea::line({0.0, 0.0}, {-14.0, 14.0}, 25.0), sea.now()));
+      sea.tracker().setTrajectory({VesselAtSea::line({0.0, 0.0}, {-14.0, 14.0}, 25.0), sea.now()}));
   sea.sail(60.0);
   double farthest = 0.0;
   std::string_view reason;

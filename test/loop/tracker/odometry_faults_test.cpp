@@ -11,14 +11,14 @@ using test::VesselAtSea;
 
 TEST(OdometryFaults, LateOdometryIsPredictedToNow) {
   VesselAtSea sea("paper", 0.15);
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()}));
   sea.sail(15.0);
   EXPECT_LT(sea.sail(10.0).max_error_m, 0.05);
 }
 
 TEST(OdometryFaults, EveryTenthMessageIsEnough) {
   VesselAtSea sea("paper");
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()}));
   sea.sail(15.0);
   int count = 0;
   const Stretch sparse = sea.sail(10.0, [&](double&, vessel::State&) { return ++count % 10 == 0; });
@@ -28,7 +28,7 @@ TEST(OdometryFaults, EveryTenthMessageIsEnough) {
 
 TEST(OdometryFaults, ShortGapIsBridgedALongOneBrakes) {
   VesselAtSea sea("paper");
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 120.0), sea.now()));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 2.0, 120.0), sea.now()}));
   sea.sail(15.0);
   const auto silence = [](double&, vessel::State&) { return false; };
   const Stretch bridged = sea.sail(0.45, silence);
@@ -46,7 +46,7 @@ TEST(OdometryFaults, ShortGapIsBridgedALongOneBrakes) {
 
 TEST(OdometryFaults, AnOutlierIsNotFollowed) {
   VesselAtSea sea("paper");
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()}));
   sea.sail(15.0);
   int count = 0;
   const Stretch hit = sea.sail(2.0, [&](double&, vessel::State& x) {
@@ -63,7 +63,7 @@ TEST(OdometryFaults, AnOutlierIsNotFollowed) {
 // vessel goes back to the path with no more than the usual thrust rates.
 TEST(OdometryFaults, AJumpThatStaysIsBelieved) {
   VesselAtSea sea("paper");
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 120.0), sea.now()));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 2.0, 120.0), sea.now()}));
   sea.sail(15.0);
   const auto shifted = [](double&, vessel::State& x) {
     x[1] += 3.0;
@@ -78,7 +78,7 @@ TEST(OdometryFaults, AJumpThatStaysIsBelieved) {
 
 TEST(OdometryFaults, OutOfOrderMessagesAreDropped) {
   VesselAtSea sea("none");
-  ASSERT_TRUE(sea.tracker().setTrajectory(VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()));
+  ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 2.0, 60.0), sea.now()}));
   sea.sail(15.0);
   int count = 0;
   const Stretch mixed = sea.sail(2.0, [&](double& stamp, vessel::State& x) {

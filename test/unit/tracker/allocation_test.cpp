@@ -18,7 +18,7 @@ class TrackerAllocation : public ::testing::Test {
     vessel::FlatPoint goal;
     goal.position.x() = 30.0;
     const auto status = tracker_.setTrajectory(
-        trajectory::Trajectory({trajectory::hermitePiece({}, goal, 20.0)}), now_s_);
+        {trajectory::Trajectory({trajectory::hermitePiece({}, goal, 20.0)}), now_s_});
     EXPECT_TRUE(status) << status.error().message;
     EXPECT_EQ(cycle().mode, Mode::kTracking);
     before_ = test::allocations;

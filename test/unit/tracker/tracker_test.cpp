@@ -68,7 +68,7 @@ TEST_F(TrackerTest, IsIdleWithoutATrajectory) {
 
 TEST_F(TrackerTest, SailsALineAndHoldsItsEndUnderAForce) {
   disturbance_.force_n = {-4.0, 3.0};
-  ASSERT_TRUE(tracker_.setTrajectory(line(30.0, 20.0), now_s_));
+  ASSERT_TRUE(tracker_.setTrajectory({line(30.0, 20.0), now_s_}));
   Command command = sail(15.0);
   EXPECT_EQ(command.mode, Mode::kTracking);
   EXPECT_LT(command.tracking_error_m, 0.05);
@@ -90,17 +90,17 @@ TEST_F(TrackerTest, TurnsOnlyAsFarAsThePlaceCanBeKept) {
     return trajectory::Trajectory(
         {trajectory::spinPiece(Eigen::Vector2d::Zero(), 0.0, psi_rad, 8.0)});
   };
-  ASSERT_TRUE(tracker_.setTrajectory(turn(0.0), now_s_));
+  ASSERT_TRUE(tracker_.setTrajectory({turn(0.0), now_s_}));
   sail(7.0);
   ASSERT_LT(state_.head<2>().norm(), 0.1);
-  ASSERT_TRUE(tracker_.setTrajectory(turn(0.5 * kPi), now_s_));
+  ASSERT_TRUE(tracker_.setTrajectory({turn(0.5 * kPi), now_s_}));
   for (int k = 0; k < 7; ++k) {
     EXPECT_LT(sail(1.0).tracking_error_m, 0.3);
   }
 }
 
 TEST_F(TrackerTest, BridgesAShortGapAndStopsOnALongOne) {
-  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
+  ASSERT_TRUE(tracker_.setTrajectory({line(60.0, 30.0), now_s_}));
   sail(10.0);
   EXPECT_EQ(sail(0.3, false).mode, Mode::kTracking);
   EXPECT_EQ(sail(2.0).mode, Mode::kTracking);
@@ -114,7 +114,7 @@ TEST_F(TrackerTest, BridgesAShortGapAndStopsOnALongOne) {
 }
 
 TEST_F(TrackerTest, DropsOdometryThatIsNotFiniteOrJumps) {
-  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
+  ASSERT_TRUE(tracker_.setTrajectory({line(60.0, 30.0), now_s_}));
   sail(10.0);
   vessel::State bad = state_;
   bad[1] = std::numeric_limits<double>::quiet_NaN();
@@ -150,7 +150,7 @@ TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
     Tracker tracker(load(), vessel_);
     std::swap(tracker, tracker_);
     sail(0.02);
-    ASSERT_TRUE(tracker_.setTrajectory(steady, now_s_, 0, limit));
+    ASSERT_TRUE(tracker_.setTrajectory({steady, now_s_, limit}));
     double fastest = 0.0;
     for (int i = 0; i < 300; ++i) {
       sail(0.1);
@@ -185,7 +185,7 @@ TEST_P(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
   double slowest = 0.0;
   int given_anew = 0;
   tracker.addOdometry(now_s, state);
-  ASSERT_TRUE(tracker.setTrajectory(path, now_s));
+  ASSERT_TRUE(tracker.setTrajectory({path, now_s}));
   while (now_s < 10.0 + path.duration()) {
     tracker.addOdometry(now_s, state);
     const Command command = tracker.step(now_s);
@@ -198,7 +198,7 @@ TEST_P(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
     now_s += 0.01;
     if (given_anew == 0 && GetParam() && path.flat(now_s - 10.0).velocity.x() < -0.05) {
       ++given_anew;
-      ASSERT_TRUE(tracker.setTrajectory(path, 10.0));
+      ASSERT_TRUE(tracker.setTrajectory({path, 10.0}));
     }
     slowest = std::min(slowest, state[vessel::kSurge]);
     ASSERT_LT(std::abs(wrapAngle(state[vessel::kPsi])), 0.2) << "at " << now_s - 10.0 << " s";
@@ -218,7 +218,7 @@ TEST_F(TrackerTest, PushesNothingAheadWithTheBowHigh) {
     state_.setZero();
     now_s_ += 1000.0;
     sail(0.02);
-    EXPECT_TRUE(tracker_.setTrajectory(line(60.0, 25.0), now_s_));
+    EXPECT_TRUE(tracker_.setTrajectory({line(60.0, 25.0), now_s_}));
     sail(3.0);
     state_[vessel::kPsi] -= 0.1;
     vessel::Thrusts thrusts;
@@ -246,7 +246,7 @@ TEST_F(TrackerTest, TakesNewWeights) {
     state_.setZero();
     now_s_ += 1000.0;
     sail(0.02);
-    EXPECT_TRUE(tracker_.setTrajectory(line(40.0, 25.0), now_s_));
+    EXPECT_TRUE(tracker_.setTrajectory({line(40.0, 25.0), now_s_}));
     state_[vessel::kX] = -0.3;
     return sail(0.3).thrusts.sum();
   };
@@ -256,7 +256,7 @@ TEST_F(TrackerTest, TakesNewWeights) {
 TEST_F(TrackerTest, RefusesTrajectoriesThatCannotBeSailed) {
   sail(0.1);
   const auto refused = [&](trajectory::Trajectory t, double start_s, const std::string& why) {
-    const Status status = tracker_.setTrajectory(std::move(t), start_s);
+    const Status status = tracker_.setTrajectory({std::move(t), start_s});
     ASSERT_FALSE(status);
     EXPECT_NE(status.error().message.find(why), std::string::npos) << status.error().message;
   };
@@ -275,9 +275,9 @@ TEST_F(TrackerTest, RefusesTrajectoriesThatCannotBeSailed) {
 
 // Where others steer, the estimate does not take their doing for the sea's.
 TEST_F(TrackerTest, KnowsWhatWasSentInsteadOfItsCommand) {
-  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
+  ASSERT_TRUE(tracker_.setTrajectory({line(60.0, 30.0), now_s_}));
   Tracker misled(load(), vessel_);
-  ASSERT_TRUE(misled.setTrajectory(line(60.0, 30.0), now_s_));
+  ASSERT_TRUE(misled.setTrajectory({line(60.0, 30.0), now_s_}));
   const vessel::Thrusts sent(12.0, 12.0);
   Command told;
   Command untold;
@@ -301,7 +301,7 @@ TEST_F(TrackerTest, KnowsWhatWasSentInsteadOfItsCommand) {
 
 TEST_F(TrackerTest, NumbersItsStepsAndWhatTheyWereMadeWith) {
   sail(0.1);
-  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_, 7));
+  ASSERT_TRUE(tracker_.setTrajectory({line(60.0, 30.0), now_s_}, 7));
   const Command command = sail(0.2);
   EXPECT_EQ(command.cycle, 30U);
   EXPECT_EQ(command.odometry_taken, 30U);
@@ -315,7 +315,7 @@ TEST_F(TrackerTest, NumbersItsStepsAndWhatTheyWereMadeWith) {
 }
 
 TEST_F(TrackerTest, StopsOnRequestAndSailsOnWithTheNextTrajectory) {
-  ASSERT_TRUE(tracker_.setTrajectory(line(60.0, 30.0), now_s_));
+  ASSERT_TRUE(tracker_.setTrajectory({line(60.0, 30.0), now_s_}));
   sail(10.0);
   tracker_.requestStop("the operator said so");
   EXPECT_EQ(sail(0.1).reason, "the operator said so");
@@ -326,7 +326,7 @@ TEST_F(TrackerTest, StopsOnRequestAndSailsOnWithTheNextTrajectory) {
   vessel::FlatPoint end;
   end.position = start.position + Eigen::Vector2d(20.0, 0.0);
   ASSERT_TRUE(tracker_.setTrajectory(
-      trajectory::Trajectory({trajectory::hermitePiece(start, end, 15.0)}), now_s_));
+      {trajectory::Trajectory({trajectory::hermitePiece(start, end, 15.0)}), now_s_}));
   EXPECT_EQ(sail(1.0).mode, Mode::kTracking);
 }
 
