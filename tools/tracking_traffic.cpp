@@ -80,11 +80,7 @@ Status take(const json& line, traffic::Tracker& tracker) {
     return tracker.addAis(t, line.at("ais").get<std::string>());
   }
   if (line.contains("radar")) {
-    std::vector<Eigen::Vector2d> positions = positionsOf(line.at("radar"));
-    for (Eigen::Vector2d& position : positions) {
-      position = own.position + Eigen::Rotation2Dd(own.psi_rad) * position;
-    }
-    tracker.addRadar(t, positions, own.position);
+    tracker.addRadar(t, vessel::toMap(own, positionsOf(line.at("radar"))), own.position);
     return {};
   }
   if (line.contains("detections")) {

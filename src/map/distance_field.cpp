@@ -41,13 +41,13 @@ DistanceField::DistanceField(const OccupancyGrid& grid, const DistanceFieldOptio
   corner_down_.resize(corners);
   corner_distance_.resize(corners);
   tight_.resize(cells);
-  update(grid, 0, 0, geometry_.width, geometry_.height);
+  update(grid, {0, 0, geometry_.width, geometry_.height});
 }
 
-void DistanceField::update(const OccupancyGrid& grid, int column, int row, int width, int height) {
-  const Window cells{std::max(0, column), std::max(0, row),
-                     std::min(geometry_.width, column + width),
-                     std::min(geometry_.height, row + height)};
+void DistanceField::update(const OccupancyGrid& grid, const CellRectangle& changed) {
+  const Window cells{std::max(0, changed.column), std::max(0, changed.row),
+                     std::min(geometry_.width, changed.column + changed.width),
+                     std::min(geometry_.height, changed.row + changed.height)};
   if (cells.x0 >= cells.x1 || cells.y0 >= cells.y1) {
     return;
   }

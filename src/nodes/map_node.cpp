@@ -140,16 +140,13 @@ void MapNode::publishMapTo(const ros::SingleSubscriberPublisher& subscriber) con
 
 // Sensor and hull are where tf says they are, so the sensor may sit anywhere on the vessel.
 Result<map::CellRectangle> MapNode::insert(const sensor_msgs::LaserScan& message) {
-  const ros::Time& stamp = message.header.stamp;
-  const Result<map::SensorPose> sensor =
-      ros_bridge::poseInMap(transforms_, message.header.frame_id, stamp);
-  const Result<map::SensorPose> base =
-      ros_bridge::poseInMap(transforms_, ros_bridge::frames().base, stamp);
-  if (!sensor || !base) {
-    return failure((sensor ? base : sensor).error().message);
+  const auto sensor =
+      ros_bridge::poseInMap(transforms_, message.header.frame_id, message.header.stamp);
+  const auto own = ros_bridge::hullInMap(transforms_, message.header.stamp);
+  if (const Status status = firstFailure(sensor, own); !status) {
+    return failure(status.error().message);
   }
-  return map_.insertScan(*sensor, {base->position.head<2>(), base->yaw_rad},
-                         ros_bridge::toScan(message));
+  return map_.insertScan(*sensor, *own, ros_bridge::toScan(message));
 }
 
 void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
@@ -172,8 +169,9 @@ void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
 
 // A vessel was met there before it was known to be one.
 void MapNode::onGhosts(const sensor_msgs::PointCloud& message) {
-  if (message.header.frame_id != frames().map) {
-    diagnostics_.refuse("ghosts", "frame_id is '" + message.header.frame_id + "'");
+  if (const Status status = ros_bridge::checkFrame(message.header.frame_id, frames().map);
+      !status) {
+    diagnostics_.refuse("ghosts", status.error().message);
     return;
   }
   std::vector<Eigen::Vector2d> points;

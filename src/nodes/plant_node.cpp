@@ -119,9 +119,10 @@ PlantNode::~PlantNode() {
 }
 
 void PlantNode::onCommand(const ThrusterCommand& message) {
-  if (message.header.frame_id != ros_bridge::frames().base) {
-    diagnostics_.refuse("thruster_command", "frame_id is '" + message.header.frame_id +
-                                                "', expected '" + ros_bridge::frames().base + "'");
+  if (const Status status =
+          ros_bridge::checkFrame(message.header.frame_id, ros_bridge::frames().base);
+      !status) {
+    diagnostics_.refuse("thruster_command", status.error().message);
     return;
   }
   if (!std::isfinite(message.left) || !std::isfinite(message.right)) {

@@ -14,7 +14,6 @@
 #include <tf2_ros/transform_listener.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -145,9 +144,9 @@ void TrafficNode::onChart(const nav_msgs::OccupancyGrid& message) {
 }
 
 void TrafficNode::onRadar(const geometry_msgs::PoseArray& message) {
-  if (message.header.frame_id != ros_bridge::frames().base) {
-    diagnostics_.refuse("radar", "frame_id is '" + message.header.frame_id + "', expected '" +
-                                     ros_bridge::frames().base + "'");
+  if (const Status status = ros_bridge::checkFrame(message.header.frame_id, frames().base);
+      !status) {
+    diagnostics_.refuse("radar", status.error().message);
     return;
   }
   Heard heard;
@@ -185,18 +184,12 @@ void TrafficNode::takeOthers() {
       }
       continue;
     }
-    const Result<map::SensorPose> base =
-        ros_bridge::poseInMap(transforms_, ros_bridge::frames().base, heard.stamp);
-    if (!base) {
-      diagnostics_.refuse("radar", base.error().message);
+    const Result<vessel::Pose> own = ros_bridge::hullInMap(transforms_, heard.stamp);
+    if (!own) {
+      diagnostics_.refuse("radar", own.error().message);
       continue;
     }
-    const Eigen::Vector2d own = base->position.head<2>();
-    std::vector<Eigen::Vector2d> positions;
-    for (const Eigen::Vector2d& position : heard.radar_in_base) {
-      positions.emplace_back(own + Eigen::Rotation2Dd(base->yaw_rad) * position);
-    }
-    tracker_.addRadar(stamp_s, positions, own);
+    tracker_.addRadar(stamp_s, vessel::toMap(*own, heard.radar_in_base), own->position);
   }
 }
 
@@ -212,16 +205,13 @@ void TrafficNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   }
   takeOthers();
   sensor_msgs::LaserScan still = *message;
-  const Result<map::SensorPose> sensor =
-      ros_bridge::poseInMap(transforms_, message->header.frame_id, stamp);
-  const Result<map::SensorPose> base =
-      ros_bridge::poseInMap(transforms_, ros_bridge::frames().base, stamp);
-  if (!sensor || !base) {
-    diagnostics_.refuse("scan", (sensor ? base : sensor).error().message);
+  const auto sensor = ros_bridge::poseInMap(transforms_, message->header.frame_id, stamp);
+  const auto own = ros_bridge::hullInMap(transforms_, stamp);
+  if (const Status status = firstFailure(sensor, own); !status) {
+    diagnostics_.refuse("scan", status.error().message);
   } else {
     const traffic::ScanVerdict& verdict =
-        tracker_.addScan(stamp.toSec(), *sensor, {base->position.head<2>(), base->yaw_rad},
-                         ros_bridge::toScan(*message));
+        tracker_.addScan(stamp.toSec(), *sensor, *own, ros_bridge::toScan(*message));
     for (std::size_t i = 0; i < still.ranges.size(); ++i) {
       if (verdict.on_vessel[i]) {
         still.ranges[i] = std::numeric_limits<float>::quiet_NaN();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/attitude.hpp"
+#include "otter_nav/ros/frames.hpp"
 
 namespace otter_nav::ros_bridge {
 namespace {
@@ -28,13 +29,11 @@ Eigen::Vector3d toEigen(const geometry_msgs::Vector3& v) {
 
 Status checkHeader(const nav_msgs::Odometry& message, const std::string& frame,
                    const std::string& child_frame) {
-  if (message.header.frame_id != frame) {
-    return failure("header.frame_id is '" + message.header.frame_id + "', expected '" + frame +
-                   "'");
+  if (Status status = checkFrame(message.header.frame_id, frame); !status) {
+    return status;
   }
-  if (message.child_frame_id != child_frame) {
-    return failure("child_frame_id is '" + message.child_frame_id + "', expected '" + child_frame +
-                   "'");
+  if (const Status status = checkFrame(message.child_frame_id, child_frame); !status) {
+    return failure("child " + status.error().message);
   }
   if (message.header.stamp.isZero()) {
     return failure("header.stamp is zero");
@@ -95,10 +94,7 @@ Result<vessel::Pose> planarPose(const geometry_msgs::Pose& pose) {
 }
 
 Result<vessel::Pose> planarPose(const geometry_msgs::PoseStamped& pose, const std::string& frame) {
-  if (pose.header.frame_id != frame) {
-    return failure("frame_id is '" + pose.header.frame_id + "', expected '" + frame + "'");
-  }
-  return planarPose(pose.pose);
+  return checkFrame(pose.header.frame_id, frame).and_then([&] { return planarPose(pose.pose); });
 }
 
 Result<OdometrySample> odometrySample(const nav_msgs::Odometry& message, const std::string& frame,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/ros/frames.hpp"
+
 namespace otter_nav::ros_bridge {
 namespace {
 
@@ -31,8 +33,8 @@ map::Cell toCell(std::int8_t value) {
 
 Status checkInfo(const nav_msgs::OccupancyGrid& message, const std::string& frame) {
   const nav_msgs::MapMetaData& info = message.info;
-  if (message.header.frame_id != frame) {
-    return failure("frame_id is '" + message.header.frame_id + "', expected '" + frame + "'");
+  if (Status status = checkFrame(message.header.frame_id, frame); !status) {
+    return status;
   }
   if (info.width == 0 || info.height == 0 || info.width > kMaxSide || info.height > kMaxSide) {
     return failure("size " + std::to_string(info.width) + " by " + std::to_string(info.height) +
@@ -110,8 +112,8 @@ Result<map::OccupancyGrid> toGrid(const nav_msgs::OccupancyGrid& message,
 
 Result<map::CellRectangle> applyUpdate(const map_msgs::OccupancyGridUpdate& update,
                                        const std::string& frame, map::OccupancyGrid& grid) {
-  if (update.header.frame_id != frame) {
-    return failure("frame_id is '" + update.header.frame_id + "', expected '" + frame + "'");
+  if (const Status status = checkFrame(update.header.frame_id, frame); !status) {
+    return failure(status.error().message);
   }
   const auto width = static_cast<std::int64_t>(update.width);
   const auto height = static_cast<std::int64_t>(update.height);

@@ -32,10 +32,8 @@ Result<map::CellRectangle> MapMirror::take(const map_msgs::OccupancyGridUpdate& 
   Result<map::CellRectangle> changed = applyUpdate(update, frames().map, grid_);
   if (changed) {
     stamp_ = std::max(stamp_, update.header.stamp);
-    if (!changed->empty()) {
-      field_.update(grid_, changed->column, changed->row, changed->width, changed->height);
-      known_.update(grid_, changed->column, changed->row, changed->width, changed->height);
-    }
+    field_.update(grid_, *changed);
+    known_.update(grid_, *changed);
   }
   return changed;
 }

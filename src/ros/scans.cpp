@@ -33,4 +33,10 @@ Result<map::SensorPose> poseInMap(const tf2_ros::Buffer& transforms, const std::
   }
 }
 
+Result<vessel::Pose> hullInMap(const tf2_ros::Buffer& transforms, const ros::Time& stamp) {
+  return poseInMap(transforms, frames().base, stamp).map([](const map::SensorPose& base) {
+    return vessel::Pose{base.position.head<2>(), base.yaw_rad};
+  });
+}
+
 }  // namespace otter_nav::ros_bridge

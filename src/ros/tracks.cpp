@@ -84,9 +84,8 @@ Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& sta
 }
 
 Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
-  if (message.header.frame_id != frames().map) {
-    return failure("frame_id is '" + message.header.frame_id + "', expected '" + frames().map +
-                   "'");
+  if (const Status status = checkFrame(message.header.frame_id, frames().map); !status) {
+    return failure(status.error().message);
   }
   std::vector<traffic::Track> tracks;
   for (const Track& one : message.tracks) {

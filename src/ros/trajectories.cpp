@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/ros/frames.hpp"
+
 namespace otter_nav::ros_bridge {
 namespace {
 
@@ -87,8 +89,8 @@ Trajectory toMessage(const trajectory::TimedTrajectory& timed, std::uint32_t id,
 
 Result<trajectory::TimedTrajectory> toTrajectory(const Trajectory& message,
                                                  const std::string& frame) {
-  if (message.header.frame_id != frame) {
-    return failure("frame_id is '" + message.header.frame_id + "', expected '" + frame + "'");
+  if (const Status status = checkFrame(message.header.frame_id, frame); !status) {
+    return failure(status.error().message);
   }
   if (message.header.stamp.isZero()) {
     return failure("header.stamp, the start time, is zero");

@@ -49,21 +49,14 @@ Status Sensing::insert(Scan scan, const plant::Odometry& odometry) {
 }
 
 void Sensing::update(const map::CellRectangle& changed) {
-  if (!changed.empty()) {
-    field_.update(map_.projection(), changed.column, changed.row, changed.width, changed.height);
-    known_.update(map_.projection(), changed.column, changed.row, changed.width, changed.height);
-  }
+  field_.update(map_.projection(), changed);
+  known_.update(map_.projection(), changed);
 }
 
 void Sensing::hear(const std::vector<Eigen::Vector2d>& radar_in_base,
                    const plant::Odometry& odometry) {
-  const Eigen::Vector2d own = odometry.state.head<2>();
-  const Eigen::Rotation2Dd map_from_base(odometry.state[vessel::kPsi]);
-  std::vector<Eigen::Vector2d> positions;
-  for (const Eigen::Vector2d& position : radar_in_base) {
-    positions.emplace_back(own + map_from_base * position);
-  }
-  traffic_.addRadar(odometry.stamp_s, positions, own);
+  const vessel::Pose own{odometry.state.head<2>(), odometry.state[vessel::kPsi]};
+  traffic_.addRadar(odometry.stamp_s, vessel::toMap(own, radar_in_base), own.position);
 }
 
 Status Sensing::hear(double stamp_s, const std::vector<std::string>& ais) {

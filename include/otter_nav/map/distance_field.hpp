@@ -35,10 +35,9 @@ class DistanceField {
   // collision.
   DistanceField(const OccupancyGrid& grid, const DistanceFieldOptions& options);
 
-  // Recomputes after cells in columns [column, column + width) and rows alike changed; equal to a
-  // rebuild, in time that grows with the region grown by max_distance_m. `grid` has this field's
-  // geometry; what lies outside it is ignored.
-  void update(const OccupancyGrid& grid, int column, int row, int width, int height);
+  // Recomputes after cells changed; equal to a rebuild, in time that grows with the region grown by
+  // max_distance_m. `grid` has this field's geometry; what lies outside it is ignored.
+  void update(const OccupancyGrid& grid, const CellRectangle& changed);
 
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double maxDistance() const { return options_.max_distance_m; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -43,6 +44,27 @@ struct OccupancyGrid {
   std::vector<Cell> cells;  // width * height, row-major
 
   [[nodiscard]] Cell at(int column, int row) const { return cells[geometry.index(column, row)]; }
+};
+
+// Cells of columns [column, column + width) and rows alike; empty if width or height is 0.
+struct CellRectangle {
+  int column = 0;
+  int row = 0;
+  int width = 0;
+  int height = 0;
+
+  [[nodiscard]] bool empty() const { return width <= 0 || height <= 0; }
+  // Grows to hold a cell.
+  void include(int at_column, int at_row) {
+    if (empty()) {
+      *this = {at_column, at_row, 1, 1};
+      return;
+    }
+    width += std::max(column - at_column, 0) + std::max(at_column - column - width + 1, 0);
+    height += std::max(row - at_row, 0) + std::max(at_row - row - height + 1, 0);
+    column = std::min(column, at_column);
+    row = std::min(row, at_row);
+  }
 };
 
 }  // namespace otter_nav::map

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -57,27 +56,6 @@ struct SensorPose {
 
   [[nodiscard]] Eigen::Matrix3d rotation() const {
     return attitude(roll_rad, pitch_rad, yaw_rad).toRotationMatrix();
-  }
-};
-
-// Changed cells, half open; empty if width or height is 0.
-struct CellRectangle {
-  int column = 0;
-  int row = 0;
-  int width = 0;
-  int height = 0;
-
-  [[nodiscard]] bool empty() const { return width <= 0 || height <= 0; }
-  // Grows to hold a cell.
-  void include(int at_column, int at_row) {
-    if (empty()) {
-      *this = {at_column, at_row, 1, 1};
-      return;
-    }
-    width += std::max(column - at_column, 0) + std::max(at_column - column - width + 1, 0);
-    height += std::max(row - at_row, 0) + std::max(at_row - row - height + 1, 0);
-    column = std::min(column, at_column);
-    row = std::min(row, at_row);
   }
 };
 

@@ -20,6 +20,11 @@ struct Frames {
 
 // As they were when the process first asked.
 [[nodiscard]] const Frames& frames();
+// An error says which frame it is and which it has to be.
+[[nodiscard]] inline Status checkFrame(const std::string& frame, const std::string& expected) {
+  return frame == expected ? Status()
+                           : failure("frame_id is '" + frame + "', expected '" + expected + "'");
+}
 // The frame of a pose in `map` or `odom`.
 [[nodiscard]] inline const std::string& odometryFrame(const std::string& which) {
   return which == "map" ? frames().map : frames().odom;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
 
 namespace otter_nav::vessel {
 
@@ -9,5 +11,14 @@ struct Pose {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // m
   double psi_rad = 0.0;
 };
+
+// Points told from the pose, m ahead and to port, as places of the map.
+[[nodiscard]] inline std::vector<Eigen::Vector2d> toMap(const Pose& pose,
+                                                        std::vector<Eigen::Vector2d> points) {
+  for (Eigen::Vector2d& point : points) {
+    point = pose.position + Eigen::Rotation2Dd(pose.psi_rad) * point;
+  }
+  return points;
+}
 
 }  // namespace otter_nav::vessel

@@ -62,7 +62,7 @@ TEST(DistanceFieldProperty, WindowedUpdateEqualsRebuild) {
               random.uniform() < 0.1 ? Cell::kOccupied : Cell::kFree;
         }
       }
-      updated.update(grid, x, y, width, height);
+      updated.update(grid, {x, y, width, height});
     }
     const DistanceField rebuilt(grid, options);
     for (int i = 0; i < 3000; ++i) {

@@ -48,11 +48,9 @@ class Sea {
       }
       if (simulator.radarDue()) {
         const vessel::State& own = simulator.odometry().state;
-        std::vector<Eigen::Vector2d> positions;
-        for (const Eigen::Vector2d& p : simulator.radar()) {
-          positions.emplace_back(own.head<2>() + Eigen::Rotation2Dd(own[vessel::kPsi]) * p);
-        }
-        tracker.addRadar(simulator.time(), positions, own.head<2>());
+        tracker.addRadar(simulator.time(),
+                         vessel::toMap({own.head<2>(), own[vessel::kPsi]}, simulator.radar()),
+                         own.head<2>());
       }
       for (const std::string& sentence : simulator.takeAis()) {
         ASSERT_TRUE(tracker.addAis(simulator.time(), sentence));
