@@ -20,7 +20,7 @@ class Tally {
   void add(const plant::Truth& truth, const vessel::FlatPoint& reference,
            const tracker::Command& command, double dt_s) {
     const double error = (truth.planar.head<2>() - reference.position).norm();
-    const double speed = truth.planar.segment<2>(vessel::kSurge).norm();
+    const double speed = vessel::speedOf(truth.planar);
     const double yaw_rate = truth.planar[vessel::kYawRate];
     ++count_;
     sums_.mean_error_m += error;

@@ -59,7 +59,7 @@ FlatPoint spiralAt(double angle, double top_speed) {
   // z = radius(angle) e(angle); with k = d radius / d angle and n = e':
   const double radius = kInner + kRadiusPerRad * angle;
   const double k = kRadiusPerRad;
-  const Vector2d e(std::cos(angle), std::sin(angle));
+  const Vector2d e = unitVector(angle);
   const Vector2d n = across(e);
   const Vector2d d1 = k * e + radius * n;
   const Vector2d d2 = 2 * k * n - radius * e;

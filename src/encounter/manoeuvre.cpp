@@ -38,15 +38,12 @@ Eigen::Vector3d smoothStep(double x) {
 class CourseMade {
  public:
   CourseMade(const Eigen::Vector2d& velocity, const std::vector<Change>& changes)
-      : course_(std::atan2(velocity.y(), velocity.x())), speed_(velocity.norm()) {
+      : course_(angleOf(velocity)), speed_(velocity.norm()) {
     double course = course_;
     double speed = speed_;
     for (const Change& change : changes) {
       const double next_speed = change.velocity.norm();
-      const double next =
-          next_speed > 1e-3
-              ? unwrapNear(std::atan2(change.velocity.y(), change.velocity.x()), course)
-              : course;
+      const double next = next_speed > 1e-3 ? unwrapNear(angleOf(change.velocity), course) : course;
       steps_.push_back({change.at_s - 0.5 * change.duration_s, change.duration_s, next - course,
                         next_speed - speed});
       course = next;
@@ -65,7 +62,7 @@ class CourseMade {
       course += step.turn_rad * s;
       speed += step.speed_mps * s;
     }
-    const Eigen::Vector2d ahead(std::cos(course[0]), std::sin(course[0]));
+    const Eigen::Vector2d ahead = unitVector(course[0]);
     const Eigen::Vector2d left = across(ahead);
     const double w = course[1];
     v = speed[0] * ahead;

@@ -76,12 +76,6 @@ double starboardTurn(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   return -std::atan2(cross(from, to), from.dot(to));
 }
 
-Eigen::Vector2d turned(const Eigen::Vector2d& v, double left_rad) {
-  const double c = std::cos(left_rad);
-  const double s = std::sin(left_rad);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-
 }  // namespace
 
 Outlook Prospect::look(const Course& own, const Other& other) const {
@@ -89,7 +83,7 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
   out.outlines_m = std::numeric_limits<double>::infinity();
   const double her_speed = other.motion.velocity.norm();
   const double her_course = her_speed > kStillMps ? other.motion.course() : other.heading_rad;
-  const Eigen::Vector2d ahead(std::cos(her_course), std::sin(her_course));
+  const Eigen::Vector2d ahead = unitVector(her_course);
   const Eigen::Vector2d port = across(ahead);
   const auto inHerFrame = [&](const Eigen::Vector2d& v) {
     return Eigen::Vector2d(v.dot(ahead), v.dot(port));

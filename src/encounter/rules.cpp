@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::encounter {
 namespace {
@@ -24,7 +25,7 @@ const char* rule(Role role) {
 }
 
 double Motion::course() const {
-  return std::atan2(velocity.y(), velocity.x());
+  return angleOf(velocity);
 }
 
 Approach nearestApproach(const Motion& own, const Motion& other) {
@@ -41,7 +42,7 @@ bool riskOfCollision(const Approach& approach) {
 
 double bearing(const Motion& own, const Motion& other) {
   const Eigen::Vector2d to = other.position - own.position;
-  return wrapAngle(own.course() - std::atan2(to.y(), to.x()));
+  return wrapAngle(own.course() - angleOf(to));
 }
 
 Role classify(const Motion& own, const Motion& other) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
@@ -134,7 +135,7 @@ double PieceCheck::heading(double t_s) const {
     return piece_.spinHeading(t_s)[0];
   }
   const Eigen::Vector2d bow = bowAt(t_s);
-  return std::atan2(bow.y(), bow.x());
+  return angleOf(bow);
 }
 
 double PieceCheck::yawRate(double t_s) const {
@@ -205,7 +206,7 @@ void PieceCheck::checkDynamics(const trajectory::MotionAlong& motion, std::size_
     if (report.fault == Fault::kNone) {
       checkSway(p.sway_n, allowed_n, report);
       const Eigen::Vector2d through = inverse_.throughWater(evaluate<7>(velocity_, p.t_s - start));
-      const Eigen::Vector2d bow(std::cos(p.psi_rad), std::sin(p.psi_rad));
+      const Eigen::Vector2d bow = unitVector(p.psi_rad);
       if (piece_.kind == trajectory::PieceKind::kSail && through.norm() > vessel::kWalkingMps &&
           bow.dot(through) < kAcrossCosine * through.norm()) {
         report.fault = Fault::kHeadingJump;

@@ -1,5 +1,7 @@
 #include "otter_nav/map/chart.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -117,6 +119,25 @@ Status saveChart(const OccupancyGrid& grid, const std::string& yaml_path) {
     return failure(yaml_path + ": cannot be written");
   }
   return {};
+}
+
+std::vector<bool> coastOf(const OccupancyGrid& chart) {
+  const GridGeometry& g = chart.geometry;
+  const int reach = static_cast<int>(std::ceil(kCoastM / g.resolution_m));
+  std::vector<bool> coast(chart.cells.size(), false);
+  for (std::size_t i = 0; i < chart.cells.size(); ++i) {
+    if (chart.cells[i] != Cell::kOccupied) {
+      continue;
+    }
+    const int row = static_cast<int>(i) / g.width;
+    const int column = static_cast<int>(i) % g.width;
+    for (int y = std::max(0, row - reach); y <= std::min(g.height - 1, row + reach); ++y) {
+      for (int x = std::max(0, column - reach); x <= std::min(g.width - 1, column + reach); ++x) {
+        coast[g.index(x, y)] = true;
+      }
+    }
+  }
+  return coast;
 }
 
 }  // namespace otter_nav::map

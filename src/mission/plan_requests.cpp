@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/stopping/splice.hpp"
@@ -33,17 +34,11 @@ std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, doub
   return std::nullopt;
 }
 
-// Of the thrusters' limits, what a point of a trajectory asks for.
-double shareAt(const trajectory::Sample& sample, const vessel::Thrusters& thrusters) {
-  return std::max(vessel::shareOfLimit(sample.thrusts[vessel::kLeft], thrusters),
-                  vessel::shareOfLimit(sample.thrusts[vessel::kRight], thrusters));
-}
-
 // What the discs that cover the hull leave where it lies, m.
 double roomAround(const vessel::Hull& hull, const trajectory::Boundary& at,
                   const map::DistanceField& field) {
   constexpr double kNoCentreM = -1e3;  // the discs alone
-  const Eigen::Vector2d bow(std::cos(at.psi_rad), std::sin(at.psi_rad));
+  const Eigen::Vector2d bow = unitVector(at.psi_rad);
   double centre = 0.0;
   return feasibility::HullCover(hull).slack(
       field, at.flat.position, 0.0, kNoCentreM, [&] { return bow; }, centre);
@@ -110,7 +105,7 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
   }
   constexpr double kStartMargin = 1.05;
   // The force it begins with is one of the plan being sailed, made in the weather of then.
-  const double least = kStartMargin * shareAt(sample, vessel_.thrusters) /
+  const double least = kStartMargin * vessel::shareOfLimit(sample.thrusts, vessel_.thrusters) /
                        feasibility::SafetyLimits::of(vessel_, 0.0).thrust_share;
   return ask(now_s, std::move(request), goal, std::max(thrust_share, std::min(least, 1.0)),
              From::kSailed, obstacles);
@@ -150,7 +145,7 @@ PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
   // and going astern it doesn't point where a path from there would have it.
   constexpr double kHardlyMovingMps = 0.25;
   constexpr double kHardlyTurningRadps = 0.2;
-  const bool hardly = state.segment<2>(vessel::kSurge).norm() < kHardlyMovingMps &&
+  const bool hardly = vessel::speedOf(state) < kHardlyMovingMps &&
                       std::abs(state[vessel::kYawRate]) < kHardlyTurningRadps;
   if (hardly || state[vessel::kSurge] <= 0.0) {
     const Eigen::Vector2d there = request.query.start.flat.position;

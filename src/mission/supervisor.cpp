@@ -27,14 +27,10 @@ using feasibility::Obstacles;
 using trajectory::TimedTrajectory;
 using trajectory::Trajectory;
 
-double speedOf(const vessel::State& state) {
-  return state.segment<2>(vessel::kSurge).norm();
-}
-
 bool atRest(const vessel::State& state) {
   constexpr double kAtRestMps = 0.2;
   constexpr double kAtRestRadps = 0.1;
-  return speedOf(state) < kAtRestMps && std::abs(state[vessel::kYawRate]) < kAtRestRadps;
+  return vessel::speedOf(state) < kAtRestMps && std::abs(state[vessel::kYawRate]) < kAtRestRadps;
 }
 
 std::string conflictText(const stopping::Conflict& conflict) {
@@ -179,7 +175,7 @@ class Supervisor::Impl {
   bool always(const Moment& /*m*/) { return true; }
   bool moves(const Moment& m) {
     constexpr double kMovingMps = 0.3;
-    return speedOf(m.situation.state) > kMovingMps;
+    return vessel::speedOf(m.situation.state) > kMovingMps;
   }
   bool hasFault(const Moment& m) { return !faultOf(m).empty(); }
   bool isCancelled(const Moment& /*m*/) { return cancelled_; }
@@ -201,7 +197,7 @@ class Supervisor::Impl {
     const vessel::State& x = m.situation.state;
     return isAtTheEnd(m) && (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
            (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields()) &&
-           speedOf(x) <= vessel::kRestMps;
+           vessel::speedOf(x) <= vessel::kRestMps;
   }
   // A trajectory that ends elsewhere belongs to a goal that was replaced: nothing to wait for.
   bool settlesNoMore(const Moment& m) {
@@ -336,7 +332,7 @@ class Supervisor::Impl {
     aside_.reset();
     const vessel::State& x = m.situation.state;
     const Obstacles now = m.obstacles.startingAt(m.now_s);
-    if (!m.situation.tracks.empty() && !hasFault(m) && speedOf(x) < kSlowMps &&
+    if (!m.situation.tracks.empty() && !hasFault(m) && vessel::speedOf(x) < kSlowMps &&
         stopping::isRunDown(x.head<2>(), now, vessel_.hull)) {
       aside_ = stopping::standAside(x, now, vessel_);
     }
@@ -348,7 +344,8 @@ class Supervisor::Impl {
     constexpr double kStillMps = 0.5;
     constexpr double kStillRadps = 0.25;
     const vessel::State& x = m.situation.state;
-    const bool still = speedOf(x) < kStillMps && std::abs(x[vessel::kYawRate]) < kStillRadps;
+    const bool still =
+        vessel::speedOf(x) < kStillMps && std::abs(x[vessel::kYawRate]) < kStillRadps;
     if (!safety().plansWithWeather() ||
         (still && std::abs(safety().turnIntoLoad(x[vessel::kPsi])) < kIntoLoadRad)) {
       across_since_s_.reset();
@@ -527,7 +524,7 @@ class Supervisor::Impl {
     const std::string why =
         text("not settled at the trajectory's end: %.2f m and %.2f rad from the goal, at %.2f m/s",
              (m.situation.state.head<2>() - goal_.position).norm(), headingOff(m),
-             speedOf(m.situation.state));
+             vessel::speedOf(m.situation.state));
     return rest(m, why, why);
   }
 

@@ -6,9 +6,8 @@
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
 
-#include <cmath>
-
 #include "otter_nav/base/attitude.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/tracks.hpp"
@@ -165,7 +164,7 @@ void PlantPublisher::publishVessels(const plant::Simulator& simulator, const ros
     track.id = other.id;
     track.stamp_s = stamp.toSec();
     track.position = other.motion.pose.position;
-    track.velocity = other.motion.speed_mps * Eigen::Vector2d(std::cos(psi), std::sin(psi));
+    track.velocity = other.motion.speed_mps * unitVector(psi);
     track.heading_rad = psi;
     track.length_m = other.hull.length_m;
     track.beam_m = other.hull.beam_m;
@@ -206,7 +205,7 @@ void PlantPublisher::publishContact(const plant::Simulator& simulator, const ros
   event.header.stamp = stamp;
   event.in_contact = static_cast<std::uint8_t>(in_contact_);
   event.position = toPoint(truth.position.head<2>());
-  event.speed = truth.planar.segment<2>(vessel::kSurge).norm();
+  event.speed = vessel::speedOf(truth.planar);
   contact_.publish(event);
 }
 

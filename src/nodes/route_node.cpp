@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -168,7 +169,7 @@ void RouteNode::onOdometry(const nav_msgs::Odometry& message) {
   if (!vessel) {
     return;
   }
-  const Eigen::Vector2d ahead(std::cos(vessel->psi_rad), std::sin(vessel->psi_rad));
+  const Eigen::Vector2d ahead = unitVector(vessel->psi_rad);
   showMarker(ros_bridge::toPose(vessel->position + kMarkerAheadM * ahead, vessel->psi_rad));
   odometry_subscriber_.shutdown();
 }

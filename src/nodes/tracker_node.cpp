@@ -11,7 +11,6 @@
 #include <std_msgs/String.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -373,7 +372,7 @@ TrackerStatus TrackerNode::status() const {
   const tracker::Command& command = last_command_;
   const Eigen::Vector2d error = (command.estimate - command.reference).head<2>();
   const double psi_rad = command.reference[vessel::kPsi];
-  const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
+  const Eigen::Vector2d ahead = unitVector(psi_rad);
   const CycleStatistics::Summary cycles = statistics_.summary();
   TrackerStatus message;
   message.header.frame_id = frames().map;

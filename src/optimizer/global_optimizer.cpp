@@ -1,7 +1,6 @@
 #include "otter_nav/optimizer/global_optimizer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "optimizer/solve/attempt.hpp"
 #include "optimizer/solve/initial_spline.hpp"
 #include "optimizer/solve/spline_solver.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
@@ -364,7 +364,7 @@ class GlobalOptimizer::Solver {
     trajectory::Boundary stop;
     stop.flat.position = *middle;
     const Eigen::Vector2d onward = trajectory::pointAlong({middle, path.end()}, kCornerM) - *middle;
-    stop.psi_rad = std::atan2(onward.y(), onward.x());
+    stop.psi_rad = angleOf(onward);
     Budget budget = *budget_;
     budget.first_attempt = 0;
     budget.max_attempts = kAttemptsOfParts;

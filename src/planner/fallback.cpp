@@ -1,9 +1,9 @@
 #include "planner/fallback.hpp"
 
 #include <array>
-#include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/optimizer/ends.hpp"
 
 namespace otter_nav::planner {
@@ -92,10 +92,6 @@ std::vector<Piece> smoothed(const std::vector<Piece>& path, const Eigen::Vector2
   return pieces;
 }
 
-double course(const Eigen::Vector2d& v) {
-  return std::atan2(v.y(), v.x());
-}
-
 trajectory::Trajectory assemble(const std::vector<Piece>& smooth, double slowdown,
                                 const trajectory::Boundary& start, const trajectory::Boundary& goal,
                                 const vessel::Parameters& vessel,
@@ -106,14 +102,14 @@ trajectory::Trajectory assemble(const std::vector<Piece>& smooth, double slowdow
   spin.yaw_rate_max_radps = kSpinRateShare * limits.yaw_rate_max_radps;
   if (trajectory::atRest(start)) {
     const Piece& first = smooth.front();
-    const double psi = course(first.flat(first.duration_s).velocity);
+    const double psi = angleOf(first.flat(first.duration_s).velocity);
     optimizer::appendSpin(start.flat.position, start.psi_rad, wrapAngle(psi - start.psi_rad),
                           vessel, spin, pieces);
   }
   for (const Piece& piece : smooth) {
     pieces.push_back(slowed(piece, slowdown));
   }
-  const double psi = course(smooth.back().flat(0.0).velocity);
+  const double psi = angleOf(smooth.back().flat(0.0).velocity);
   optimizer::appendSpin(goal.flat.position, psi, wrapAngle(goal.psi_rad - psi), vessel, spin,
                         pieces);
   return trajectory::Trajectory(std::move(pieces));

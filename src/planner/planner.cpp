@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/lee_shore.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
@@ -168,7 +169,7 @@ class Planner::Pipeline {
       const double length = leg.norm();
       for (double s = 0.5 * kStepM; s < length; s += kStepM) {
         const Eigen::Vector2d p = guide_.points[k - 1] + s / length * leg;
-        places.push_back({before + s, p, std::atan2(leg.y(), leg.x()), field.clearance(p)});
+        places.push_back({before + s, p, angleOf(leg), field.clearance(p)});
       }
       before += length;
     }
@@ -191,7 +192,7 @@ class Planner::Pipeline {
     rest.start.flat = {};
     rest.start.flat.position = from.position + 0.5 * (speed + slowed) * takes_s * ahead;
     rest.start.flat.velocity = slowed * ahead;
-    rest.start.psi_rad = std::atan2(ahead.y(), ahead.x());
+    rest.start.psi_rad = angleOf(ahead);
     const double pause_s = slowed > 0.0 ? 0.0 : kPauseS;
     Plan plan = planAmong(obstacles.startingAt(takes_s + pause_s), rest, termination);
     if (plan.outcome != Outcome::kSolved) {
@@ -580,7 +581,7 @@ class Planner::Pipeline {
 vessel::Pose Query::guideStart() const {
   const vessel::FlatPoint& from = start.flat;
   const bool moving = from.velocity.norm() > 0.1;
-  return {from.position, moving ? std::atan2(from.velocity.y(), from.velocity.x()) : start.psi_rad};
+  return {from.position, moving ? angleOf(from.velocity) : start.psi_rad};
 }
 
 Termination wallClock(double budget_s, int max_iterations) {

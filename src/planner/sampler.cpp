@@ -6,16 +6,6 @@
 #include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::planner {
-namespace {
-
-Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle_rad) {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-
-}  // namespace
-
 Sampler::Sampler(const SamplerOptions& options, const GuideLine& line,
                  const map::DistanceField& field, std::uint64_t seed)
     : options_(options), line_(&line), field_(&field), random_(seed) {
@@ -67,7 +57,7 @@ KinoState Sampler::anywhere() {
   const double course = random_.uniform(-kPi, kPi);
   KinoState state;
   state.position = map.origin + Eigen::Vector2d(east, north);
-  state.velocity = speed * Eigen::Vector2d(std::cos(course), std::sin(course));
+  state.velocity = speed * unitVector(course);
   return state;
 }
 

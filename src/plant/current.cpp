@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::plant {
 
@@ -21,7 +22,7 @@ void Current::advance(double dt_s) {
 
 Eigen::Vector2d Current::velocity() const {
   const double speed = std::max(0.0, options_.speed_mps + slow_.value());
-  return speed * Eigen::Vector2d(std::cos(direction_rad_), std::sin(direction_rad_));
+  return speed * unitVector(direction_rad_);
 }
 
 }  // namespace otter_nav::plant

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -78,7 +79,7 @@ void WaveField::addSpectrum(const SpectrumOptions& spectrum, Random& random) {
 void WaveField::add(double amplitude_m, double frequency_radps, double direction_rad,
                     double phase_rad) {
   trains_.push_back({amplitude_m, frequency_radps, frequency_radps * frequency_radps / kGravity,
-                     Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad)), phase_rad});
+                     unitVector(direction_rad), phase_rad});
 }
 
 double WaveField::phaseOf(const Train& train, const Eigen::Vector2d& position, double time_s) {
@@ -98,7 +99,7 @@ double WaveField::elevation(const Eigen::Vector2d& position, double time_s) cons
 // slopes are -sin(phase) sin(a X) cos(b Y) / X and likewise: no point needs its own cosine.
 HullWaves WaveField::underHull(const Eigen::Vector2d& position, double psi_rad, double time_s,
                                const Eigen::Vector2d& half_size, double draft_m) const {
-  const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
+  const Eigen::Vector2d ahead = unitVector(psi_rad);
   const double spread = half_size.squaredNorm();
   HullWaves w;
   for (const Train& train : trains_) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::plant {
 
 Wind::Wind(const WindOptions& options, std::uint64_t seed)
@@ -24,7 +26,7 @@ void Wind::advance(double dt_s) {
 Eigen::Vector2d Wind::velocity() const {
   const double speed = std::max(0.0, options_.speed_mps + slow_speed_.value() + gust_.value());
   const double direction = options_.direction_rad + slow_direction_.value();
-  return speed * Eigen::Vector2d(std::cos(direction), std::sin(direction));
+  return speed * unitVector(direction);
 }
 
 }  // namespace otter_nav::plant

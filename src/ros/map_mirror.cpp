@@ -13,9 +13,8 @@ Status MapMirror::take(const nav_msgs::OccupancyGrid& message) {
   if (!grid) {
     return failure(grid.error().message);
   }
-  const bool same = ready() && message.info.map_load_time == load_time_ &&
-                    grid->geometry.width == grid_.geometry.width &&
-                    grid->geometry.height == grid_.geometry.height;
+  const bool same =
+      ready() && message.info.map_load_time == load_time_ && grid->geometry == grid_.geometry;
   if (!same) {
     grid_ = std::move(*grid);
     field_ = map::DistanceField(grid_, options_);

@@ -32,7 +32,7 @@ Marker outlineMarker(const traffic::Outline& outline, const std::string& name, i
   marker.color.r = 1.0F;
   marker.color.g = 0.5F;
   marker.color.a = static_cast<float>(alpha);
-  const Eigen::Vector2d ahead(std::cos(outline.heading_rad), std::sin(outline.heading_rad));
+  const Eigen::Vector2d ahead = unitVector(outline.heading_rad);
   const Eigen::Vector2d port = across(ahead);
   const double half_length = outline.half_length_m + outline.radius_m;
   const double half_beam = outline.half_beam_m + outline.radius_m;

@@ -3,36 +3,30 @@
 #include <QPainter>
 #include <QTransform>
 #include <algorithm>
-#include <cmath>
 
 #include "nautical_palette.hpp"
+#include "otter_nav/map/chart.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/grids.hpp"
+#include "otter_nav/ros/scans.hpp"
 
 namespace otter_nav::rviz_plugins {
 namespace {
 
 constexpr QRgb kCoastline = 0xff7d6a3cU;
-constexpr double kCoastM = 0.6;  // charts and echoes agree to about two cells
-
-bool sameGrid(const map::GridGeometry& a, const map::GridGeometry& b) {
-  return a.width == b.width && a.height == b.height && a.resolution_m == b.resolution_m &&
-         a.origin == b.origin;
-}
 
 }  // namespace
 
-QPolygonF fanOf(const sensor_msgs::LaserScan& scan) {
+QPolygonF fanOf(const sensor_msgs::LaserScan& message) {
+  const Scan scan = ros_bridge::toScan(message);
   QPolygonF fan;
   fan << QPointF(0.0, 0.0);
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    const float range = scan.ranges[i];
-    // REP-117: +inf is free up to range_max; what is no distance has seen nothing.
-    const double far = std::isinf(range) && range > 0.0F                    ? scan.range_max
-                       : range >= scan.range_min && range <= scan.range_max ? range
-                                                                            : 0.0;
-    const double angle = scan.angle_min + static_cast<double>(i) * scan.angle_increment;
-    fan << QPointF(far * std::cos(angle), far * std::sin(angle));
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double far = scan.metNothing(i)     ? scan.range_max_m
+                       : scan.metSomething(i) ? static_cast<double>(scan.ranges_m[i])
+                                              : 0.0;
+    const Eigen::Vector3d end = far * scan.direction(i);
+    fan << QPointF(end.x(), end.y());
   }
   return fan;
 }
@@ -49,7 +43,7 @@ void ChartPicture::setChart(map::OccupancyGrid chart) {
 }
 
 void ChartPicture::setMap(map::OccupancyGrid map) {
-  const bool same = !empty() && sameGrid(map.geometry, map_.geometry);
+  const bool same = !empty() && map.geometry == map_.geometry;
   map_ = std::move(map);
   map_is_chart_ = false;
   if (!same) {
@@ -63,11 +57,7 @@ void ChartPicture::setMap(map::OccupancyGrid map) {
 
 void ChartPicture::alignChart() {
   charted_.assign(map_.cells.size(), map::Cell::kUnknown);
-  ashore_.assign(map_.cells.size(), false);
-  if (!chart_) {
-    return;
-  }
-  for (int row = 0; row < map_.geometry.height; ++row) {
+  for (int row = 0; chart_ && row < map_.geometry.height; ++row) {
     for (int column = 0; column < map_.geometry.width; ++column) {
       const Eigen::Vector2d centre = map_.geometry.centreOf(column, row);
       if (chart_->geometry.contains(centre)) {
@@ -76,23 +66,7 @@ void ChartPicture::alignChart() {
       }
     }
   }
-  const int reach = static_cast<int>(std::ceil(kCoastM / map_.geometry.resolution_m));
-  for (int row = 0; row < map_.geometry.height; ++row) {
-    for (int column = 0; column < map_.geometry.width; ++column) {
-      if (charted_[index(column, row)] == map::Cell::kOccupied) {
-        markAround(column, row, reach);
-      }
-    }
-  }
-}
-
-void ChartPicture::markAround(int column, int row, int reach) {
-  const map::GridGeometry& g = map_.geometry;
-  for (int y = std::max(0, row - reach); y <= std::min(g.height - 1, row + reach); ++y) {
-    for (int x = std::max(0, column - reach); x <= std::min(g.width - 1, column + reach); ++x) {
-      ashore_[index(x, y)] = true;
-    }
-  }
+  ashore_ = map::coastOf({map_.geometry, charted_});
 }
 
 QRect ChartPicture::update(const map_msgs::OccupancyGridUpdate& update, std::string& error) {

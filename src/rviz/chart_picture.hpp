@@ -31,7 +31,6 @@ class ChartPicture {
 
  private:
   void alignChart();
-  void markAround(int column, int row, int reach);
   void paint(QRect part);
   [[nodiscard]] std::size_t index(int column, int row) const {
     return map_.geometry.index(column, row);
@@ -47,6 +46,6 @@ class ChartPicture {
 };
 
 // Of a scan taken at the origin with x ahead: where its beams went, m.
-[[nodiscard]] QPolygonF fanOf(const sensor_msgs::LaserScan& scan);
+[[nodiscard]] QPolygonF fanOf(const sensor_msgs::LaserScan& message);
 
 }  // namespace otter_nav::rviz_plugins

@@ -111,7 +111,7 @@ void drawThrust(QPainter& painter, int row, const QString& side, const QColor& c
   painter.drawRect(QRect(std::min(middle, middle + reach), bar.top(), std::abs(reach), 12));
   painter.setBrush(look::kText);
   painter.drawRect(middle, bar.top() - 2, 1, 16);
-  const bool full = std::abs(share) > 0.995;
+  const bool full = std::abs(share) >= kAtLimit;
   pick(painter, 11, full ? look::kWind : look::kText, full);
   painter.drawText(QRect(bar.right() + 8, bar.top() - 2, 84, 16), Qt::AlignVCenter,
                    QString("%1 N%2").arg(figure(thrust_n, 0), full ? " FULL" : ""));

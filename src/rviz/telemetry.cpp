@@ -8,12 +8,12 @@
 #include <cmath>
 
 #include "otter_nav/config/share.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::rviz_plugins {
 namespace {
 
 constexpr double kAliveS = 3.0;
-constexpr double kAtLimit = 0.995;  // of a thruster's limit counts as saturated
 
 // rviz is no program of this package, beside which its files would be found.
 Result<vessel::Parameters> load(const std::string& name) {
@@ -51,8 +51,8 @@ double LastMinute::max() const {
 }
 
 double shareOfThrust(double thrust_n, const vessel::Thrusters& thrusters) {
-  const double limit_n = thrust_n >= 0.0 ? thrusters.ahead_max_n : thrusters.astern_max_n;
-  return limit_n > 0.0 ? std::clamp(thrust_n / limit_n, -1.0, 1.0) : 0.0;
+  const double given_n = std::clamp(thrust_n, -thrusters.astern_max_n, thrusters.ahead_max_n);
+  return std::copysign(vessel::shareOfLimit(given_n, thrusters), given_n);
 }
 
 Telemetry::Telemetry(const ros::NodeHandle& node) : node_(node) {
@@ -92,8 +92,7 @@ void Telemetry::onThrust(const ThrusterCommand& message) {
   thrust_ = message;
   if (vessel_) {
     const bool at_limit =
-        std::max(std::abs(shareOfThrust(message.left, vessel_->thrusters)),
-                 std::abs(shareOfThrust(message.right, vessel_->thrusters))) >= kAtLimit;
+        vessel::shareOfLimit({message.left, message.right}, vessel_->thrusters) >= kAtLimit;
     saturated_.add(message.header.stamp.toSec(), at_limit ? 1.0 : 0.0);
   }
   heard();

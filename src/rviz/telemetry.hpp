@@ -84,6 +84,7 @@ class Telemetry {
   std::vector<ros::Subscriber> subscribers_;
 };
 
+constexpr double kAtLimit = 0.995;  // of a thruster's limit counts as saturated
 // Share of its limit that a thruster is asked for, in [-1, 1].
 [[nodiscard]] double shareOfThrust(double thrust_n, const vessel::Thrusters& thrusters);
 

@@ -143,8 +143,7 @@ std::string ClosedLoop::touched() const {
   if (!vessel) {
     return "something";
   }
-  return text("vessel %d at %.2f m/s of our own", *vessel,
-              plant_.truth().planar.segment<2>(vessel::kSurge).norm());
+  return text("vessel %d at %.2f m/s of our own", *vessel, vessel::speedOf(plant_.truth().planar));
 }
 
 void ClosedLoop::carryOut(const mission::Orders& orders) {
@@ -220,7 +219,7 @@ scenario::Progress ClosedLoop::progress() const {
   const scenario::MotionSample now = motion();
   scenario::Progress progress;
   progress.t_s = now.t_s;
-  progress.speed_mps = now.state.segment<2>(vessel::kSurge).norm();
+  progress.speed_mps = vessel::speedOf(now.state);
   progress.clearance_m = now.clearance_m;
   progress.tracking_error_m = command_.tracking_error_m;
   progress.state = mission::name(supervisor_.phase());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/plant/hull_contact.hpp"
 #include "otter_nav/vessel/hull.hpp"
@@ -55,7 +56,7 @@ void Monitor::look(const Eigen::Vector2d& from) {
   };
   for (int k = 0; k < kLines; ++k) {
     const double bearing = 2.0 * kPi * k / kLines;
-    const Eigen::Vector2d along(std::cos(bearing), std::sin(bearing));
+    const Eigen::Vector2d along = unitVector(bearing);
     const double free = std::min(world_.castRay(from, along, range_m_), range_m_);
     for (double d = 0.0; d < free; d += step) {
       see(from + d * along);
@@ -103,7 +104,7 @@ std::string Monitor::fault(const TimedTrajectory& stop, double now_s) const {
     }
   }
   const vessel::State last = stop.trajectory.sample(end, vessel_).state;
-  return last.segment<2>(vessel::kSurge).norm() > vessel::kRestMps ? "the stop ends under way" : "";
+  return vessel::speedOf(last) > vessel::kRestMps ? "the stop ends under way" : "";
 }
 
 // Under way there must be a stop that is still to be had; while coming to rest it is sailed.
@@ -138,7 +139,7 @@ void Monitor::watch(const ClosedLoop& loop) {
   if (now.t_s >= next_look_s_) {
     next_look_s_ = now.t_s + period_s_ - 1e-6;
     stop_fault_ = faultOf(loop);
-    look(here + eye_ahead_m_ * Eigen::Vector2d(std::cos(psi), std::sin(psi)));
+    look(here + eye_ahead_m_ * unitVector(psi));
   }
   result_.margin_m =
       result_.steps == 0 ? now.clearance_m : std::min(result_.margin_m, now.clearance_m);

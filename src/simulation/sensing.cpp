@@ -1,6 +1,5 @@
 #include "simulation/sensing.hpp"
 
-#include <Eigen/Geometry>
 #include <limits>
 #include <utility>
 

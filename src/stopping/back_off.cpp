@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
-#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/rest.hpp"
+#include "stopping/straight_leg.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -26,20 +27,11 @@ constexpr double kClearM = 0.1;     // of the outline, when it sets off
 constexpr double kTightM = 0.04;    // where there is no more than this to begin with
 constexpr double kTouchesM = 0.02;  // on the way: half of that
 
-// Straight along the heading, with a mean speed of a walk and time to gather way: gentle, for the
-// water there is the less known.
-Piece straight(const Eigen::Vector2d& start, double psi_rad, double ahead_m) {
+// With a mean speed of a walk and time to gather way: the water there is the less known.
+Piece gentleLeg(const Eigen::Vector2d& start, double psi_rad, double ahead_m) {
   constexpr double kSpeedMps = 0.6;
   constexpr double kGatherS = 2.0;
-  vessel::FlatPoint from;
-  from.position = start;
-  vessel::FlatPoint to;
-  to.position = start + ahead_m * Eigen::Vector2d(std::cos(psi_rad), std::sin(psi_rad));
-  Piece piece = trajectory::hermitePiece(from, to, kGatherS + std::abs(ahead_m) / kSpeedMps);
-  piece.kind = trajectory::PieceKind::kSpin;  // the heading is its own: astern it can't follow
-  piece.heading.setZero();
-  piece.heading[0] = psi_rad;
-  return piece;
+  return straightLeg(start, psi_rad, ahead_m, kGatherS + std::abs(ahead_m) / kSpeedMps);
 }
 
 Piece gentleSpin(const Eigen::Vector2d& position, double psi_rad, double turn_rad) {
@@ -52,15 +44,6 @@ Piece gentleSpin(const Eigen::Vector2d& position, double psi_rad, double turn_ra
 bool outlineKeepsClear(const Trajectory& path, double from_s, const vessel::Parameters& vessel,
                        const Obstacles& obstacles, double least_m, bool edge) {
   return !outlineConflict(path, from_s, path.duration(), obstacles, vessel, least_m, edge).found;
-}
-
-bool canFollow(const Trajectory& path, const Obstacles& obstacles,
-               const vessel::Parameters& vessel) {
-  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, -1.0);
-  limits.thrust_share = 1.0;
-  feasibility::Tolerances tolerances;
-  tolerances.keep_hull_clear = false;  // seen to by the outline
-  return feasibility::verify(path, obstacles, vessel, limits, tolerances).ok;
 }
 
 // The shortest way of few turns on the spot and straight legs to room to turn, by Dijkstra's search
@@ -152,7 +135,7 @@ class BackingOff {
         for (const double lengths : {0.25, 0.5, 1.0}) {
           Node to = turned;
           const double ahead_m = side * lengths * vessel_.hull.length_m;
-          if (!append(to, straight(to.position, to.psi_rad, ahead_m))) {
+          if (!append(to, gentleLeg(to.position, to.psi_rad, ahead_m))) {
             break;  // nor does it further on
           }
           if (visited_.count(keyOf(to)) == 0) {
@@ -255,15 +238,15 @@ std::optional<Trajectory> turnBack(const vessel::State& state, const Obstacles& 
   const double psi = state[vessel::kPsi];
   for (const Eigen::Vector2d& place : placesInside(position, obstacles, vessel.hull)) {
     const Eigen::Vector2d there = place - position;
-    const double bearing = wrapAngle(std::atan2(there.y(), there.x()) - psi);
+    const double bearing = wrapAngle(angleOf(there) - psi);
     const bool astern = std::abs(bearing) > 0.5 * kPi;
     const double turn = astern ? wrapAngle(bearing + kPi) : bearing;
     std::vector<Piece> pieces;
     if (std::abs(turn) > kAlignedRad) {
       pieces.push_back(gentleSpin(position, psi, turn));
     }
-    pieces.push_back(straight(position, psi + (pieces.empty() ? 0.0 : turn),
-                              astern ? -there.norm() : there.norm()));
+    pieces.push_back(gentleLeg(position, psi + (pieces.empty() ? 0.0 : turn),
+                               astern ? -there.norm() : there.norm()));
     Trajectory path(std::move(pieces));
     if (outlineKeepsClear(path, 0.0, vessel, obstacles, kClearM, false) &&
         canFollow(path, obstacles, vessel)) {

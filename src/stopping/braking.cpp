@@ -236,9 +236,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
   // Of the path alone: against a steady force the heading would swing as the way comes off.
   const trajectory::Sample here = sailed.sample(at_s, vessel);
   limits.thrust_share =
-      kThrustTolerance *
-      std::max({1.0, vessel::shareOfLimit(here.thrusts[vessel::kLeft], vessel.thrusters),
-                vessel::shareOfLimit(here.thrusts[vessel::kRight], vessel.thrusters)});
+      kThrustTolerance * std::max(1.0, vessel::shareOfLimit(here.thrusts, vessel.thrusters));
   // What the centre keeps in any attitude, to be looked at first.
   const double centre_m =
       std::max(stop.clearance_m, feasibility::HullCover(vessel.hull, stop.hull_margin_m).middle_m);

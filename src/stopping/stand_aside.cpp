@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/watch.hpp"
+#include "stopping/straight_leg.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -17,16 +17,6 @@ constexpr double kAheadS = 8.0;  // how far ahead is looked at least
 constexpr double kStaysS = 4.0;  // and after the vessel has come to rest
 constexpr double kStepS = 0.2;
 constexpr double kAsideClearM = 0.3;  // of the outline, off what lies still
-
-Piece straight(const Eigen::Vector2d& start, double psi_rad, double ahead_m, double duration_s) {
-  vessel::FlatPoint from;
-  from.position = start;
-  vessel::FlatPoint to;
-  to.position = start + ahead_m * Eigen::Vector2d(std::cos(psi_rad), std::sin(psi_rad));
-  Piece piece = trajectory::spinPiece(start, psi_rad, psi_rad, duration_s);
-  piece.position = trajectory::hermitePiece(from, to, duration_s).position;
-  return piece;
-}
 
 // The least room on the way and at its end, until the others have passed.
 double leastRoom(const Piece& piece, const feasibility::Obstacles& obstacles) {
@@ -49,14 +39,11 @@ std::optional<Piece> quickest(const vessel::State& state, double ahead_m,
   const double accel_mps2 =
       2.0 * vessel.thrusters.astern_max_n / vessel.manoeuvring.surge_inertia_kg;
   const double least_s = 2.0 * std::sqrt(std::abs(ahead_m) / accel_mps2);
-  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, -1.0);
-  limits.thrust_share = 1.0;
-  feasibility::Tolerances tolerances;
-  tolerances.keep_hull_clear = false;  // seen to by the outline
   for (double longer = kLonger; longer <= kLongest; longer *= kLonger) {
-    const Piece piece = straight(state.head<2>(), state[vessel::kPsi], ahead_m, longer * least_s);
+    const Piece piece =
+        straightLeg(state.head<2>(), state[vessel::kPsi], ahead_m, longer * least_s);
     const Trajectory path({piece});
-    if (feasibility::verify(path, still, vessel, limits, tolerances).ok) {
+    if (canFollow(path, still, vessel)) {
       return outlineConflict(path, 0.0, path.duration(), still, vessel, kAsideClearM, true).found
                  ? std::nullopt
                  : std::optional(piece);
@@ -87,7 +74,7 @@ std::optional<Trajectory> standAside(const vessel::State& state,
   constexpr double kWorthM = 0.5;
   const feasibility::Obstacles still(obstacles.field());
   double most =
-      kWorthM + leastRoom(straight(state.head<2>(), state[vessel::kPsi], 0.0, 1.0), obstacles);
+      kWorthM + leastRoom(straightLeg(state.head<2>(), state[vessel::kPsi], 0.0, 1.0), obstacles);
   std::optional<Trajectory> best;
   for (const double side : {1.0, -1.0}) {
     for (const double lengths : {1.0, 2.0, 3.0, 4.0, 6.0}) {

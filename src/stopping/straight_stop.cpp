@@ -64,7 +64,7 @@ Course courseOf(const FlatPoint& z) {
   const Eigen::Vector2d along = z.velocity / v;
   const Eigen::Vector2d port = across(along);
   Course course;
-  course.angle_rad = std::atan2(along.y(), along.x());
+  course.angle_rad = angleOf(along);
   const double w = z.acceleration.dot(port) / v;
   course.speed = {v, z.acceleration.dot(along), z.jerk.dot(along) + v * w * w};
   const double w1 = (z.jerk.dot(port) - 2.0 * course.speed.rate * w) / v;
@@ -91,7 +91,7 @@ class Profile {
     const Jet v = t < straighten_s_ ? slow_.at(t) : brake_.at(t - straighten_s_);
     const Jet w = t < straighten_s_ ? turn_.at(t) : Jet{};
     const double angle = course_.angle_rad + turn_.integral(t);
-    const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d along = unitVector(angle);
     const Eigen::Vector2d port = across(along);
     FlatPoint z;
     z.velocity = v.value * along;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::topology {
 namespace {
@@ -31,7 +32,7 @@ double turnOf(double angle) {
 Word sameSides(Turn side, double alpha, double beta, const Eigen::Vector2d& between) {
   const double sign = side == kL ? 1.0 : -1.0;
   const double p = between.norm();
-  const double course = p > 1e-12 ? std::atan2(between.y(), between.x()) : alpha;
+  const double course = p > 1e-12 ? angleOf(between) : alpha;
   return {
       {side, kS, side}, {turnOf(sign * (course - alpha)), p, turnOf(sign * (beta - course))}, true};
 }
@@ -45,7 +46,7 @@ Word crossing(Turn side, double alpha, double beta, const Eigen::Vector2d& betwe
     return {{}, {}, false};
   }
   const double p = std::sqrt(squared);
-  const double course = std::atan2(between.y(), between.x()) + sign * std::atan2(2.0, p);
+  const double course = angleOf(between) + sign * std::atan2(2.0, p);
   return {{side, kS, side == kL ? kR : kL},
           {turnOf(sign * (course - alpha)), p, turnOf(sign * (course - beta))},
           true};
@@ -62,7 +63,7 @@ Word threeTurns(Turn side, double alpha, double beta, const Eigen::Vector2d& bet
   const double base = std::acos(std::min(1.0, distance / 4.0));
   const double middle = kPi + 2.0 * base;
   // The middle centre lies at `base` off the line between the centres, on the inner side.
-  const double towards = std::atan2(between.y(), between.x()) + sign * base;
+  const double towards = angleOf(between) + sign * base;
   const double first = turnOf(sign * (towards - alpha) + 0.5 * kPi);
   const double heading = alpha + sign * (first - middle);
   return {
@@ -78,7 +79,7 @@ Eigen::Vector2d centre(Turn side, const Eigen::Vector2d& p, double psi) {
 Pose advance(const Pose& from, Turn turn, double arc) {
   Pose to = from;
   if (turn == kS) {
-    to.position += arc * Eigen::Vector2d(std::cos(from.psi_rad), std::sin(from.psi_rad));
+    to.position += arc * unitVector(from.psi_rad);
     return to;
   }
   const double sign = turn == kL ? 1.0 : -1.0;

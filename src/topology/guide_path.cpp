@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "topology/flood.hpp"
 #include "topology/lattice_search.hpp"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::topology {
 namespace {
 
@@ -10,14 +12,6 @@ constexpr int kHalvings = 6;
 constexpr double kEnough = 2e-4;  // relative gain of a round that is not worth another
 
 }  // namespace
-
-double lengthOf(const Polyline& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    length += (path[i] - path[i - 1]).norm();
-  }
-  return length;
-}
 
 bool Shortener::clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
   return map::segmentIsClear(*field_, a, b, clearance_m_);

@@ -11,8 +11,6 @@ namespace otter_nav::topology {
 
 using Polyline = std::vector<Eigen::Vector2d>;
 
-[[nodiscard]] double lengthOf(const Polyline& path);
-
 class Shortener {
  public:
   // Every segment of `path` must keep the clearance, and does afterwards. Ends stay.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -222,7 +223,7 @@ void ReferenceSource::fillPlain(double start_s, double step_s, int stages,
     if (c.spins || speed < kSlowMps) {
       psi = unwrapNear(c.psi_rad, psi);
     } else {
-      psi = unwrapNear(std::atan2(c.flat.velocity.y(), c.flat.velocity.x()), psi);
+      psi = unwrapNear(angleOf(c.flat.velocity), psi);
     }
     reference.states[k] << c.flat.position, psi, speed, 0.0, 0.0;
     if (k < stages) {
@@ -246,7 +247,7 @@ void ReferenceSource::fill(double start_s, double step_s, int stages, double psi
     const double time_s = start_s + k * step_s;
     const double planned = joining(time_s)
                                ? trajectory_->flat(time_s - start_s_ - lag_s_).velocity.norm()
-                               : reference.states[k].segment<2>(kSurge).norm();
+                               : vessel::speedOf(reference.states[k]);
     reference.speed_max_mps[k] = std::max(speed_max_mps_, kOverReference * planned);
   }
 }

@@ -38,7 +38,7 @@ constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts t
 constexpr double kBrakeBlindS = 5.0;  // braking by the model alone without odometry; then no thrust
 
 Vector2d velocityOverGround(const vessel::State& x) {
-  const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
+  const Vector2d e = unitVector(x[kPsi]);
   return x[kSurge] * e + x[kSway] * across(e);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/map/chart.hpp"
 #include "otter_nav/vessel/hull.hpp"
 
 namespace otter_nav::traffic {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastHeightM = 0.15;  // lower is the water
 constexpr double kHullMarginM = 0.3;
-constexpr double kCoastM = 0.6;  // echoes this near charted land are the land's
 constexpr std::size_t kFewestPoints = 3;
 constexpr double kLargestM = 30.0;  // larger things are land that no chart shows
 // Echoes of beams side by side hang together when they are this near (Borges and Aldon's idea:
@@ -26,23 +26,7 @@ constexpr std::size_t kMostSkipped = 3;
 }  // namespace
 
 ScanClusters::ScanClusters(const map::OccupancyGrid& chart, const vessel::Hull& own_hull)
-    : geometry_(chart.geometry), charted_(chart.cells.size(), false), own_hull_(own_hull) {
-  const int reach = static_cast<int>(std::ceil(kCoastM / geometry_.resolution_m));
-  for (int row = 0; row < geometry_.height && !chart.cells.empty(); ++row) {
-    for (int column = 0; column < geometry_.width; ++column) {
-      if (chart.at(column, row) != map::Cell::kOccupied) {
-        continue;
-      }
-      for (int y = row - reach; y <= row + reach; ++y) {
-        for (int x = column - reach; x <= column + reach; ++x) {
-          if (geometry_.containsCell(x, y)) {
-            charted_[geometry_.index(x, y)] = true;
-          }
-        }
-      }
-    }
-  }
-}
+    : geometry_(chart.geometry), charted_(map::coastOf(chart)), own_hull_(own_hull) {}
 
 bool ScanClusters::isCharted(const Eigen::Vector2d& point) const {
   if (charted_.empty() || !geometry_.contains(point)) {

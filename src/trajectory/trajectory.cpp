@@ -1,7 +1,6 @@
 #include "otter_nav/trajectory/trajectory.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -30,7 +29,7 @@ Eigen::Vector2d aheadVector(const Piece& piece, double t, const vessel::FlatPoin
 
 void sampleSpin(const Piece& piece, double t, const vessel::InverseDynamics& inverse, Sample& s) {
   const Eigen::Vector3d psi = piece.spinHeading(t);
-  const Eigen::Vector2d e(std::cos(psi[0]), std::sin(psi[0]));
+  const Eigen::Vector2d e = unitVector(psi[0]);
   const Eigen::Vector2d& v = s.flat.velocity;
   s.state << s.flat.position, wrapAngle(psi[0]), e.dot(v), cross(e, v), psi[1];
   s.tau = inverse.held(e, psi[1], psi[2], v, s.flat.acceleration).tau;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/model.hpp"
 
 namespace otter_nav::vessel {
@@ -90,7 +91,7 @@ InverseDynamics::Air InverseDynamics::wind(const Vector2d& bow) const {
 Bow InverseDynamics::bowInWind(const Vector2d& w, const Vector2d& ahead, double floor_n) const {
   Bow bow = calmBow(w, ahead, floor_n);
   const double side = bow.firmness_n >= 0.0 ? 1.0 : -1.0;
-  double psi = std::atan2(bow.ahead.y(), bow.ahead.x());
+  double psi = angleOf(bow.ahead);
   for (int i = 0; i <= kBowIterations; ++i) {
     bow.ahead = {std::cos(psi), std::sin(psi)};
     const Air air = wind(bow.ahead);
@@ -112,9 +113,9 @@ FlatState InverseDynamics::state(const FlatPoint& z, const Vector2d& ahead) cons
   Sailing s = sailing(z, ahead, 1e-9);
   const double firmness = std::abs(s.bow.firmness_n);
   const Vector2d& e = s.bow.ahead;
-  double psi = std::atan2(e.y(), e.x());
+  double psi = angleOf(e);
   if (firmness <= singular_n_) {
-    psi = std::atan2(ahead.y(), ahead.x());
+    psi = angleOf(ahead);
     s.bow.ahead = {std::cos(psi), std::sin(psi)};
     s.yaw_rate_radps = 0.0;
     s.tau = held(e, 0.0, 0.0, z.velocity, z.acceleration).tau;
@@ -193,7 +194,7 @@ FlatGradient InverseDynamics::demand(const FlatPoint& z, double floor_n) const {
 void InverseDynamics::push(double psi_rad, double yaw_rate_radps, double surge_n,
                            double surge_rate_nps, FlatPoint& z) const {
   // w = (tau_u + (d2 - d1) e . (z' - c) + X) e + Y n
-  const Vector2d e(std::cos(psi_rad), std::sin(psi_rad));
+  const Vector2d e = unitVector(psi_rad);
   const Vector2d n = across(e);
   const Air air = this->air(e);
   const Vector2d through = z.velocity - disturbance_.current_mps;
@@ -208,7 +209,7 @@ void InverseDynamics::push(double psi_rad, double yaw_rate_radps, double surge_n
 
 FlatPoint InverseDynamics::fromState(const State& x, double force_least_n,
                                      double force_max_n) const {
-  const Vector2d e(std::cos(x[kPsi]), std::sin(x[kPsi]));
+  const Vector2d e = unitVector(x[kPsi]);
   const Vector2d n = across(e);
   FlatPoint z;
   z.position = x.head<2>();
@@ -261,7 +262,7 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
 Demand demandOf(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad,
                 double yaw_rate_radps, double yaw_acceleration, const Vector2d& velocity,
                 const Vector2d& acceleration) {
-  const Vector2d e(std::cos(psi_rad), std::sin(psi_rad));
+  const Vector2d e = unitVector(psi_rad);
   const auto demand = thrustDemand(model, disturbance, e.x(), e.y(), yaw_rate_radps,
                                    yaw_acceleration, velocity, acceleration);
   return {e.dot(velocity), cross(e, velocity), {demand.surge, demand.yaw}, demand.sway};

@@ -40,7 +40,7 @@ bool paperHolds(const Parameters& vessel) {
 void push(const ManoeuvringModel& model, const Disturbance& disturbance, const Swing& swing,
           double surge_n, double surge_rate_nps, FlatPoint& motion) {
   const Mobility mobility(model);
-  const Vector2d e(std::cos(swing.psi_rad), std::sin(swing.psi_rad));
+  const Vector2d e = unitVector(swing.psi_rad);
   const Vector2d n = across(e);
   const double r = swing.yaw_rate_radps;
   const double r1 = swing.yaw_acceleration;
@@ -73,7 +73,7 @@ FlatPoint pathFromState(const State& state, double force_max_n, const Parameters
         .fromState(state, 2.0 * kOnwardShare * vessel.thrusters.ahead_max_n, force_max_n);
   }
   const double psi = state[kPsi];
-  const Vector2d e(std::cos(psi), std::sin(psi));
+  const Vector2d e = unitVector(psi);
   FlatPoint z;
   z.position = state.head<2>();
   z.velocity = state[kSurge] * e + state[kSway] * across(e);

@@ -1,7 +1,8 @@
 #include "otter_nav/vessel/scripted_vessel.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::vessel {
 
@@ -15,7 +16,7 @@ ScriptedMotion motionAt(const ScriptedVessel& vessel, double time_s) {
     if (length <= 0.0) {
       continue;
     }
-    motion.pose.psi_rad = std::atan2(along.y(), along.x());
+    motion.pose.psi_rad = angleOf(along);
     const double speed = vessel.speeds_mps[vessel.speeds_mps.size() == 1 ? 0 : leg];
     if (left_s * speed < length) {
       motion.pose.position = vessel.waypoints[leg] + left_s * speed / length * along;

@@ -54,7 +54,7 @@ class Coastline {
     }
   }
   [[nodiscard]] bool inside(const Eigen::Vector2d& p) const {
-    const double bearing = std::atan2(p.y(), p.x());
+    const double bearing = angleOf(p);
     double share = 1.0;
     for (std::size_t k = 0; k < kHarmonics; ++k) {
       share += amplitude_[k] * std::cos(static_cast<double>(k + 2) * bearing + phase_[k]);
@@ -81,7 +81,7 @@ void drawIsland(OccupancyGrid& grid, Random& random) {
 
 void drawBar(OccupancyGrid& grid, double length_m, double width_m, Random& random) {
   const double psi = random.uniform(-kPi, kPi);
-  const Eigen::Vector2d along(std::cos(psi), std::sin(psi));
+  const Eigen::Vector2d along = unitVector(psi);
   fill(grid, anywhere(grid, random), 0.5 * std::hypot(length_m, width_m),
        [&](const Eigen::Vector2d& p) {
          const double across = cross(along, p);

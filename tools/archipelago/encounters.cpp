@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/random.hpp"
 
 namespace otter_nav::scenario {
@@ -108,8 +109,7 @@ vessel::ScriptedVessel onRing(const Ring& ring, int id) {
   const int legs = static_cast<int>(std::ceil(kRoundsS * ring.mps / leg_m));
   for (int k = 0; k <= legs; ++k) {
     const double angle = ring.phase_rad + ring.sense * k * kLegRad;
-    square.waypoints.emplace_back(
-        ring.centre + ring.radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    square.waypoints.emplace_back(ring.centre + ring.radius_m * unitVector(angle));
   }
   return square;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "archipelago/archipelago.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/vessel/hull.hpp"
 
@@ -83,8 +84,7 @@ class Router {
       const double bend = k < kDrawsPerLeg / 2 ? kBendMaxRad : kPi;
       const double towards = course + random_.uniform(-bend, bend);
       const double length = random_.uniform(kLegMinM, kLegMaxM);
-      const Eigen::Vector2d to =
-          rounded(from + length * Eigen::Vector2d(std::cos(towards), std::sin(towards)));
+      const Eigen::Vector2d to = rounded(from + length * unitVector(towards));
       if (isFree(from, to)) {
         course = towards;
         return to;

@@ -80,7 +80,7 @@ template <typename Clearance>
 [[nodiscard]] double outlineClearance(const vessel::Hull& hull, const Eigen::Vector2d& position,
                                       double psi_rad, const Clearance& clearance) {
   constexpr int kSteps = 20;
-  const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
+  const Eigen::Vector2d ahead = unitVector(psi_rad);
   const Eigen::Vector2d port = across(ahead);
   double least = std::numeric_limits<double>::infinity();
   for (int k = -kSteps; k <= kSteps; ++k) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
@@ -31,5 +32,10 @@ struct HeightBand {
 
 // loadChart() or loadOctomap() by the file's ending (.yaml, .yml, .bt, .ot).
 [[nodiscard]] Result<OccupancyGrid> loadMap(const std::string& path, const HeightBand& band);
+
+// What is met this near to charted land is the land's: charts and echoes agree to about two cells.
+constexpr double kCoastM = 0.6;
+// Of each cell whether it is charted land or that near to it.
+[[nodiscard]] std::vector<bool> coastOf(const OccupancyGrid& chart);
 
 }  // namespace otter_nav::map

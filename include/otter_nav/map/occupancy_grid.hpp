@@ -18,6 +18,10 @@ struct GridGeometry {
   double resolution_m = 0.25;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // south-west corner of cell (0, 0), map frame
 
+  [[nodiscard]] bool operator==(const GridGeometry& other) const {
+    return width == other.width && height == other.height && resolution_m == other.resolution_m &&
+           origin == other.origin;
+  }
   [[nodiscard]] bool contains(const Eigen::Vector2d& p) const {
     const Eigen::Vector2d q = (p - origin) / resolution_m;
     return q.x() >= 0.0 && q.y() >= 0.0 && q.x() < width && q.y() < height;

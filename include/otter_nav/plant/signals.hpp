@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/scripted_vessel.hpp"

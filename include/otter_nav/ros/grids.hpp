@@ -8,7 +8,6 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
-#include "otter_nav/map/occupancy_map.hpp"
 
 namespace otter_nav::ros_bridge {
 

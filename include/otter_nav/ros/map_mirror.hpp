@@ -7,7 +7,6 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/distance_field.hpp"
-#include "otter_nav/map/occupancy_map.hpp"
 
 namespace otter_nav::ros_bridge {
 

@@ -15,7 +15,7 @@ namespace otter_nav::vessel {
 // Corners in the map frame, counter-clockwise from port bow.
 inline std::array<Eigen::Vector2d, 4> outline(const Hull& hull, const Eigen::Vector2d& position,
                                               double psi_rad) {
-  const Eigen::Vector2d ahead(std::cos(psi_rad), std::sin(psi_rad));
+  const Eigen::Vector2d ahead = unitVector(psi_rad);
   const Eigen::Vector2d half_length = 0.5 * hull.length_m * ahead;
   const Eigen::Vector2d half_beam = 0.5 * hull.beam_m * across(ahead);
   return {position + half_length + half_beam, position - half_length + half_beam,

@@ -181,7 +181,7 @@ class InverseDynamics {
   // z'' alone.
   [[nodiscard]] Eigen::Vector2d pushed(double psi_rad, double surge_n,
                                        const Eigen::Vector2d& velocity) const {
-    const Eigen::Vector2d e(std::cos(psi_rad), std::sin(psi_rad));
+    const Eigen::Vector2d e = unitVector(psi_rad);
     const Air air = this->air(e);
     return accelerationFrom(headingForceAhead(air, e, surge_n, velocity) * e + air.y * across(e),
                             velocity);

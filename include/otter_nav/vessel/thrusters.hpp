@@ -31,6 +31,10 @@ inline double shareOfLimit(double thrust_n, const Thrusters& limits) {
   return thrust_n >= 0.0 ? thrust_n / limits.ahead_max_n
                          : -thrust_n / std::max(limits.astern_max_n, 1e-9);
 }
+// Of the one that gives more of it.
+inline double shareOfLimit(const Thrusts& thrusts, const Thrusters& limits) {
+  return std::max(shareOfLimit(thrusts[kLeft], limits), shareOfLimit(thrusts[kRight], limits));
+}
 
 // With one thruster full ahead and the other full astern, N m.
 inline double greatestMoment(const Thrusters& limits) {

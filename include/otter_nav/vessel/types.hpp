@@ -16,6 +16,9 @@ constexpr int kInputSize = 2;
 // [x m, y m, psi rad, u m/s, v m/s, r rad/s]: eta, then nu.
 using State = Eigen::Matrix<double, kStateSize, 1>;
 using StateJacobian = Eigen::Matrix<double, kStateSize, kStateSize>;
+[[nodiscard]] inline double speedOf(const State& state) {
+  return state.segment<2>(kSurge).norm();
+}
 // Thrusts [F_left N, F_right N], positive ahead.
 using Thrusts = Eigen::Vector2d;
 using InputJacobian = Eigen::Matrix<double, kStateSize, kInputSize>;

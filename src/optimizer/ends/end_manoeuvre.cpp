@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "optimizer/ends/forced_motion.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/rest.hpp"
@@ -191,7 +192,7 @@ double turnAtRest(double turn_rad, const Placed& placed, const Eigen::Vector2d& 
 // The surge force that holds a speed along a heading, all in the manoeuvre's frame.
 double steadyForce(const vessel::Parameters& vessel, const vessel::Disturbance& disturbance,
                    double heading_rad, double speed_mps) {
-  const Eigen::Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad));
+  const Eigen::Vector2d ahead = unitVector(heading_rad);
   return vessel::InverseDynamics(vessel, disturbance)
       .held(ahead, 0.0, 0.0, speed_mps * ahead, Eigen::Vector2d::Zero())
       .tau.surge_n;

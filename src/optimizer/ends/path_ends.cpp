@@ -4,6 +4,7 @@
 #include "optimizer/ends/end_manoeuvre.hpp"
 #include "optimizer/solve/initial_spline.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/piece_check.hpp"
 #include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/trajectory/motion_along.hpp"
@@ -34,10 +35,6 @@ constexpr double kCrabSpeedShare = 0.8;  // of the speed limit
 constexpr double kShrunkTurnRad = 0.02;  // that a turn shrinks to
 constexpr double kLongestShare = 0.3;    // of the path, for the arrival
 
-double angleOf(const Eigen::Vector2d& v) {
-  return std::atan2(v.y(), v.x());
-}
-
 using StateVector = Eigen::Matrix<double, 8, 1>;
 
 StateVector stateOf(const vessel::FlatPoint& z) {
@@ -49,7 +46,7 @@ StateVector stateOf(const vessel::FlatPoint& z) {
 Eigen::Vector2d directionOf(const vessel::FlatPoint& z, double psi_rad) {
   constexpr double kSlowMps = 0.1;
   return z.velocity.norm() > kSlowMps ? Eigen::Vector2d(z.velocity.normalized())
-                                      : Eigen::Vector2d(std::cos(psi_rad), std::sin(psi_rad));
+                                      : unitVector(psi_rad);
 }
 
 }  // namespace
@@ -90,9 +87,8 @@ void EndChooser::make(End& end) const {
 // Where a hull points that sails a course in a load.
 double EndChooser::crabbing(double course_rad) const {
   const double speed = kCrabSpeedShare * safety_.speed_max_mps;
-  const auto headings =
-      vessel::steadyHeadings(speed * Eigen::Vector2d(std::cos(course_rad), std::sin(course_rad)),
-                             course_rad, vessel_, options_.limits.disturbance);
+  const auto headings = vessel::steadyHeadings(speed * unitVector(course_rad), course_rad, vessel_,
+                                               options_.limits.disturbance);
   return headings.empty() ? course_rad : headings.front().psi_rad;
 }
 
@@ -131,7 +127,7 @@ void EndChooser::leaveAlong(const std::vector<Eigen::Vector2d>& path, End& end) 
       return;
     }
     make(end);
-    const Eigen::Vector2d along(std::cos(leave), std::sin(leave));
+    const Eigen::Vector2d along = unitVector(leave);
     const vessel::FlatPoint& z = end.manoeuvre.joint;
     const Eigen::Vector2d aside = z.velocity - along.dot(z.velocity) * along;
     const double next = angleOf(ahead - (z.position + drifts_s * aside));
@@ -187,9 +183,7 @@ void EndChooser::leaveWithin(const std::vector<Eigen::Vector2d>& path, End& end)
     double speed_mps = 0.0;
     for (const trajectory::MotionAlong::Point& point : motion.points()) {
       speed_mps = std::max(speed_mps, point.speed_mps);
-      share =
-          std::max({share, vessel::shareOfLimit(point.thrusts[vessel::kLeft], vessel_.thrusters),
-                    vessel::shareOfLimit(point.thrusts[vessel::kRight], vessel_.thrusters)});
+      share = std::max(share, vessel::shareOfLimit(point.thrusts, vessel_.thrusters));
     }
     const double most_mps = kFastestShare * safety_.speed_max_mps;
     if (share <= end.limits.thrust_share && speed_mps <= most_mps) {
@@ -212,7 +206,7 @@ End EndChooser::chooseStart(const map::DistanceField& field,
   if (!trajectory::atRest(start)) {
     return end;
   }
-  const Eigen::Vector2d bow(std::cos(start.psi_rad), std::sin(start.psi_rad));
+  const Eigen::Vector2d bow = unitVector(start.psi_rad);
   const Eigen::Vector2d ahead = trajectory::pointAlong(path, kLookAheadM) - start.flat.position;
   if (liesInLoad(start) && bow.dot(ahead) > kBeforeLoadCosine * ahead.norm()) {
     return end;
@@ -240,7 +234,7 @@ End EndChooser::chooseGoal(const map::DistanceField& field,
   struct Choice {
     double speed_share, drift_share;
   };
-  const double longest = kLongestShare * trajectory::lengthOf(path);
+  const double longest = kLongestShare * lengthOf(path);
   End end;
   if (liesInLoad(goal)) {
     end.psi_rad = goal.psi_rad;

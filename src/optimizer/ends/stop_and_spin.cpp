@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/optimizer/ends.hpp"
 
 namespace otter_nav::optimizer {
@@ -91,7 +92,7 @@ std::vector<Eigen::Vector2d> StopAndSpin::quickestStops(const map::DistanceField
       if (reached >= to.reached_s) {
         continue;
       }
-      const double psi = std::atan2(leg.y(), leg.x());
+      const double psi = angleOf(leg);
       reached += spins_s(psi - from.psi_rad);
       if (b + 1 == places.size()) {
         reached += spins_s(goal.psi_rad - psi);
@@ -135,7 +136,7 @@ trajectory::Trajectory StopAndSpin::follow(const std::vector<Eigen::Vector2d>& p
       continue;
     }
     if (leg.norm() > 1e-6) {
-      turnTo(std::atan2(leg.y(), leg.x()));
+      turnTo(angleOf(leg));
       appendStraight(at, next, pieces);
       at = next;
     }

@@ -19,29 +19,30 @@ namespace otter_nav::optimizer {
 // A cell's square reaches this far beyond its centre, in cells (DistanceField::smooth measures to
 // centres), as seen from most directions.
 constexpr double kSquareCells = 0.7;
+constexpr double kSlowMps = 0.5;  // at less, what a course turns by is bounded
 
 struct SplineWeights {
-  double time = 1.0;
-  double length = 0.1;
-  double smooth = 0.01;
-  double clearance = 20.0;
-  double dynamics = 20.0;
+  double time = 0.0;
+  double length = 0.0;
+  double smooth = 0.0;
+  double clearance = 0.0;
+  double dynamics = 0.0;
   double original = 0.0;
 };
 
 // What the penalties leave unpunished.
 struct SplineLimits {
-  double clearance_m = 1.0;       // by Obstacles::smooth, of the hull's centre
+  double clearance_m = 0.0;       // by Obstacles::smooth, of the hull's centre
   double hull_offset_m = 0.0;     // of two circles ahead and astern of it; 0: not watched
   double hull_clearance_m = 0.0;  // of those circles' centres
-  double thrust_ahead_n = 50.0;   // per side
-  double thrust_astern_n = 50.0;
-  double speed_mps = 4.8;
+  double thrust_ahead_n = 0.0;    // per side
+  double thrust_astern_n = 0.0;
+  double speed_mps = 0.0;
   double start_speed_mps = 0.0;  // of a vessel that is faster, and slows down by the rate
   double slowing_per_s = 0.0;
   double slowing_from_s = 0.0;
-  double yaw_rate_radps = 1.2;
-  double heading_force_n = 8.0;  // least |w|
+  double yaw_rate_radps = 0.0;
+  double heading_force_n = 0.0;  // least |w|
 };
 
 // What the terms are to reach, and among what.

@@ -86,7 +86,6 @@ class HeadingForceLimit final : public Cost {
   explicit HeadingForceLimit(double force_scale_n) : scale_n_(force_scale_n) {}
 
   void add(const Targets& targets, Point& point) const override {
-    constexpr double kSlowMps = 0.5;
     const Eigen::Vector2d velocity = point.path().col(1);
     const Eigen::Vector2d through = point.dynamics.throughWater(velocity);
     const double speed = through.norm();

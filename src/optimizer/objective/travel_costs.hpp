@@ -44,7 +44,6 @@ class SmoothnessCost final : public Cost {
 class LengthCost final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
-    constexpr double kSlowMps = 0.5;  // below it the curvature is bounded
     PieceModel& piece = point.piece;
     const Eigen::Vector2d velocity = point.path().col(1);
     const double speed = velocity.norm();

@@ -52,8 +52,7 @@ double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Param
     const trajectory::MotionAlong motion(trajectory, vessel, safety.disturbance, psi_start_rad);
     for (const trajectory::MotionAlong::Point& p : motion.points()) {
       worst.thrust_share =
-          std::max({worst.thrust_share, vessel::shareOfLimit(p.thrusts[0], vessel.thrusters),
-                    vessel::shareOfLimit(p.thrusts[1], vessel.thrusters)});
+          std::max(worst.thrust_share, vessel::shareOfLimit(p.thrusts, vessel.thrusters));
       worst.speed_share = std::max(worst.speed_share, p.speed_mps / safety.speedMaxAt(p.t_s));
     }
     return std::max(worst.thrust_share / safety.thrust_share, worst.speed_share) - 1.0;

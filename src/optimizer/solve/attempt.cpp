@@ -120,7 +120,6 @@ Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parame
   attempt.weights.smooth = options.weight_smooth;
   attempt.weights.clearance = kWeightClearance * care.weight_factor;
   attempt.weights.dynamics = kWeightDynamics * care.weight_factor;
-  attempt.weights.original = 0.0;
   const bool firm = vessel::isFirmLoad(vessel, safety.disturbance);
   attempt.initial.piece_length_m =
       (firm ? kPieceLengthInLoadM * feasibility::speedShare(vessel, safety) : kPieceLengthM) *

@@ -27,16 +27,16 @@ void appendArc(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
                const Eigen::Vector2d& towards, std::vector<Eigen::Vector2d>& points) {
   const double step = kSpacingM / kTurnRadiusM;
   Eigen::Vector2d p = from;
-  double course = std::atan2(direction.y(), direction.x());
+  double course = angleOf(direction);
   points.push_back(p);
   for (int i = 0; i < kMostArcPoints; ++i) {
     const Eigen::Vector2d leg = towards - p;
-    const double turn = wrapAngle(std::atan2(leg.y(), leg.x()) - course);
+    const double turn = wrapAngle(angleOf(leg) - course);
     if (std::abs(turn) < step) {
       return;
     }
     course += turn > 0.0 ? step : -step;
-    p += kSpacingM * Eigen::Vector2d(std::cos(course), std::sin(course));
+    p += kSpacingM * unitVector(course);
     points.push_back(p);
   }
 }
@@ -124,7 +124,7 @@ void InitialSpline::turnAtEnds(const std::vector<Eigen::Vector2d>& polyline,
                                const SplineEnds& ends) {
   const Eigen::Vector2d& from = ends.start.position;
   const Eigen::Vector2d& to = ends.goal.position;
-  const double length = trajectory::lengthOf(polyline);
+  const double length = lengthOf(polyline);
   const double reach = std::min(kArcReachM, 0.3 * length);
   std::vector<Eigen::Vector2d> tail;
   held_head_ = held_tail_ = 0;

@@ -4,14 +4,6 @@
 
 namespace otter_nav::trajectory {
 
-double lengthOf(const std::vector<Eigen::Vector2d>& polyline) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    length += (polyline[i] - polyline[i - 1]).norm();
-  }
-  return length;
-}
-
 Eigen::Vector2d pointAlong(const std::vector<Eigen::Vector2d>& polyline, double distance_m) {
   const bool backward = distance_m < 0.0;
   double left = std::abs(distance_m);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/random.hpp"
 
 namespace otter_nav::optimizer {
@@ -35,14 +36,6 @@ trajectory::Boundary berth(double x, double y, double psi_rad) {
   b.flat.position = {x, y};
   b.psi_rad = psi_rad;
   return b;
-}
-
-double lengthOf(const std::vector<Eigen::Vector2d>& way) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    length += (way[i] - way[i - 1]).norm();
-  }
-  return length;
 }
 
 TEST(GlobalOptimizer, StraightAheadTakesTheTimeFullThrustDoes) {

@@ -9,7 +9,6 @@
 
 namespace otter_nav::trajectory {
 
-[[nodiscard]] double lengthOf(const std::vector<Eigen::Vector2d>& polyline);
 // The point `distance_m` along a polyline, from its start or, negative, from its end.
 [[nodiscard]] Eigen::Vector2d pointAlong(const std::vector<Eigen::Vector2d>& polyline,
                                          double distance_m);

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "otter_nav/base/planar.hpp"
+#include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/trajectory/polynomial/hermite.hpp"
+
+namespace otter_nav::stopping {
+
+// Ahead or astern from rest to rest; the heading is its own: astern it can't follow.
+[[nodiscard]] inline trajectory::Piece straightLeg(const Eigen::Vector2d& start, double psi_rad,
+                                                   double ahead_m, double duration_s) {
+  vessel::FlatPoint from;
+  from.position = start;
+  vessel::FlatPoint to;
+  to.position = start + ahead_m * unitVector(psi_rad);
+  trajectory::Piece piece = trajectory::hermitePiece(from, to, duration_s);
+  piece.kind = trajectory::PieceKind::kSpin;
+  piece.heading[0] = psi_rad;
+  return piece;
+}
+
+// With all the thrust there is; the hull's outline is seen to elsewhere.
+[[nodiscard]] inline bool canFollow(const trajectory::Trajectory& path,
+                                    const feasibility::Obstacles& obstacles,
+                                    const vessel::Parameters& vessel) {
+  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, -1.0);
+  limits.thrust_share = 1.0;
+  feasibility::Tolerances tolerances;
+  tolerances.keep_hull_clear = false;
+  return feasibility::verify(path, obstacles, vessel, limits, tolerances).ok;
+}
+
+}  // namespace otter_nav::stopping
