@@ -63,7 +63,7 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
   const Course& sailed = water.sailed;
   tail = 0;
   const double begin = sailed.legs.front().from_s + intent.wait_s;
-  if (intent.alongTheWay()) {
+  if (intent.alongThePath()) {
     if (intent.share < 1.0 && intent.hold_s > 0.0) {
       const Eigen::Vector2d v = motionAt(sailed, begin).velocity;
       const double half = 0.5 * handling.changeDuration(v, intent.share * v);
@@ -92,17 +92,17 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
     return false;
   }
   // Of the way there: towards the farthest of its points in sight.
-  const auto backToTheWay = [&](const Eigen::Vector2d& from) {
-    for (std::size_t i = water.way.size(); i-- > 0;) {
-      if (map::segmentIsClear(water.field, from, water.way[i], clearance)) {
+  const auto backToThePath = [&](const Eigen::Vector2d& from) {
+    for (std::size_t i = water.path.size(); i-- > 0;) {
+      if (map::segmentIsClear(water.field, from, water.path[i], clearance)) {
         return i;
       }
     }
-    return water.way.size();
+    return water.path.size();
   };
-  const std::size_t first = backToTheWay(at.position);
+  const std::size_t first = backToThePath(at.position);
   const Eigen::Vector2d towards =
-      first < water.way.size() ? Eigen::Vector2d(water.way[first] - at.position) : at.velocity;
+      first < water.path.size() ? Eigen::Vector2d(water.path[first] - at.position) : at.velocity;
   const double length = towards.norm();
   if (length < 1.0) {
     return false;
@@ -129,12 +129,12 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
       !sail(water.cruise_mps * toStarboard(direction, intent.then_turn_rad), intent.then_s)) {
     return false;
   }
-  std::size_t next = backToTheWay(at.position);
-  if (next >= water.way.size()) {
+  std::size_t next = backToThePath(at.position);
+  if (next >= water.path.size()) {
     return false;
   }
   // The last turn leads to where the way is met from its corner.
-  const Eigen::Vector2d off = water.way[next] - at.position;
+  const Eigen::Vector2d off = water.path[next] - at.position;
   if (off.norm() < 1.0) {
     return false;
   }
@@ -144,15 +144,15 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
   tail = course.legs.size();
   double when = t + half;
   Eigen::Vector2d from = corner;
-  for (; next < water.way.size(); ++next) {
-    const Eigen::Vector2d leg = water.way[next] - from;
+  for (; next < water.path.size(); ++next) {
+    const Eigen::Vector2d leg = water.path[next] - from;
     const double distance = leg.norm();
     if (distance < 0.1) {
       continue;
     }
     course.legs.push_back({when, from, water.cruise_mps / distance * leg});
     when += distance / water.cruise_mps;
-    from = water.way[next];
+    from = water.path[next];
   }
   course.end_s = when;
   return tail < course.legs.size();
@@ -285,7 +285,7 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
         if (i.share < 1.0) {
           vary(&Intent::share, 0.1, 0.15, 0.95);
         }
-        if (!i.alongTheWay()) {
+        if (!i.alongThePath()) {
           vary(&Intent::turn_rad, 8.0 * kDegree, may_turn_to_port ? -kPi : 0.0, kPi);
           if (i.share == 1.0) {
             vary(&Intent::then_s, 0.2 * i.then_s + 5.0, 0.0, 150.0);

@@ -20,7 +20,7 @@ struct Intent {
   double then_s = 0.0;
   double then_turn_rad = 0.0;  // off the way's direction, not off the first leg's
 
-  [[nodiscard]] bool alongTheWay() const { return turn_rad == 0.0; }
+  [[nodiscard]] bool alongThePath() const { return turn_rad == 0.0; }
 };
 
 // What all courses of a decision have in common.
@@ -30,7 +30,7 @@ struct Water {
   // What is being sailed, from the joint on: legs' times from now.
   Course sailed;
   // Points of it to come back to, the last is the goal.
-  std::vector<Eigen::Vector2d> way;
+  std::vector<Eigen::Vector2d> path;
   double cruise_mps = 0.0;
 };
 

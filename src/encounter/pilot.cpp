@@ -238,14 +238,14 @@ class Pilot::Impl {
       return std::nullopt;
     }
     for (const Leg& leg : water.sailed.legs) {
-      if (water.way.empty() || (leg.position - water.way.back()).norm() > 5.0) {
-        water.way.push_back(leg.position);
+      if (water.path.empty() || (leg.position - water.path.back()).norm() > 5.0) {
+        water.path.push_back(leg.position);
       }
     }
-    if (!water.way.empty()) {
-      water.way.erase(water.way.begin());
+    if (!water.path.empty()) {
+      water.path.erase(water.path.begin());
     }
-    water.way.push_back(outset.goal);
+    water.path.push_back(outset.goal);
     constexpr std::size_t kTried = 4;
     const bool may_wait = outset.now_s < act_by_s_;
     for (const Choice& choice : chooser_.choose(water, others, kTried, may_wait, !listens())) {
@@ -371,11 +371,11 @@ class Pilot::Impl {
     constexpr double kLegS = 2.0;
     traffic::PredictionOptions prediction;
     prediction.horizon_s = now_s_ + until_s - track.stamp_s;
-    const traffic::PredictedWay way(track, prediction);
+    const traffic::PredictedPath path(track, prediction);
     std::vector<Leg> legs;
-    Eigen::Vector2d from = way.at(now_s_).position;
+    Eigen::Vector2d from = path.at(now_s_).position;
     for (double t = 0.0; t < until_s; t += kLegS) {
-      const Eigen::Vector2d to = way.at(now_s_ + t + kLegS).position;
+      const Eigen::Vector2d to = path.at(now_s_ + t + kLegS).position;
       legs.push_back({t, from, (to - from) / kLegS});
       from = to;
     }
@@ -593,7 +593,7 @@ class Pilot::Impl {
     Manoeuvre manoeuvre;
     for (const double slower : {1.0, 1.4, 2.0}) {
       Course course;
-      if (choice.intent.alongTheWay()) {
+      if (choice.intent.alongThePath()) {
         const Eigen::Vector2d v = start.velocity;
         manoeuvre.path.trajectory =
             slowDown(sailed, at, choice.intent.share, choice.intent.hold_s,

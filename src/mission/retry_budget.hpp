@@ -23,8 +23,8 @@ class RetryBudget {
   // False if there were too many stops; else all rounds are to be had again. Those with way made
   // towards the goal since the ones before, of which `left_m` is left, begin the count anew.
   bool stopped(double now_s, double left_m) {
-    constexpr double kWayMadeM = 10.0;
-    if (left_m < nearest_m_ - kWayMadeM) {
+    constexpr double kMadeGoodM = 10.0;
+    if (left_m < nearest_m_ - kMadeGoodM) {
       stops_ = 0;
       nearest_m_ = left_m;
     }
@@ -35,7 +35,7 @@ class RetryBudget {
     return true;
   }
   // A part of the way was sailed as planned: all rounds are to be had again from there.
-  void wayMade(double now_s) { newRounds(now_s); }
+  void madeGood(double now_s) { newRounds(now_s); }
   void pause(double now_s) {
     constexpr double kPauseS = 0.5;
     not_before_s_ = now_s + kPauseS;

@@ -517,7 +517,7 @@ class Supervisor::Impl {
     plans_.drop();
     if (planned_left_m_ > 0.0 && planned_left_m_ < nearest_left_m_ - kNearerM) {
       nearest_left_m_ = planned_left_m_;  // as far as it was planned: no stop that counts
-      retries_.wayMade(m.now_s);
+      retries_.madeGood(m.now_s);
       safety().tryWidest();
       return enter(Phase::kStopped, text("%.0f m of the way are to be planned", planned_left_m_));
     }
@@ -557,8 +557,8 @@ class Supervisor::Impl {
                           ? conflictText(conflict_)
                           : "no later stop in water known to be free";
     constexpr double kApartM = 0.2;
-    const auto place = [&](const TimedTrajectory& way) {
-      return way.trajectory.flat(way.elapsed(m.now_s)).position;
+    const auto place = [&](const TimedTrajectory& path) {
+      return path.trajectory.flat(path.elapsed(m.now_s)).position;
     };
     if (!fallback_ || (place(*fallback_) - place(sailed_)).norm() > kApartM) {
       return brakeFor(m, std::move(why));
@@ -658,7 +658,7 @@ class Supervisor::Impl {
   Orders loseRound(const Moment& m) {
     return retries_.roundLost(m.now_s) ? Orders{} : enter(Phase::kFailed, faultOf(m));
   }
-  Orders restOnTheWay(const Moment& m) {
+  Orders restBeforeTheGoal(const Moment& m) {
     if (is_aside_) {  // no stop that counts
       safety().tryWidest();
       return enter(Phase::kStopped, reason_);
@@ -754,7 +754,7 @@ class Supervisor::Impl {
       {kComingToRest, &Impl::isSuspended, &Impl::restSuspended},
       {kComingToRest, &Impl::isCancelled, &Impl::idleAfterStop},
       {kComingToRest, &Impl::isLost, &Impl::giveUp},
-      {kComingToRest, &Impl::always, &Impl::restOnTheWay},
+      {kComingToRest, &Impl::always, &Impl::restBeforeTheGoal},
   };
 
   template <std::size_t Count>
@@ -846,15 +846,15 @@ class Supervisor::Impl {
     const double here = clear(x.head<2>());
     double best = 0.0;
     double most = room(x.head<2>()) + kWorthM;
-    for (const double way : {1.0, -1.0}) {
+    for (const double side : {1.0, -1.0}) {
       double found = 0.0;
       for (double s = kStepM; s <= kFarthestM && most < enough; s += kStepM) {
-        const Eigen::Vector2d there = x.head<2>() + way * s * bow;
+        const Eigen::Vector2d there = x.head<2>() + side * s * bow;
         if (clear(there) < std::min(here, safety().narrowest())) {
           break;
         }
         if (room(there) >= most) {
-          found = way * s;
+          found = side * s;
           most = room(there) + 0.5 * kStepM;
         }
       }
@@ -912,10 +912,10 @@ class Supervisor::Impl {
   }
   Obstacles alongSailed(const Moment& m) { return m.obstacles.startingAt(sailed_.start_time_s); }
   // What is known ahead of a trajectory, on its clock: what nobody saw to be free stops there.
-  stopping::Braking stop(const Moment& m, const TimedTrajectory& way, double at_s,
+  stopping::Braking stop(const Moment& m, const TimedTrajectory& path, double at_s,
                          const stopping::StopLimits& limits) {
-    return stopping::brakingTrajectory(way.trajectory, at_s,
-                                       m.obstacles.inKnownWater().startingAt(way.start_time_s),
+    return stopping::brakingTrajectory(path.trajectory, at_s,
+                                       m.obstacles.inKnownWater().startingAt(path.start_time_s),
                                        vessel_, limits);
   }
   // With the plan's own margin if that can be had.
@@ -928,44 +928,44 @@ class Supervisor::Impl {
   // take it. A launch, or sailing crabwise, may leave none that keeps to the thrusters' limits at
   // the moment: then one that begins later, where the way until then is clear in known water. Kept
   // if there is one.
-  bool findStop(const Moment& m, const TimedTrajectory& way,
+  bool findStop(const Moment& m, const TimedTrajectory& path,
                 const feasibility::SafetyLimits& planned) {
     constexpr double kReserveS = 0.25;
     constexpr double kLaterS[] = {0.5, 1.0, 2.0, 3.5, 5.0};
     const stopping::StopLimits limits = safety().stop(planned);
-    if (keepStop(m, way, kReserveS, limits)) {
+    if (keepStop(m, path, kReserveS, limits)) {
       return true;
     }
-    const bool clear = isClearInKnownWater(m, way, limits);
+    const bool clear = isClearInKnownWater(m, path, limits);
     for (std::size_t k = 0; clear && k < std::size(kLaterS); ++k) {
-      if (keepStop(m, way, kReserveS + kLaterS[k], limits)) {
+      if (keepStop(m, path, kReserveS + kLaterS[k], limits)) {
         break;
       }
     }
     return clear;
   }
   // One that begins so much later; the way's own end is one.
-  bool keepStop(const Moment& m, const TimedTrajectory& way, double later_s,
+  bool keepStop(const Moment& m, const TimedTrajectory& path, double later_s,
                 const stopping::StopLimits& limits) {
-    const double at = way.elapsed(m.now_s) + later_s;
-    if (at >= way.trajectory.duration()) {
-      fallback_ = way;
+    const double at = path.elapsed(m.now_s) + later_s;
+    if (at >= path.trajectory.duration()) {
+      fallback_ = path;
       return true;
     }
-    stopping::Braking found = stop(m, way, at, limits);
+    stopping::Braking found = stop(m, path, at, limits);
     if (found.clear) {
       fallback_ =
-          stopping::splice(way, m.now_s, {std::move(found.trajectory), way.start_time_s + at});
+          stopping::splice(path, m.now_s, {std::move(found.trajectory), path.start_time_s + at});
     }
     return found.clear;
   }
   // For long enough to rest later.
-  bool isClearInKnownWater(const Moment& m, const TimedTrajectory& way,
+  bool isClearInKnownWater(const Moment& m, const TimedTrajectory& path,
                            const stopping::StopLimits& limits) {
     constexpr double kHorizonS = 8.0;
-    const double at = way.elapsed(m.now_s);
-    return !stopping::outlineConflict(way.trajectory, at, at + kHorizonS,
-                                      m.obstacles.inKnownWater().startingAt(way.start_time_s),
+    const double at = path.elapsed(m.now_s);
+    return !stopping::outlineConflict(path.trajectory, at, at + kHorizonS,
+                                      m.obstacles.inKnownWater().startingAt(path.start_time_s),
                                       vessel_, std::max(safety().critical(), limits.hull_margin_m),
                                       true, limits.disturbance)
                 .found;
@@ -985,7 +985,7 @@ class Supervisor::Impl {
     sailed_ = std::move(plan);
     planned_left_m_ = asked.left_m;
     is_last_resort_ =
-        asked.slow || asked.left_m > 0.0 || stopping::restsOnTheWay(sailed_.trajectory);
+        asked.slow || asked.left_m > 0.0 || stopping::restsBeforeItsEnd(sailed_.trajectory);
     planned_level_ = asked.level;
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
     planned_limits_ = asked.request.query.limits;

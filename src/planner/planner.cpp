@@ -30,7 +30,7 @@ constexpr double kNearlyAtRestShare = 0.1;
 constexpr double kPauseS = 0.5;
 // Of the guide path, where a plan that may end early does.
 constexpr double kWholeShare = 0.6;  // of time and samples, for the whole way
-constexpr double kPartsOfTheWay[] = {0.5, 0.25};
+constexpr double kPartsOfThePath[] = {0.5, 0.25};
 constexpr double kStretchShare = 0.6;  // a place is looked for from so much of that on
 // Attempts with other samples before the last resorts, and of the time for them.
 constexpr int kPatience = 3;
@@ -94,7 +94,7 @@ class Planner::Pipeline {
     }
     if (!too_fast) {
       return query.may_end_early && !guide_.points.empty()
-                 ? planPartOfTheWay(obstacles, query, termination, std::move(plan))
+                 ? planPartOfThePath(obstacles, query, termination, std::move(plan))
                  : plan;
     }
     for (const double longer : kSlowingShares) {
@@ -122,14 +122,14 @@ class Planner::Pipeline {
 
   // To the place with most room on a stretch of the guide path, the farther ones first; else `none`
   // stays the answer.
-  Plan planPartOfTheWay(const feasibility::Obstacles& obstacles, const Query& query,
-                        const Termination& termination, Plan none) {
-    const std::vector<OnGuide> way = placesOnGuide(obstacles.field());
-    const double length = way.empty() ? 0.0 : way.back().along_m;
-    for (const double share : kPartsOfTheWay) {
+  Plan planPartOfThePath(const feasibility::Obstacles& obstacles, const Query& query,
+                         const Termination& termination, Plan none) {
+    const std::vector<OnGuide> places = placesOnGuide(obstacles.field());
+    const double length = places.empty() ? 0.0 : places.back().along_m;
+    for (const double share : kPartsOfThePath) {
       const std::optional<Termination> once = onceMore(termination);
       const OnGuide* best = nullptr;
-      for (const OnGuide& place : way) {
+      for (const OnGuide& place : places) {
         const bool on_stretch = place.along_m <= share * length &&
                                 place.along_m >= kStretchShare * share * length &&
                                 place.along_m >= vessel_.hull.length_m;

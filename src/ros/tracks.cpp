@@ -124,9 +124,9 @@ visualization_msgs::MarkerArray trackMarkers(const std::vector<traffic::Track>& 
   markers.markers.push_back(all_gone);
   int place = 0;
   for (const traffic::Track& track : tracks) {
-    const traffic::PredictedWay way(track, {});
+    const traffic::PredictedPath path(track, {});
     for (double t = 0.0; t <= kShownS; t += kStepS) {
-      markers.markers.push_back(outlineMarker(way.at(track.stamp_s + t), "track_ways", place++,
+      markers.markers.push_back(outlineMarker(path.at(track.stamp_s + t), "track_ways", place++,
                                               t == 0.0 ? 1.0 : 0.5 - 0.4 * t / kShownS, stamp));
     }
     markers.markers.push_back(nameMarker(track, stamp));

@@ -118,8 +118,8 @@ std::string Monitor::faultOf(const ClosedLoop& loop) const {
   }
   if (phase == Phase::kSailing || phase == Phase::kReplanning) {
     const auto& stop = supervisor.lastStop();
-    const auto place = [&](const TimedTrajectory& way) -> Eigen::Vector2d {
-      return way.trajectory.flat(way.elapsed(loop.time())).position;
+    const auto place = [&](const TimedTrajectory& path) -> Eigen::Vector2d {
+      return path.trajectory.flat(path.elapsed(loop.time())).position;
     };
     if (!stop || (place(*stop) - place(sailed)).norm() > kApartM) {
       return at("no stop", place(sailed));

@@ -93,9 +93,9 @@ class BackingOff {
     if (best == 0) {
       return std::nullopt;
     }
-    Trajectory way(piecesTo(best));
-    return canFollow(way, obstacles_, vessel_) ? std::optional<Trajectory>(std::move(way))
-                                               : std::nullopt;
+    Trajectory path(piecesTo(best));
+    return canFollow(path, obstacles_, vessel_) ? std::optional<Trajectory>(std::move(path))
+                                                : std::nullopt;
   }
 
  private:

@@ -254,7 +254,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
   Braking best;
   best.clearance_m = -1.0;
   bool best_follows = false;
-  double best_way_m = 0.0;
+  double best_path_m = 0.0;
   Touch best_touch;
   // Clear, but something comes over the place of rest: the one that has longest until then.
   Braking overrun;
@@ -312,18 +312,19 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     }
     const Touch touch = firstTouch(candidate, 0.0, ahead, vessel);
     const double clearance = leastClearance(candidate, ahead);
-    const double way = (candidate.flat(candidate.duration()).position - here.flat.position).norm();
+    const double path_m =
+        (candidate.flat(candidate.duration()).position - here.flat.position).norm();
     const bool follows = canFollow(candidate);
     const bool same = !touch.milderThan(best_touch) && !best_touch.milderThan(touch);
     const bool farther =
-        clearance > best.clearance_m || (clearance == best.clearance_m && way < best_way_m);
+        clearance > best.clearance_m || (clearance == best.clearance_m && path_m < best_path_m);
     const bool better = follows != best_follows ? follows
                         : same                  ? farther
                                                 : touch.milderThan(best_touch);
     if (best.trajectory.empty() || better) {
       best_follows = follows;
       best = {std::move(candidate), false, clearance};
-      best_way_m = way;
+      best_path_m = path_m;
       best_touch = touch;
     }
   }

@@ -62,7 +62,7 @@ trajectory::TimedTrajectory splice(const trajectory::TimedTrajectory& sailed, do
   return {Trajectory(std::move(pieces)), sailed.start_time_s + start};
 }
 
-bool restsOnTheWay(const Trajectory& trajectory) {
+bool restsBeforeItsEnd(const Trajectory& trajectory) {
   constexpr double kRestMps = 1e-3;
   bool under_way = false;
   for (std::size_t i = 0; i + 1 < trajectory.pieces().size(); ++i) {

@@ -82,7 +82,7 @@ double Outline::reach() const {
   return std::hypot(half_length_m, half_beam_m) + radius_m;
 }
 
-PredictedWay::PredictedWay(const Track& track, const PredictionOptions& options) : track_(track) {
+PredictedPath::PredictedPath(const Track& track, const PredictionOptions& options) : track_(track) {
   const auto count = static_cast<std::size_t>(std::ceil(options.horizon_s / kSampleS)) + 1;
   samples_.reserve(std::max<std::size_t>(count, 2));
   Eigen::Vector2d position = track.position;
@@ -105,7 +105,7 @@ PredictedWay::PredictedWay(const Track& track, const PredictionOptions& options)
   }
 }
 
-std::size_t PredictedWay::segmentAt(double time_s, double& share) const {
+std::size_t PredictedPath::segmentAt(double time_s, double& share) const {
   const double steps = (time_s - track_.stamp_s) / kSampleS;
   const auto last = static_cast<double>(samples_.size() - 2);
   const double segment = std::clamp(std::floor(steps), 0.0, last);
@@ -113,7 +113,7 @@ std::size_t PredictedWay::segmentAt(double time_s, double& share) const {
   return static_cast<std::size_t>(segment);
 }
 
-Outline PredictedWay::at(double time_s) const {
+Outline PredictedPath::at(double time_s) const {
   double share = 0.0;
   const std::size_t k = segmentAt(time_s, share);
   const Outline& a = samples_[k];
@@ -127,14 +127,14 @@ Outline PredictedWay::at(double time_s) const {
   return outline;
 }
 
-double PredictedWay::distanceBound(const Eigen::Vector2d& point, double time_s) const {
+double PredictedPath::distanceBound(const Eigen::Vector2d& point, double time_s) const {
   double share = 0.0;
   const std::size_t k = segmentAt(time_s, share);
   const Eigen::Vector2d& from = samples_[k].position;
   return (from + share * (samples_[k + 1].position - from) - point).norm() - reaches_m_[k];
 }
 
-Eigen::Vector2d PredictedWay::velocityAt(double time_s) const {
+Eigen::Vector2d PredictedPath::velocityAt(double time_s) const {
   double share = 0.0;
   const std::size_t k = segmentAt(time_s, share);
   return (samples_[k + 1].position - samples_[k].position) / kSampleS;
@@ -144,11 +144,11 @@ Track predicted(const Track& track, double time_s, const PredictionOptions& opti
   const double t = std::max(0.0, time_s - track.stamp_s);
   PredictionOptions to_here = options;
   to_here.horizon_s = t;
-  const PredictedWay way(track, to_here);
+  const PredictedPath path(track, to_here);
   Track later = track;
   later.stamp_s = time_s;
   const double turned = turnedBy(track, t);
-  later.position = way.at(time_s).position;
+  later.position = path.at(time_s).position;
   later.velocity = Eigen::Rotation2Dd(turned) * track.velocity;
   later.heading_rad = track.heading_rad + turned;
   later.turn_rate_radps = track.turn_rate_radps * std::exp(-t / track.turn_time_s);

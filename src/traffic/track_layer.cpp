@@ -11,19 +11,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 TrackLayer::TrackLayer(const std::vector<Track>& tracks, const PredictionOptions& options) {
-  ways_.reserve(tracks.size());
+  paths_.reserve(tracks.size());
   for (const Track& track : tracks) {
-    ways_.emplace_back(track, options);
-    rate_bound_mps_ = std::max(rate_bound_mps_, ways_.back().rateBound());
+    paths_.emplace_back(track, options);
+    rate_bound_mps_ = std::max(rate_bound_mps_, paths_.back().rateBound());
   }
 }
 
 double TrackLayer::clearance(const Eigen::Vector2d& position, double time_s) const {
   double least = kInfinity;
-  for (const PredictedWay& way : ways_) {
+  for (const PredictedPath& path : paths_) {
     // What lies farther off than what was found needs no closer look.
-    if (way.distanceBound(position, time_s) < least) {
-      least = std::min(least, way.at(time_s).distanceTo(position).distance_m);
+    if (path.distanceBound(position, time_s) < least) {
+      least = std::min(least, path.at(time_s).distanceTo(position).distance_m);
     }
   }
   return std::max(0.0, least);
@@ -32,11 +32,11 @@ double TrackLayer::clearance(const Eigen::Vector2d& position, double time_s) con
 map::DistanceField::Smooth TrackLayer::smooth(const Eigen::Vector2d& position,
                                               double time_s) const {
   map::DistanceField::Smooth nearest{kInfinity, Eigen::Vector2d::Zero()};
-  for (const PredictedWay& way : ways_) {
-    if (way.distanceBound(position, time_s) >= nearest.distance_m) {
+  for (const PredictedPath& path : paths_) {
+    if (path.distanceBound(position, time_s) >= nearest.distance_m) {
       continue;
     }
-    const Outline::Distance distance = way.at(time_s).distanceTo(position);
+    const Outline::Distance distance = path.at(time_s).distanceTo(position);
     if (distance.distance_m < nearest.distance_m) {
       nearest = {distance.distance_m, distance.gradient};
     }

@@ -329,7 +329,7 @@ class Tracker::Impl {
     PredictionOptions now;
     now.horizon_s = 0.0;
     return std::any_of(vessels_.begin(), vessels_.end(), [&](const TrackedVessel& vessel) {
-      const Outline outline = PredictedWay(vessel.track(), now).at(vessel.motion.stamp());
+      const Outline outline = PredictedPath(vessel.track(), now).at(vessel.motion.stamp());
       return outline.distanceTo(cluster.points.front()).distance_m < kOutlineMarginM ||
              outline.distanceTo(cluster.points.back()).distance_m < kOutlineMarginM;
     });
@@ -574,7 +574,7 @@ class Tracker::Impl {
       }
       PredictionOptions now;
       now.horizon_s = 0.0;
-      const Outline outline = PredictedWay(vessel.track(), now).at(vessel.motion.stamp());
+      const Outline outline = PredictedPath(vessel.track(), now).at(vessel.motion.stamp());
       for (const auto* echoes : {&clusters_.echoes(), &clusters_.lowEchoes()}) {
         for (const ScanClusters::Echo& echo : *echoes) {
           if (outline.distanceTo(echo.point).distance_m < kOutlineMarginM) {

@@ -16,7 +16,7 @@ class NearFuture final : public feasibility::ObstacleLayer {
   NearFuture(double now_s, const std::vector<traffic::Track>& tracks)
       : tracks_(tracks, prediction()), until_s_(now_s + kHorizonS) {}
 
-  [[nodiscard]] bool empty() const { return tracks_.ways().empty(); }
+  [[nodiscard]] bool empty() const { return tracks_.paths().empty(); }
   [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const override {
     return time_s <= until_s_ ? tracks_.clearance(position, time_s) : kFarM;
   }

@@ -15,6 +15,6 @@ namespace otter_nav::stopping {
                                                double at_s);
 
 // Whether it comes to rest between its start and its end: to turn on the spot at a corner.
-[[nodiscard]] bool restsOnTheWay(const trajectory::Trajectory& trajectory);
+[[nodiscard]] bool restsBeforeItsEnd(const trajectory::Trajectory& trajectory);
 
 }  // namespace otter_nav::stopping

@@ -65,9 +65,9 @@ struct Outline {
 
 // A track's predicted way with the outline grown by what is uncertain. Continuous in time, also
 // before the track's stamp (straight back, as certain as at the stamp).
-class PredictedWay {
+class PredictedPath {
  public:
-  PredictedWay(const Track& track, const PredictionOptions& options);
+  PredictedPath(const Track& track, const PredictionOptions& options);
 
   [[nodiscard]] const Track& track() const { return track_; }
   // Times on the mission's clock.

@@ -15,7 +15,7 @@ class TrackLayer : public feasibility::ObstacleLayer {
   TrackLayer() = default;
   TrackLayer(const std::vector<Track>& tracks, const PredictionOptions& options);
 
-  [[nodiscard]] const std::vector<PredictedWay>& ways() const { return ways_; }
+  [[nodiscard]] const std::vector<PredictedPath>& paths() const { return paths_; }
 
   [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const override;
   [[nodiscard]] double rateBound() const override { return rate_bound_mps_; }
@@ -24,7 +24,7 @@ class TrackLayer : public feasibility::ObstacleLayer {
                                                   double time_s) const override;
 
  private:
-  std::vector<PredictedWay> ways_;
+  std::vector<PredictedPath> paths_;
   double rate_bound_mps_ = 0.0;
 };
 

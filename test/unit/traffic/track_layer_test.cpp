@@ -55,12 +55,12 @@ TEST(TrackLayer, TurnsWithATrackThatTurns) {
   const TrackLayer layer({track}, certain());
   // A quarter of the circle of 20 m about (10, 25).
   const double quarter_s = 100.0 + 0.5 * kPi / 0.1;
-  const Outline outline = layer.ways()[0].at(quarter_s);
+  const Outline outline = layer.paths()[0].at(quarter_s);
   EXPECT_NEAR((outline.position - Eigen::Vector2d(30.0, 25.0)).norm(), 0.0, 0.05);
   EXPECT_NEAR(outline.heading_rad, 0.5 * kPi, 1e-2);
   // A turn that dies out ends at its time constant's worth of angle.
   track.turn_time_s = 5.0;
-  const Outline late = PredictedWay(track, certain()).at(200.0);
+  const Outline late = PredictedPath(track, certain()).at(200.0);
   EXPECT_NEAR(late.heading_rad, 0.5, 1e-2);
 }
 
@@ -68,12 +68,12 @@ TEST(TrackLayer, GrowsWithTimeAndNotBeyondItsLimit) {
   Track track = eastward();
   track.covariance.diagonal() << 0.25, 0.01, 0.04, 0.0;
   PredictionOptions options = certain();
-  const PredictedWay way(track, options);
-  EXPECT_NEAR(way.at(100.0).half_length_m, 3.0 + 2.0 * 0.5, 1e-9);
-  EXPECT_NEAR(way.at(100.0).half_beam_m, 1.0 + 2.0 * 0.1, 1e-9);
-  EXPECT_NEAR(way.at(105.0).half_length_m, 3.0 + 2.0 * std::sqrt(0.25 + 25.0 * 0.04), 1e-9);
-  EXPECT_NEAR(way.at(150.0).half_length_m, 3.0 + options.growth_max_m, 1e-9);
-  EXPECT_NEAR(way.at(150.0).half_beam_m, 1.2, 1e-9);
+  const PredictedPath path(track, options);
+  EXPECT_NEAR(path.at(100.0).half_length_m, 3.0 + 2.0 * 0.5, 1e-9);
+  EXPECT_NEAR(path.at(100.0).half_beam_m, 1.0 + 2.0 * 0.1, 1e-9);
+  EXPECT_NEAR(path.at(105.0).half_length_m, 3.0 + 2.0 * std::sqrt(0.25 + 25.0 * 0.04), 1e-9);
+  EXPECT_NEAR(path.at(150.0).half_length_m, 3.0 + options.growth_max_m, 1e-9);
+  EXPECT_NEAR(path.at(150.0).half_beam_m, 1.2, 1e-9);
 }
 
 // The strayed positions of many simulated vessels have the variance that is said.
