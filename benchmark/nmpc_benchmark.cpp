@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "otter_nav/base/progress_line.hpp"
-#include "otter_nav/config/share.hpp"
 #include "tracker/ocp/rti_solver.hpp"
 #include "tracking/nmpc_cases.hpp"
 #include "tracking/oracle/ipopt_solver.hpp"
@@ -159,9 +158,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 100000000));
   app.add_option("--out", a.out, "JSON of the times");
   CLI11_PARSE(app, argc, argv);
-  const auto file = config::vesselFile(a.vessel);
-  const auto vessel = file ? vessel::loadParameters(*file)
-                           : Result<vessel::Parameters>(failure(file.error().message));
+  const auto vessel = vessel::loadParameters(a.vessel);
   if (!vessel) {
     std::cerr << "nmpc_benchmark: " << vessel.error().message << "\n";
     return 1;

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "otter_nav/base/statistics.hpp"
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
 #include "otter_nav/scenario/scenario.hpp"
@@ -130,9 +129,7 @@ int main(int argc, char** argv) {
   app.add_option("--vessel", vessel_name);
   app.add_flag("--verbose", verbose, "a line for each mission");
   CLI11_PARSE(app, argc, argv);
-  const auto file = config::vesselFile(vessel_name);
-  const auto vessel = file ? vessel::loadParameters(*file)
-                           : Result<vessel::Parameters>(failure(file.error().message));
+  const auto vessel = vessel::loadParameters(vessel_name);
   if (!vessel) {
     std::fprintf(stderr, "%s\n", vessel.error().message.c_str());
     return 1;

@@ -9,7 +9,6 @@
 #include <map>
 #include <utility>
 
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "planner_dump.hpp"
 #include "shortest_way.hpp"
@@ -190,13 +189,9 @@ Result<std::vector<std::string>> scenarioFiles(const std::string& folder) {
 
 Result<Outcome> runCases(const Request& request, const std::function<void(int, int)>& progress) {
   const auto files = scenarioFiles(request.scenarios);
-  const auto vessel_path = config::vesselFile(request.vessel);
-  if (!files || !vessel_path) {
-    return failure(files ? vessel_path.error().message : files.error().message);
-  }
-  const auto vessel = vessel::loadParameters(*vessel_path);
-  if (!vessel) {
-    return failure(vessel.error().message);
+  const auto vessel = vessel::loadParameters(request.vessel);
+  if (!files || !vessel) {
+    return failure(files ? vessel.error().message : files.error().message);
   }
   auto methods = makeMethods(request, *vessel);
   if (!methods) {

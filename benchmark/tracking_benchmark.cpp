@@ -52,18 +52,13 @@ Result<trajectory::Trajectory> buildPath(const Arguments& a) {
 
 Result<benchmark::RunSetup> buildSetup(const Arguments& a) {
   benchmark::RunSetup setup;
-  const auto vessel_file = config::vesselFile(a.vessel);
-  if (!vessel_file) {
-    return failure(vessel_file.error().message);
-  }
-  const auto vessel = vessel::loadParameters(*vessel_file);
+  const auto vessel = vessel::loadParameters(a.vessel);
   if (!vessel) {
     return failure(vessel.error().message);
   }
   const auto tracker_file = config::findFile(a.config);
   const auto plant_file = config::findFile("config/plant.yaml");
-  const auto disturbance_file = config::findFile("config/disturbances/" + a.disturbance + ".yaml");
-  for (const auto* file : {&tracker_file, &plant_file, &disturbance_file}) {
+  for (const auto* file : {&tracker_file, &plant_file}) {
     if (!*file) {
       return failure(file->error().message);
     }
@@ -72,7 +67,7 @@ Result<benchmark::RunSetup> buildSetup(const Arguments& a) {
   if (!options) {
     return failure(options.error().message);
   }
-  const auto plant = plant::loadOptions(*vessel, *plant_file, *disturbance_file);
+  const auto plant = plant::loadOptions(*vessel, *plant_file, a.disturbance);
   if (!plant) {
     return failure(plant.error().message);
   }

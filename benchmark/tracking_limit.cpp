@@ -24,13 +24,10 @@ struct Arguments {
 
 Result<plant::Options> plantOptions(const Arguments& a, const vessel::Parameters& vessel) {
   const auto plant_file = config::findFile("config/plant.yaml");
-  const auto disturbance_file = config::findFile("config/disturbances/" + a.disturbance + ".yaml");
-  for (const auto* file : {&plant_file, &disturbance_file}) {
-    if (!*file) {
-      return failure(file->error().message);
-    }
+  if (!plant_file) {
+    return failure(plant_file.error().message);
   }
-  return plant::loadOptions(vessel, *plant_file, *disturbance_file);
+  return plant::loadOptions(vessel, *plant_file, a.disturbance);
 }
 
 // Wind and current at each step. Neither depends on the vessel, and this vessel's waves do not
@@ -50,10 +47,7 @@ std::vector<vessel::Disturbance> weather(const plant::Options& options, std::uin
 }
 
 int runOnce(const Arguments& a) {
-  const auto vessel_file = config::vesselFile("otter_gazebo");
-  const auto vessel = vessel_file
-                          ? vessel::loadParameters(*vessel_file)
-                          : Result<vessel::Parameters>(failure(vessel_file.error().message));
+  const auto vessel = vessel::loadParameters("otter_gazebo");
   const auto options = vessel.and_then([&](const auto& v) { return plantOptions(a, v); });
   if (!options) {
     std::cerr << "tracking_limit: " << options.error().message << "\n";

@@ -65,16 +65,11 @@ Result<plant::Simulator> makeSimulator(const Arguments& a) {
   if (!plant_file) {
     return failure(plant_file.error().message);
   }
-  const Result<std::string> disturbance_file = config::findFile(a.disturbance);
-  if (!disturbance_file) {
-    return failure(disturbance_file.error().message);
-  }
-  const Result<vessel::Parameters> vessel =
-      config::vesselFile(a.vessel).and_then(vessel::loadParameters);
+  const Result<vessel::Parameters> vessel = vessel::loadParameters(a.vessel);
   if (!vessel) {
     return failure(vessel.error().message);
   }
-  Result<plant::Options> options = plant::loadOptions(*vessel, *plant_file, *disturbance_file);
+  Result<plant::Options> options = plant::loadOptions(*vessel, *plant_file, a.disturbance);
   if (!options) {
     return failure(options.error().message);
   }

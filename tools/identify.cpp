@@ -95,7 +95,7 @@ Status run(const Arguments& a) {
   if (!options) {
     return failure(options.error().message);
   }
-  Result<vessel::Parameters> guess = config::vesselFile(a.guess).and_then(vessel::loadParameters);
+  Result<vessel::Parameters> guess = vessel::loadParameters(a.guess);
   if (!guess) {
     return failure(guess.error().message);
   }

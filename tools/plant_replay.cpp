@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "number_in.hpp"
-#include "otter_nav/config/share.hpp"
 #include "replay/replay.hpp"
 
 namespace {
@@ -45,7 +44,7 @@ void declare(CLI::App& app, Arguments& a, std::vector<double>& position) {
 }
 
 Result<plant::Recording> run(Arguments a) {
-  Result<vessel::Parameters> vessel = config::vesselFile(a.vessel).and_then(vessel::loadParameters);
+  Result<vessel::Parameters> vessel = vessel::loadParameters(a.vessel);
   if (!vessel) {
     return failure(vessel.error().message);
   }

@@ -8,7 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "otter_nav/config/share.hpp"
 #include "replay_tracker/recorded_run.hpp"
 #include "replay_tracker/retrack.hpp"
 
@@ -156,7 +155,7 @@ Result<Settings> settingsWith(const YAML::Node& recorded, const std::vector<std:
 
 Result<vessel::Parameters> vesselOf(const RecordedRun& run, const std::string& given) {
   if (!given.empty()) {
-    return config::vesselFile(given).and_then(vessel::loadParameters);
+    return vessel::loadParameters(given);
   }
   if (run.vessel.empty()) {
     return failure("the recording does not say which vessel it is; give --vessel");

@@ -160,7 +160,7 @@ Status trackFile(const Arguments& a) {
                            .and_then(otter_nav::config::load<traffic::Options>);
   const auto chart =
       a.chart.empty() ? Result<map::OccupancyGrid>(map::OccupancyGrid{}) : map::loadChart(a.chart);
-  const auto own = otter_nav::config::vesselFile(a.vessel).and_then(vessel::loadParameters);
+  const auto own = vessel::loadParameters(a.vessel);
   if (const Status status = otter_nav::firstFailure(options, chart, own); !status) {
     return status;
   }

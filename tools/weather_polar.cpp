@@ -4,7 +4,6 @@
 
 #include "number_in.hpp"
 #include "otter_nav/base/first_failure.hpp"
-#include "otter_nav/config/share.hpp"
 #include "weather_polar/polar.hpp"
 
 namespace {
@@ -18,7 +17,7 @@ struct Arguments {
 };
 
 Status run(const Arguments& a) {
-  const auto vessel = config::vesselFile(a.vessel).and_then(vessel::loadParameters);
+  const auto vessel = vessel::loadParameters(a.vessel);
   if (!vessel) {
     return failure(vessel.error().message);
   }

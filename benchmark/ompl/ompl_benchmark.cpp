@@ -65,13 +65,10 @@ int main(int argc, char** argv) {
   }
   const auto mission = scenario::missionOf(*scenario, request.mission);
   const auto share = config::shareDirectory();
-  const auto vessel_file = config::vesselFile(request.vessel);
-  if (!mission || !share || !vessel_file) {
-    return fail(!mission ? mission.error().message
-                : !share ? share.error().message
-                         : vessel_file.error().message);
+  if (!mission || !share) {
+    return fail(!mission ? mission.error().message : share.error().message);
   }
-  const auto vessel = vessel::loadParameters(*vessel_file);
+  const auto vessel = vessel::loadParameters(request.vessel);
   const auto options = planner::loadOptions(*share + "/config");
   const auto grid =
       map::loadChart(request.map == "world" ? scenario->world_path : scenario->chart_path);

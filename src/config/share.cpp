@@ -58,24 +58,22 @@ Result<std::string> findFile(const std::string& path) {
   return failure("no file '" + path + "'" + (share ? ", nor below " + *share : ""));
 }
 
-Result<std::string> vesselFile(const std::string& name_or_path) {
-  if (isFile(name_or_path)) {
-    return name_or_path;
-  }
+Result<std::string> presetFile(const std::string& folder, const std::string& name_or_path) {
   const auto share = shareDirectory();
-  if (!share) {
-    return failure(share.error().message);
+  if (!share || findFile(name_or_path)) {
+    return findFile(name_or_path);
   }
-  const fs::path vessels = fs::path(*share) / "config" / "vessels";
-  const fs::path named = vessels / (name_or_path + ".yaml");
+  const fs::path presets = fs::path(*share) / "config" / folder;
+  const fs::path named = presets / (name_or_path + ".yaml");
   if (isFile(named)) {
     return named.string();
   }
   std::string known;
-  for (const auto& entry : fs::directory_iterator(vessels)) {
+  for (const auto& entry : fs::directory_iterator(presets)) {
     known += (known.empty() ? "" : ", ") + entry.path().stem().string();
   }
-  return failure("no vessel '" + name_or_path + "': give a YAML file or one of " + known);
+  return failure("'" + name_or_path + "' is neither a YAML file nor one of config/" + folder +
+                 ": " + known);
 }
 
 }  // namespace otter_nav::config

@@ -96,10 +96,9 @@ void OccupancyMap::Sensed::project(std::size_t index, CellRectangle& changed) {
 void OccupancyMap::Sensed::clearOwnHull(const vessel::Pose& own, CellRectangle& changed) {
   const GridGeometry& g = chart.geometry;
   const double reach = vessel::circumscribedRadius(hull) + 2.0 * hull_margin_m;
-  const Eigen::Vector2i low = g.cellAt(own.position - Eigen::Vector2d::Constant(reach));
-  const Eigen::Vector2i high = g.cellAt(own.position + Eigen::Vector2d::Constant(reach));
-  for (int row = std::max(0, low.y()); row <= std::min(g.height - 1, high.y()); ++row) {
-    for (int column = std::max(0, low.x()); column <= std::min(g.width - 1, high.x()); ++column) {
+  const CellRectangle near = g.around(own.position, reach);
+  for (int row = near.row; row < near.row + near.height; ++row) {
+    for (int column = near.column; column < near.column + near.width; ++column) {
       const std::size_t index = g.index(column, row);
       if (layers.occupied(index) &&
           vessel::covers(hull, own, g.centreOf(column, row), hull_margin_m) &&

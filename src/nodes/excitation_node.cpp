@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/identification/manoeuvres.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
@@ -63,12 +62,10 @@ Result<std::unique_ptr<ExcitationNode>> ExcitationNode::create(config::Section s
   if (!manoeuvres) {
     return failure(manoeuvres.error().message);
   }
-  return config::vesselFile(options.vessel)
-      .and_then(vessel::loadParameters)
-      .map([&](const vessel::Parameters& vessel) {
-        return std::unique_ptr<ExcitationNode>(
-            new ExcitationNode(options, *std::move(manoeuvres), vessel));
-      });
+  return vessel::loadParameters(options.vessel).map([&](const vessel::Parameters& vessel) {
+    return std::unique_ptr<ExcitationNode>(
+        new ExcitationNode(options, *std::move(manoeuvres), vessel));
+  });
 }
 
 ExcitationNode::ExcitationNode(ExcitationNodeOptions options,

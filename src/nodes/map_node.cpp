@@ -18,7 +18,6 @@
 #include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/map/occupancy_map.hpp"
 #include "otter_nav/ros/conversions.hpp"
@@ -81,16 +80,12 @@ Result<std::unique_ptr<MapNode>> MapNode::create(config::Section section) {
   const Status fields = config::readFields(section, node);
   const Result<map::OccupancyMapOptions> options =
       map::readOccupancyMapOptions(section.child("map"));
-  if (const Status status = firstFailure(section.finish(), fields, options); !status) {
+  const auto own = vessel::loadParameters(node.vessel);
+  if (const Status status = firstFailure(section.finish(), fields, options, own); !status) {
     return failure(status.error().message);
   }
   if (node.chart.empty() == node.scenario.empty()) {
     return failure(section.where() + ": give one of the parameters 'chart' and 'scenario'");
-  }
-  const Result<vessel::Parameters> own =
-      config::vesselFile(node.vessel).and_then(vessel::loadParameters);
-  if (!own) {
-    return failure(section.where() + ": parameter 'vessel': " + own.error().message);
   }
   if (!node.scenario.empty()) {
     const Result<scenario::Scenario> scenario = scenario::loadScenario(node.scenario);

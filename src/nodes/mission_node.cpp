@@ -29,7 +29,6 @@
 #include "otter_nav/base/progress_line.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/plant/signals.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -151,7 +150,7 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   const auto scenario = scenario::loadScenario(options->scenario);
   const auto mission = scenario.and_then(
       [&](const scenario::Scenario& all) { return scenario::missionOf(all, options->mission); });
-  const auto vessel = config::vesselFile(options->vessel).and_then(vessel::loadParameters);
+  const auto vessel = vessel::loadParameters(options->vessel);
   if (const Status status = firstFailure(mission, vessel); !status) {
     return failure(status.error().message);
   }

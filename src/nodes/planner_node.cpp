@@ -24,7 +24,6 @@
 #include "otter_nav/config/field_list.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -165,7 +164,7 @@ Result<PlannerNode::Setup> PlannerNode::readSetup(config::Section section) {
   const auto supervisor = mission::readSupervisorOptions(section.child("supervisor"));
   const auto planner = config::read<planner::Options>(section.child("planner"));
   const auto topology = config::read<topology::Options>(section.child("topology"));
-  const auto vessel = config::vesselFile(setup.node.vessel).and_then(vessel::loadParameters);
+  const auto vessel = vessel::loadParameters(setup.node.vessel);
   if (const Status status =
           firstFailure(node, section.finish(), supervisor, planner, topology, vessel);
       !status) {

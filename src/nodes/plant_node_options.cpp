@@ -2,7 +2,6 @@
 
 #include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/scenario/scenario.hpp"
 
 namespace otter_nav::nodes {
@@ -46,21 +45,10 @@ Result<PlantNodeSetup> readPlantNodeSetup(config::Section section) {
       return failure(status.error().message);
     }
   }
-  const Result<std::string> preset =
-      config::findFile(node.disturbance.find('/') == std::string::npos
-                           ? "config/disturbances/" + node.disturbance + ".yaml"
-                           : node.disturbance);
-  if (!preset) {
-    return failure(section.where() + ": parameter 'disturbance': " + preset.error().message);
-  }
-  Result<plant::EnvironmentOptions> disturbance = plant::loadDisturbance(*preset);
-  if (!disturbance) {
-    return failure(disturbance.error().message);
-  }
-  Result<vessel::Parameters> vessel =
-      config::vesselFile(node.vessel).and_then(vessel::loadParameters);
-  if (!vessel) {
-    return failure(section.where() + ": parameter 'vessel': " + vessel.error().message);
+  const auto disturbance = plant::loadDisturbance(node.disturbance);
+  auto vessel = vessel::loadParameters(node.vessel);
+  if (const Status status = firstFailure(disturbance, vessel); !status) {
+    return failure(status.error().message);
   }
   plant->vessel = *std::move(vessel);
   plant->disturbance = *disturbance;

@@ -23,7 +23,6 @@
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/config/field_list.hpp"
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -49,17 +48,25 @@ Level levelOf(const tracker::Command& command) {
   return command.reason.empty() ? Level::kOk : Level::kWarning;
 }
 
-Result<TrackerNodeOptions> readNodeOptions(config::Section& section) {
-  TrackerNodeOptions options;
-  if (const Status status = config::readFields(section, options); !status) {
+struct Setup {
+  TrackerNodeOptions node;
+  tracker::Options tracker;
+};
+
+Result<Setup> readSetup(config::Section section) {
+  Setup setup;
+  const Status node = config::readFields(section, setup.node);
+  const auto tracker = config::read<tracker::Options>(section.child("tracker"));
+  if (const Status status = firstFailure(node, section.finish(), tracker); !status) {
     return failure(status.error().message);
   }
-  if (!options.lockstep && options.speed <= 0.0) {
+  if (!setup.node.lockstep && setup.node.speed <= 0.0) {
     return failure(section.where() +
                    ": parameter 'speed' = 0 is outside its allowed range (0, 1000] when 'lockstep' "
                    "is false");
   }
-  return options;
+  setup.tracker = *tracker;
+  return setup;
 }
 
 }  // namespace
@@ -128,16 +135,13 @@ class TrackerNode {
 };
 
 Result<std::unique_ptr<TrackerNode>> TrackerNode::create(config::Section section) {
-  const Result<TrackerNodeOptions> options = readNodeOptions(section);
-  const Result<tracker::Options> tracker = config::read<tracker::Options>(section.child("tracker"));
-  if (const Status status = firstFailure(section.finish(), options, tracker); !status) {
-    return failure(status.error().message);
+  const Result<Setup> setup = readSetup(std::move(section));
+  if (!setup) {
+    return failure(setup.error().message);
   }
-  return config::vesselFile(options->vessel)
-      .and_then(vessel::loadParameters)
-      .map([&](const vessel::Parameters& vessel) {
-        return std::unique_ptr<TrackerNode>(new TrackerNode(*options, *tracker, vessel));
-      });
+  return vessel::loadParameters(setup->node.vessel).map([&](const vessel::Parameters& vessel) {
+    return std::unique_ptr<TrackerNode>(new TrackerNode(setup->node, setup->tracker, vessel));
+  });
 }
 
 TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tracker,
@@ -188,13 +192,9 @@ std::vector<config::NumberField> TrackerNode::live() const {
 }
 
 Status TrackerNode::change(config::Section section) {
-  const Result<TrackerNodeOptions> options = readNodeOptions(section);
-  const Result<tracker::Options> tracker = config::read<tracker::Options>(section.child("tracker"));
-  if (const Status status = firstFailure(section.finish(), options, tracker); !status) {
-    return status;
-  }
-  tracker_.setWeights(tracker->flatness);
-  return {};
+  return readSetup(std::move(section)).map([this](const Setup& setup) {
+    tracker_.setWeights(setup.tracker.flatness);
+  });
 }
 
 void TrackerNode::onTrajectory(const Trajectory& message) {

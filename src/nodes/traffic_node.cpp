@@ -25,7 +25,6 @@
 #include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/section.hpp"
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -100,13 +99,9 @@ Result<std::unique_ptr<TrafficNode>> TrafficNode::create(config::Section section
   TrafficNodeOptions node;
   const Status fields = config::readFields(section, node);
   const Result<traffic::Options> options = config::read<traffic::Options>(section.child("traffic"));
-  if (const Status status = firstFailure(section.finish(), fields, options); !status) {
+  const auto own = vessel::loadParameters(node.vessel);
+  if (const Status status = firstFailure(section.finish(), fields, options, own); !status) {
     return failure(status.error().message);
-  }
-  const Result<vessel::Parameters> own =
-      config::vesselFile(node.vessel).and_then(vessel::loadParameters);
-  if (!own) {
-    return failure(section.where() + ": parameter 'vessel': " + own.error().message);
   }
   return std::unique_ptr<TrafficNode>(new TrafficNode(*options, own->hull));
 }

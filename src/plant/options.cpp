@@ -1,22 +1,24 @@
 #include "otter_nav/plant/options.hpp"
 
 #include "otter_nav/base/first_failure.hpp"
+#include "otter_nav/config/share.hpp"
 
 namespace otter_nav::plant {
 
-Result<EnvironmentOptions> loadDisturbance(const std::string& path) {
-  return config::load<EnvironmentOptions>(path);
+Result<EnvironmentOptions> loadDisturbance(const std::string& name_or_path) {
+  return config::presetFile("disturbances", name_or_path)
+      .and_then(config::load<EnvironmentOptions>);
 }
 
 Result<Options> loadOptions(const vessel::Parameters& vessel, const std::string& plant_yaml,
-                            const std::string& disturbance_yaml) {
+                            const std::string& disturbance) {
   Result<Options> options = config::load<Options>(plant_yaml);
-  const Result<EnvironmentOptions> disturbance = loadDisturbance(disturbance_yaml);
-  if (const Status status = firstFailure(options, disturbance); !status) {
+  const Result<EnvironmentOptions> preset = loadDisturbance(disturbance);
+  if (const Status status = firstFailure(options, preset); !status) {
     return failure(status.error().message);
   }
   options->vessel = vessel;
-  options->disturbance = *disturbance;
+  options->disturbance = *preset;
   return options;
 }
 

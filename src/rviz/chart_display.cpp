@@ -109,26 +109,30 @@ void ChartDisplay::subscribe() {
          [this](const auto& message) { scan_ = message; });
 }
 
-void ChartDisplay::onChart(const nav_msgs::OccupancyGrid& message) {
+std::optional<map::OccupancyGrid> ChartDisplay::take(const nav_msgs::OccupancyGrid& message,
+                                                     const char* name) {
   auto grid = ros_bridge::toGrid(message, message.header.frame_id);
   if (!grid) {
-    setStatusStd(StatusProperty::Error, "Chart", grid.error().message);
-    return;
+    setStatusStd(StatusProperty::Error, name, grid.error().message);
+    return std::nullopt;
   }
-  setStatus(StatusProperty::Ok, "Chart", "received");
+  setStatus(StatusProperty::Ok, name, "received");
   frame_ = message.header.frame_id;
-  picture_.setChart(std::move(*grid));
-  showAll();
+  return std::move(*grid);
+}
+
+void ChartDisplay::onChart(const nav_msgs::OccupancyGrid& message) {
+  if (auto grid = take(message, "Chart")) {
+    picture_.setChart(std::move(*grid));
+    showAll();
+  }
 }
 
 void ChartDisplay::onMap(const nav_msgs::OccupancyGrid& message) {
-  auto grid = ros_bridge::toGrid(message, message.header.frame_id);
+  auto grid = take(message, "Map");
   if (!grid) {
-    setStatusStd(StatusProperty::Error, "Map", grid.error().message);
     return;
   }
-  setStatus(StatusProperty::Ok, "Map", "received");
-  frame_ = message.header.frame_id;
   if (message.info.map_load_time != load_time_) {
     picture_.forgetSeen();
     load_time_ = message.info.map_load_time;

@@ -44,6 +44,9 @@ class ChartDisplay : public rviz::Display {
   void updateAlpha();
 
  private:
+  // What a message holds, or nothing, and the status says why.
+  [[nodiscard]] std::optional<map::OccupancyGrid> take(const nav_msgs::OccupancyGrid& message,
+                                                       const char* name);
   void onChart(const nav_msgs::OccupancyGrid& message);
   void onMap(const nav_msgs::OccupancyGrid& message);
   void onUpdate(const map_msgs::OccupancyGridUpdate& message);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "otter_nav/config/share.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::rviz_plugins {
@@ -20,7 +19,7 @@ Result<vessel::Parameters> load(const std::string& name) {
   const std::string shipped =
       ros::package::getPath("otter_nav") + "/config/vessels/" + name + ".yaml";
   auto vessel = vessel::loadParameters(shipped);
-  return vessel ? vessel : config::vesselFile(name).and_then(vessel::loadParameters);
+  return vessel ? vessel : vessel::loadParameters(name);
 }
 
 }  // namespace

@@ -20,10 +20,9 @@ Result<planner::Options> loadPlannerOptions(const std::string& path) {
 }  // namespace
 
 Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string& disturbance) {
-  const auto own = config::vesselFile(vessel).and_then(vessel::loadParameters);
+  const auto own = vessel::loadParameters(vessel);
   const auto plant = config::findFile("config/plant.yaml").and_then(config::load<plant::Options>);
-  const auto preset = config::findFile("config/disturbances/" + disturbance + ".yaml")
-                          .and_then(plant::loadDisturbance);
+  const auto preset = plant::loadDisturbance(disturbance);
   const auto planner = config::findFile("config/planner.yaml").and_then(loadPlannerOptions);
   const auto tracker =
       config::findFile("config/tracker.yaml").and_then(config::load<tracker::Options>);

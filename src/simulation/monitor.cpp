@@ -70,10 +70,9 @@ std::string Monitor::faultAt(const Eigen::Vector2d& position, double psi_rad) co
   const map::GridGeometry& g = world_.geometry();
   const bool touches = plant::hullTouches(world_, vessel_.hull, position, psi_rad);
   const double reach = vessel::circumscribedRadius(vessel_.hull) + g.resolution_m;
-  const Eigen::Vector2i low = g.cellAt(position - Eigen::Vector2d::Constant(reach));
-  const Eigen::Vector2i high = g.cellAt(position + Eigen::Vector2d::Constant(reach));
-  for (int row = std::max(0, low.y()); row <= std::min(g.height - 1, high.y()); ++row) {
-    for (int column = std::max(0, low.x()); column <= std::min(g.width - 1, high.x()); ++column) {
+  const map::CellRectangle near = g.around(position, reach);
+  for (int row = near.row; row < near.row + near.height; ++row) {
+    for (int column = near.column; column < near.column + near.width; ++column) {
       const std::size_t index = g.index(column, row);
       const Eigen::Vector2d square = g.centreOf(column, row);
       const bool occupied = world_.freeCells(column, row) == 0;

@@ -1,6 +1,7 @@
 #include "otter_nav/vessel/parameters.hpp"
 
 #include "otter_nav/config/fields.hpp"
+#include "otter_nav/config/share.hpp"
 
 namespace otter_nav::vessel {
 
@@ -13,12 +14,11 @@ Result<Parameters> readParameters(config::Section section) {
   return parameters;
 }
 
-Result<Parameters> loadParameters(const std::string& path) {
-  const Result<YAML::Node> node = config::loadFile(path);
-  if (!node) {
-    return failure(node.error().message);
-  }
-  return readParameters(config::Section(*node, path));
+Result<Parameters> loadParameters(const std::string& name_or_path) {
+  return config::presetFile("vessels", name_or_path).and_then([](const std::string& path) {
+    return config::loadFile(path).and_then(
+        [&](const YAML::Node& node) { return readParameters(config::Section(node, path)); });
+  });
 }
 
 std::string toYaml(const Parameters& parameters) {

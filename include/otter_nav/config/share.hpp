@@ -14,7 +14,8 @@ namespace otter_nav::config {
 // A path as given if it exists, else the same below the share directory (`config/planner.yaml`).
 [[nodiscard]] Result<std::string> findFile(const std::string& path);
 
-// The file of a vessel: a path to a YAML file, or the NAME of config/vessels/NAME.yaml.
-[[nodiscard]] Result<std::string> vesselFile(const std::string& name_or_path);
+// A file that may be named: a path as above, or the NAME of config/FOLDER/NAME.yaml.
+[[nodiscard]] Result<std::string> presetFile(const std::string& folder,
+                                             const std::string& name_or_path);
 
 }  // namespace otter_nav::config

@@ -219,7 +219,8 @@ struct Options {
   }
 };
 
-[[nodiscard]] Result<EnvironmentOptions> loadDisturbance(const std::string& path);
+// Reads config/disturbances/NAME.yaml or another file.
+[[nodiscard]] Result<EnvironmentOptions> loadDisturbance(const std::string& name_or_path);
 // The vessel, config/plant.yaml from `plant_yaml`, and the preset from `disturbance_yaml`.
 [[nodiscard]] Result<Options> loadOptions(const vessel::Parameters& vessel,
                                           const std::string& plant_yaml,

@@ -152,8 +152,8 @@ struct Parameters {
   }
 };
 
-// Reads config/vessels/NAME.yaml. A file without `manoeuvring_model` gets fromPaper().
-[[nodiscard]] Result<Parameters> loadParameters(const std::string& path);
+// Reads config/vessels/NAME.yaml or another file. One without `manoeuvring_model` gets fromPaper().
+[[nodiscard]] Result<Parameters> loadParameters(const std::string& name_or_path);
 [[nodiscard]] Result<Parameters> readParameters(config::Section section);
 // The YAML text loadParameters() reads back to the same numbers.
 [[nodiscard]] std::string toYaml(const Parameters& parameters);
