@@ -26,9 +26,18 @@ for name in sys.argv[1:]:
 sys.exit("\n".join(unused) or None)
 PY
 
-# Headers beside the sources are their room's own, those of a folder with a door are that folder's.
+# Headers beside the sources are their room's own, those of a folder with a door are that folder's;
+# of the others a room includes those of the rooms that it links, and of theirs.
 /usr/bin/python3 - $(git ls-files 'src/*.?pp' 'include/*.hpp') <<'PY'
-import os, re, sys
+import glob, os, re, sys
+links = {}
+for lists in glob.glob("src/*/CMakeLists.txt"):
+    room = re.search(r"otter_nav_room\((\w+)[^)]*?\bROOMS\s+([a-z\s]+)", open(lists).read())
+    if room:
+        links[room[1]] = set(room[2].split())
+for _ in links:
+    for room in links:
+        links[room] = links[room].union(*(links.get(other, set()) for other in links[room]))
 doors = {"optimizer/ends": "otter_nav/optimizer/ends.hpp"}
 inside = []
 for name in sys.argv[1:]:
@@ -39,6 +48,10 @@ for name in sys.argv[1:]:
             inside.append("%s: %s is another room's own" % (name, header))
         elif folder in doors and home != folder:
             inside.append("%s: %s lies behind %s" % (name, header, doors[folder]))
+    room = home.split("/")[0]
+    for used in re.findall(r'^#include "otter_nav/(\w+)/', open(name).read(), re.M):
+        if room in links and used not in links[room] | {room, "base"}:
+            inside.append("%s: room %s doesn't link %s" % (name, room, used))
 sys.exit("\n".join(inside) or None)
 PY
 
