@@ -100,9 +100,7 @@ void GoalServer::abort(const std::string& reason) {
 void GoalServer::feedback(const vessel::Pose& pose, const ros::Time& stamp) {
   if (under_way_) {
     move_base_msgs::MoveBaseFeedback message;
-    message.base_position.header.frame_id = ros_bridge::frames().map;
-    message.base_position.header.stamp = stamp;
-    message.base_position.pose = ros_bridge::toPose(pose.position, pose.psi_rad);
+    message.base_position = ros_bridge::toPose(pose, ros_bridge::frames().map, stamp);
     under_way_->publishFeedback(message);
   }
 }

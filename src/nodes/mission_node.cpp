@@ -289,9 +289,8 @@ void MissionNode::sendGoal() {
     return;
   }
   move_base_msgs::MoveBaseGoal goal;
-  goal.target_pose.header.frame_id = ros_bridge::frames().map;
-  goal.target_pose.header.stamp = states_.front().header.stamp;
-  goal.target_pose.pose = ros_bridge::toPose(mission_.goal.position, mission_.goal.psi_rad);
+  goal.target_pose =
+      ros_bridge::toPose(mission_.goal, ros_bridge::frames().map, states_.front().header.stamp);
   action_.sendGoal(goal,
                    [this](const actionlib::SimpleClientGoalState& state,
                           const move_base_msgs::MoveBaseResultConstPtr&) { onGoalDone(state); });

@@ -26,13 +26,6 @@ class Delivery : public ros::CallbackInterface {
   std::function<void()> deliver_;
 };
 
-geometry_msgs::PoseStamped poseMessage(const vessel::Pose& pose) {
-  geometry_msgs::PoseStamped message;
-  message.header.frame_id = ros_bridge::frames().map;
-  message.pose = ros_bridge::toPose(pose.position, pose.psi_rad);
-  return message;
-}
-
 }  // namespace
 
 PlanWorker::PlanWorker(const Options& options, const vessel::Parameters& vessel, OnDone on_done)
@@ -103,8 +96,10 @@ std::vector<Eigen::Vector2d> PlanWorker::guidePath(const Task& task) {
   }
   const planner::Query& query = task.request.query;
   FindGuidePath call;
-  call.request.start = poseMessage(query.guideStart());
-  call.request.goal = poseMessage({query.goal.flat.position, query.goal.psi_rad});
+  const std::string& frame = ros_bridge::frames().map;
+  call.request.start = ros_bridge::toPose(query.guideStart(), frame, task.map_stamp);
+  call.request.goal =
+      ros_bridge::toPose({query.goal.flat.position, query.goal.psi_rad}, frame, task.map_stamp);
   call.request.clearance = query.limits.clearance_m;
   call.request.map_stamp = task.map_stamp;
   if (!topology_.isValid() || !topology_.call(call)) {

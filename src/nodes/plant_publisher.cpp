@@ -181,7 +181,7 @@ void PlantPublisher::publishRadar(const std::vector<Eigen::Vector2d>& radar_in_b
   message.header.frame_id = frames().base;
   message.header.stamp = stamp;
   for (const Eigen::Vector2d& position : radar_in_base) {
-    message.poses.push_back(toPose(position, 0.0));
+    message.poses.push_back(toPose({position, 0.0}));
   }
   radar_.publish(message);
 }

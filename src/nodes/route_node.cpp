@@ -170,7 +170,7 @@ void RouteNode::onOdometry(const nav_msgs::Odometry& message) {
     return;
   }
   const Eigen::Vector2d ahead = unitVector(vessel->psi_rad);
-  showMarker(ros_bridge::toPose(vessel->position + kMarkerAheadM * ahead, vessel->psi_rad));
+  showMarker(ros_bridge::toPose({vessel->position + kMarkerAheadM * ahead, vessel->psi_rad}));
   odometry_subscriber_.shutdown();
 }
 

@@ -341,11 +341,9 @@ void TrackerNode::publishPrediction(const tracker::Prediction& prediction) {
   path.header.stamp = ros_bridge::toRosTime(prediction.start_s);
   for (int i = 0; i < prediction.size; ++i) {
     const vessel::State& state = prediction.states[static_cast<std::size_t>(i)];
-    geometry_msgs::PoseStamped pose;
-    pose.header = path.header;
-    pose.header.stamp = ros_bridge::toRosTime(prediction.start_s + i * prediction.step_s);
-    pose.pose = ros_bridge::toPose(state.head<2>(), state[vessel::kPsi]);
-    path.poses.push_back(pose);
+    path.poses.push_back(
+        ros_bridge::toPose({state.head<2>(), state[vessel::kPsi]}, frames().map,
+                           ros_bridge::toRosTime(prediction.start_s + i * prediction.step_s)));
   }
   prediction_publisher_.publish(path);
 }

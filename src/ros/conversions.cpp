@@ -66,11 +66,20 @@ geometry_msgs::Quaternion toQuaternion(double roll_rad, double pitch_rad, double
   return message;
 }
 
-geometry_msgs::Pose toPose(const Eigen::Vector2d& position, double psi_rad) {
-  geometry_msgs::Pose pose;
-  pose.position = toPoint(position);
-  pose.orientation = toQuaternion(0.0, 0.0, psi_rad);
-  return pose;
+geometry_msgs::Pose toPose(const vessel::Pose& pose) {
+  geometry_msgs::Pose message;
+  message.position = toPoint(pose.position);
+  message.orientation = toQuaternion(0.0, 0.0, pose.psi_rad);
+  return message;
+}
+
+geometry_msgs::PoseStamped toPose(const vessel::Pose& pose, const std::string& frame,
+                                  const ros::Time& stamp) {
+  geometry_msgs::PoseStamped message;
+  message.header.frame_id = frame;
+  message.header.stamp = stamp;
+  message.pose = toPose(pose);
+  return message;
 }
 
 Eigen::Vector3d rollPitchYaw(const Eigen::Quaterniond& q) {

@@ -168,7 +168,7 @@ MarkerArray clearanceMarkers(const trajectory::Trajectory& trajectory, double cl
 MarkerArray goalMarkers(const vessel::Pose& goal) {
   MarkerArray array;
   Marker arrow = marker("goal", Marker::ARROW, 0.5, color(0.8, 0.05, 0.5, 0.9));
-  arrow.pose = toPose(goal.position, goal.psi_rad);
+  arrow.pose = toPose(goal);
   arrow.pose.position.z = kTrajectoryHeightM;
   arrow.scale.x = 2.5;
   array.markers.push_back(arrow);

@@ -75,7 +75,7 @@ Trajectory toMessage(const trajectory::TimedTrajectory& timed, std::uint32_t id,
   message.header.stamp = toRosTime(timed.start_time_s);
   message.id = id;
   message.speed_max = std::isfinite(timed.speed_max_mps) ? timed.speed_max_mps : 0.0;
-  message.goal = toPose(goal.position, goal.psi_rad);
+  message.goal = toPose(goal);
   if (!trajectory.empty()) {
     const vessel::State start = trajectory.sample(0.0, vessel).state;
     std::copy(start.begin(), start.end(), message.start_state.begin());
@@ -136,11 +136,8 @@ nav_msgs::Path toPath(const trajectory::Trajectory& trajectory, double start_s, 
   for (int i = 0; i <= steps; ++i) {
     const double t_s = trajectory.duration() * i / steps;
     const vessel::State state = trajectory.sample(t_s, vessel).state;
-    geometry_msgs::PoseStamped pose;
-    pose.header.frame_id = frame;
-    pose.header.stamp = toRosTime(start_s + t_s);
-    pose.pose = toPose(state.head<2>(), state[vessel::kPsi]);
-    path.poses.push_back(pose);
+    path.poses.push_back(
+        toPose({state.head<2>(), state[vessel::kPsi]}, frame, toRosTime(start_s + t_s)));
   }
   return path;
 }

@@ -89,7 +89,8 @@ class Panel : public testing::Test {
   }
   void sendRoute(bool sailing) {
     Route route;
-    route.goals = {ros_bridge::toPose({20.0, 10.0}, 0.0), ros_bridge::toPose({-5.5, 30.0}, 1.5708)};
+    route.goals = {ros_bridge::toPose({{20.0, 10.0}, 0.0}),
+                   ros_bridge::toPose({{-5.5, 30.0}, 1.5708})};
     route.sailing = static_cast<std::uint8_t>(sailing);
     route.reason = sailing ? "" : "goal inside an obstacle";
     route_.publish(route);

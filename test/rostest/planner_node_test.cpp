@@ -42,7 +42,7 @@ class PlannerNode : public testing::Test {
   static move_base_msgs::MoveBaseGoal goal(double x, double y) {
     move_base_msgs::MoveBaseGoal message;
     message.target_pose.header.frame_id = ros_bridge::frames().map;
-    message.target_pose.pose = ros_bridge::toPose({x, y}, 0.5);
+    message.target_pose.pose = ros_bridge::toPose({{x, y}, 0.5});
     return message;
   }
 

@@ -42,7 +42,7 @@ class RouteNode : public testing::Test {
     geometry_msgs::PoseArray goals;
     goals.header.frame_id = "map";
     for (const double each : x) {
-      goals.poses.push_back(ros_bridge::toPose({each, 0.0}, 0.0));
+      goals.poses.push_back(ros_bridge::toPose({{each, 0.0}, 0.0}));
     }
     set_.publish(goals);
   }
@@ -72,7 +72,7 @@ class RouteNode : public testing::Test {
     feedback.marker_name = "goal";
     feedback.event_type = visualization_msgs::InteractiveMarkerFeedback::MENU_SELECT;
     feedback.menu_entry_id = entry;
-    feedback.pose = ros_bridge::toPose({x, 2.0}, 0.7);
+    feedback.pose = ros_bridge::toPose({{x, 2.0}, 0.7});
     feedback_.publish(feedback);
   }
 
@@ -138,7 +138,7 @@ TEST_F(RouteNode, RefusesGoalsThatMakeNoSense) {
   setGoals({std::numeric_limits<double>::quiet_NaN()});
   geometry_msgs::PoseStamped elsewhere;
   elsewhere.header.frame_id = "odom";
-  elsewhere.pose = ros_bridge::toPose({3.0, 0.0}, 0.0);
+  elsewhere.pose = ros_bridge::toPose({{3.0, 0.0}, 0.0});
   add_.publish(elsewhere);
   elsewhere.header.frame_id = "map";
   add_.publish(elsewhere);

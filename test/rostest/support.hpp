@@ -68,7 +68,7 @@ inline nav_msgs::Odometry odometryAt(const Eigen::Vector2d& position, double psi
   message.header.frame_id = ros_bridge::frames().odom;
   message.header.stamp = stamp;
   message.child_frame_id = ros_bridge::frames().base;
-  message.pose.pose = ros_bridge::toPose(position, psi_rad);
+  message.pose.pose = ros_bridge::toPose({position, psi_rad});
   return message;
 }
 

@@ -13,7 +13,7 @@ namespace {
 geometry_msgs::PoseStamped pose(double x, double y) {
   geometry_msgs::PoseStamped message;
   message.header.frame_id = ros_bridge::frames().map;
-  message.pose = ros_bridge::toPose({x, y}, 0.0);
+  message.pose = ros_bridge::toPose({{x, y}, 0.0});
   return message;
 }
 

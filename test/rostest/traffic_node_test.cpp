@@ -51,7 +51,7 @@ class TrafficNode : public testing::Test {
     geometry_msgs::PoseArray plot;
     plot.header.frame_id = ros_bridge::frames().base;
     plot.header.stamp = stamp;
-    plot.poses.push_back(ros_bridge::toPose({x, y}, 0.0));
+    plot.poses.push_back(ros_bridge::toPose({{x, y}, 0.0}));
     radar_.publish(plot);
   }
 

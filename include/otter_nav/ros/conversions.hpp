@@ -25,7 +25,9 @@ namespace otter_nav::ros_bridge {
 [[nodiscard]] geometry_msgs::Point toPoint(const Eigen::Vector2d& p, double z_m = 0.0);
 [[nodiscard]] geometry_msgs::Quaternion toQuaternion(double roll_rad, double pitch_rad,
                                                      double yaw_rad);
-[[nodiscard]] geometry_msgs::Pose toPose(const Eigen::Vector2d& position, double psi_rad);
+[[nodiscard]] geometry_msgs::Pose toPose(const vessel::Pose& pose);
+[[nodiscard]] geometry_msgs::PoseStamped toPose(const vessel::Pose& pose, const std::string& frame,
+                                                const ros::Time& stamp);
 
 // Roll, pitch, yaw (yaw first, then pitch, then roll, in moving axes); `q` of norm 1.
 [[nodiscard]] Eigen::Vector3d rollPitchYaw(const Eigen::Quaterniond& q);
