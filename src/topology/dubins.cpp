@@ -72,7 +72,7 @@ Word threeTurns(Turn side, double alpha, double beta, const Eigen::Vector2d& bet
 
 Eigen::Vector2d centre(Turn side, const Eigen::Vector2d& p, double psi) {
   const double sign = side == kL ? 1.0 : -1.0;
-  return p + sign * Eigen::Vector2d(-std::sin(psi), std::cos(psi));
+  return p + sign * across(unitVector(psi));
 }
 
 // The pose after a stretch of unit radius.
