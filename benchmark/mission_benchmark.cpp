@@ -208,18 +208,20 @@ Result<scenario::MissionResult> sail(const Arguments& arguments,
   }
   std::string track_path;
   std::string vessels_path;
-  std::optional<scenario::TrackWriter> track;
-  std::optional<scenario::VesselsWriter> vessels;
-  const auto open = [](const std::string& path, auto& writer) -> Status {
-    using Writer = typename std::decay_t<decltype(writer)>::value_type;
-    return Writer::open(path).map([&](Writer opened) { writer = std::move(opened); });
+  std::optional<scenario::TableWriter> track;
+  std::optional<scenario::TableWriter> vessels;
+  const auto open = [](const std::string& path, const char* columns,
+                       std::optional<scenario::TableWriter>& writer) -> Status {
+    return scenario::TableWriter::open(path, columns).map([&](scenario::TableWriter opened) {
+      writer = std::move(opened);
+    });
   };
   if (!arguments.tracks.empty()) {
     track_path = csvPath(arguments, label, ".csv");
-    Status opened = open(track_path, track);
+    Status opened = open(track_path, scenario::kTrackColumns, track);
     if (opened && !scenario.vessels.empty()) {
       vessels_path = csvPath(arguments, label, "_vessels.csv");
-      opened = open(vessels_path, vessels);
+      opened = open(vessels_path, scenario::kVesselsColumns, vessels);
     }
     if (!opened) {
       return failure(opened.error().message);

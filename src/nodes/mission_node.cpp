@@ -86,7 +86,7 @@ class MissionNode {
  private:
   MissionNode(MissionNodeOptions options, const scenario::Scenario& scenario,
               const scenario::Mission& mission, const vessel::Parameters& vessel,
-              std::optional<scenario::TrackWriter> track);
+              std::optional<scenario::TableWriter> track);
 
   void onRecording(const std_msgs::Header& message);
   void onState(const PlantState& message);
@@ -115,7 +115,7 @@ class MissionNode {
   ReferenceLog references_;
   scenario::Recorder recorder_;
   ProgressLine progress_;
-  std::optional<scenario::TrackWriter> track_;
+  std::optional<scenario::TableWriter> track_;
   std::deque<PlantState> states_;  // not recorded yet
   std::optional<PlantState> last_state_;
   double first_time_s_ = -1.0;
@@ -154,11 +154,12 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   if (const Status status = firstFailure(mission, vessel); !status) {
     return failure(status.error().message);
   }
-  std::optional<scenario::TrackWriter> track;
+  std::optional<scenario::TableWriter> track;
   if (!options->result.empty()) {
     // The track lies beside the result.
-    Result<scenario::TrackWriter> opened = scenario::TrackWriter::open(
-        std::filesystem::path(options->result).replace_extension(".csv").string());
+    Result<scenario::TableWriter> opened = scenario::TableWriter::open(
+        std::filesystem::path(options->result).replace_extension(".csv").string(),
+        scenario::kTrackColumns);
     if (!opened) {
       return failure(opened.error().message);
     }
@@ -170,7 +171,7 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
 
 MissionNode::MissionNode(MissionNodeOptions options, const scenario::Scenario& scenario,
                          const scenario::Mission& mission, const vessel::Parameters& vessel,
-                         std::optional<scenario::TrackWriter> track)
+                         std::optional<scenario::TableWriter> track)
     : options_(std::move(options)),
       label_{scenario.name, options_.mission, options_.vessel, options_.disturbance,
              static_cast<std::uint64_t>(options_.seed)},
@@ -354,7 +355,7 @@ void MissionNode::record(const PlantState& state) {
   recorder_.addMotion(sample);
   constexpr double kRounding = 1e-6;
   if (track_ && sample.t_s >= next_track_s_ - kRounding) {
-    track_->write(sample);
+    track_->write(scenario::trackRow(sample));
     next_track_s_ += kTrackPeriodS;
   }
 }

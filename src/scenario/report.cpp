@@ -62,58 +62,38 @@ Status saveJson(const std::string& path, const std::vector<MissionResult>& resul
   return {};
 }
 
-TrackWriter::TrackWriter(std::ofstream file, std::string path)
+TableWriter::TableWriter(std::ofstream file, std::string path)
     : file_(std::move(file)), path_(std::move(path)) {}
 
-Result<TrackWriter> TrackWriter::open(const std::string& path) {
+Result<TableWriter> TableWriter::open(const std::string& path, const char* columns) {
   std::ofstream file(path);
-  file << "t,x,y,psi,u,v,r,roll,pitch,f_left,f_right,x_ref,y_ref,psi_ref\n";
+  file << columns;
   if (!file) {
-    return failure("can't write track " + path);
+    return failure("can't write " + path);
   }
-  return TrackWriter(std::move(file), path);
+  return TableWriter(std::move(file), path);
 }
 
-void TrackWriter::write(const MotionSample& sample) {
+Status TableWriter::close() {
+  file_.close();
+  if (!file_) {
+    return failure("can't write " + path_);
+  }
+  return {};
+}
+
+std::string trackRow(const MotionSample& sample) {
   const vessel::State& x = sample.state;
   const Eigen::Vector3d reference = sample.reference.value_or(x.head<3>());
-  file_ << text("%.3f,%.4f,%.4f,%.5f,%.4f,%.4f,%.5f,%.5f,%.5f,%.3f,%.3f,%.4f,%.4f,%.5f\n",
-                sample.t_s, x[0], x[1], x[2], x[3], x[4], x[5], sample.roll_rad, sample.pitch_rad,
-                sample.thrusts_n[vessel::kLeft], sample.thrusts_n[vessel::kRight], reference.x(),
-                reference.y(), reference.z());
+  return text("%.3f,%.4f,%.4f,%.5f,%.4f,%.4f,%.5f,%.5f,%.5f,%.3f,%.3f,%.4f,%.4f,%.5f\n", sample.t_s,
+              x[0], x[1], x[2], x[3], x[4], x[5], sample.roll_rad, sample.pitch_rad,
+              sample.thrusts_n[vessel::kLeft], sample.thrusts_n[vessel::kRight], reference.x(),
+              reference.y(), reference.z());
 }
 
-Status TrackWriter::close() {
-  file_.close();
-  if (!file_) {
-    return failure("can't write track " + path_);
-  }
-  return {};
-}
-
-VesselsWriter::VesselsWriter(std::ofstream file, std::string path)
-    : file_(std::move(file)), path_(std::move(path)) {}
-
-Result<VesselsWriter> VesselsWriter::open(const std::string& path) {
-  std::ofstream file(path);
-  file << "t,id,x,y,psi,speed_mps\n";
-  if (!file) {
-    return failure("can't write vessels " + path);
-  }
-  return VesselsWriter(std::move(file), path);
-}
-
-void VesselsWriter::write(double t_s, int id, const vessel::ScriptedMotion& motion) {
-  file_ << text("%.3f,%d,%.4f,%.4f,%.5f,%.4f\n", t_s, id, motion.pose.position.x(),
-                motion.pose.position.y(), motion.pose.psi_rad, motion.speed_mps);
-}
-
-Status VesselsWriter::close() {
-  file_.close();
-  if (!file_) {
-    return failure("can't write vessels " + path_);
-  }
-  return {};
+std::string vesselRow(double t_s, int id, const vessel::ScriptedMotion& motion) {
+  return text("%.3f,%d,%.4f,%.4f,%.5f,%.4f\n", t_s, id, motion.pose.position.x(),
+              motion.pose.position.y(), motion.pose.psi_rad, motion.speed_mps);
 }
 
 std::string progressText(const Progress& progress) {

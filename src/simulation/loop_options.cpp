@@ -59,9 +59,9 @@ Result<Waters> loadWaters(const scenario::Scenario& scenario) {
 }
 
 scenario::MissionResult run(ClosedLoop& loop, const scenario::MissionLabel& label,
-                            double record_period_s, scenario::TrackWriter* track,
+                            double record_period_s, scenario::TableWriter* track,
                             const std::function<void(const scenario::Progress&)>& progress,
-                            scenario::VesselsWriter* vessels, Monitor* monitor) {
+                            scenario::TableWriter* vessels, Monitor* monitor) {
   constexpr double kProgressS = 0.5;
   double next_record_s = loop.time();
   double next_progress_s = loop.time();
@@ -73,11 +73,11 @@ scenario::MissionResult run(ClosedLoop& loop, const scenario::MissionLabel& labe
     }
     if (loop.time() >= next_record_s || !going) {
       if (track != nullptr) {
-        track->write(loop.motion());
+        track->write(scenario::trackRow(loop.motion()));
       }
       for (const plant::OtherVessel& other : loop.others()) {
         if (vessels != nullptr) {
-          vessels->write(loop.time(), other.id, other.motion);
+          vessels->write(scenario::vesselRow(loop.time(), other.id, other.motion));
         }
       }
       next_record_s += record_period_s;

@@ -20,34 +20,26 @@ namespace otter_nav::scenario {
 // The file is whole at any time: the old one stands until the new one is written.
 [[nodiscard]] Status saveJson(const std::string& path, const std::vector<MissionResult>& results);
 
-// The true motion as CSV: t,x,y,psi,u,v,r,roll,pitch,f_left,f_right,x_ref,y_ref,psi_ref (ENU; SI
-// units). Without a trajectory the reference is the vessel's own pose.
-class TrackWriter {
+// A CSV file, written row by row.
+class TableWriter {
  public:
-  [[nodiscard]] static Result<TrackWriter> open(const std::string& path);
-  void write(const MotionSample& sample);
+  [[nodiscard]] static Result<TableWriter> open(const std::string& path, const char* columns);
+  void write(const std::string& row) { file_ << row; }
   // An error if anything could not be written.
   [[nodiscard]] Status close();
 
  private:
-  TrackWriter(std::ofstream file, std::string path);
+  TableWriter(std::ofstream file, std::string path);
   std::ofstream file_;
   std::string path_;
 };
 
-// Other vessels' true motion as CSV: t,id,x,y,psi,speed_mps (ENU; SI units), a row a vessel and
-// instant.
-class VesselsWriter {
- public:
-  [[nodiscard]] static Result<VesselsWriter> open(const std::string& path);
-  void write(double t_s, int id, const vessel::ScriptedMotion& motion);
-  [[nodiscard]] Status close();
-
- private:
-  VesselsWriter(std::ofstream file, std::string path);
-  std::ofstream file_;
-  std::string path_;
-};
+// The true motion (ENU; SI units). Without a trajectory the reference is the vessel's own pose.
+constexpr char kTrackColumns[] = "t,x,y,psi,u,v,r,roll,pitch,f_left,f_right,x_ref,y_ref,psi_ref\n";
+[[nodiscard]] std::string trackRow(const MotionSample& sample);
+// Other vessels' (ENU; SI units), a row a vessel and instant.
+constexpr char kVesselsColumns[] = "t,id,x,y,psi,speed_mps\n";
+[[nodiscard]] std::string vesselRow(double t_s, int id, const vessel::ScriptedMotion& motion);
 
 struct Progress {
   double t_s = 0.0;

@@ -123,7 +123,7 @@ class Monitor;
 // other vessels' to `vessels` and the progress to `progress` if they are given.
 [[nodiscard]] scenario::MissionResult run(
     ClosedLoop& loop, const scenario::MissionLabel& label, double record_period_s,
-    scenario::TrackWriter* track, const std::function<void(const scenario::Progress&)>& progress,
-    scenario::VesselsWriter* vessels = nullptr, Monitor* monitor = nullptr);
+    scenario::TableWriter* track, const std::function<void(const scenario::Progress&)>& progress,
+    scenario::TableWriter* vessels = nullptr, Monitor* monitor = nullptr);
 
 }  // namespace otter_nav::simulation

@@ -75,15 +75,15 @@ TEST(Json, HasTheKeysOthersRead) {
 
 TEST(Track, HasARowASample) {
   const auto path = std::filesystem::temp_directory_path() / "otter_nav_track_test.csv";
-  auto track = TrackWriter::open(path.string());
+  auto track = TableWriter::open(path.string(), kTrackColumns);
   ASSERT_TRUE(track.has_value());
   MotionSample sample;
   sample.t_s = 1.5;
   sample.state << 1.0, 2.0, 0.5, 3.0, -0.25, 0.125;
   sample.thrusts_n = {10.0, -20.0};
-  track->write(sample);
+  track->write(trackRow(sample));
   sample.reference = Eigen::Vector3d(1.5, 2.5, 0.25);
-  track->write(sample);
+  track->write(trackRow(sample));
   ASSERT_TRUE(track->close().has_value());
   std::ifstream file(path);
   std::string line;
@@ -96,7 +96,7 @@ TEST(Track, HasARowASample) {
   std::getline(file, line);
   EXPECT_NE(line.find("1.5000,2.5000,0.25000"), std::string::npos);
   std::filesystem::remove(path);
-  EXPECT_FALSE(TrackWriter::open("/nonexistent/track.csv").has_value());
+  EXPECT_FALSE(TableWriter::open("/nonexistent/track.csv", kTrackColumns).has_value());
 }
 
 TEST(ProgressLine, IsOneRefreshedLineOnATerminal) {
