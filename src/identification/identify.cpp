@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "otter_nav/base/text.hpp"
+#include "otter_nav/vessel/steady_motion.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "problem.hpp"
 #include "regression.hpp"
@@ -143,12 +144,10 @@ Result<Fit> fitManoeuvring(const Identification& work, const Options& options) {
   return fit(problem, betterStart(problem, problem.startPoint(), from_paper), options.solver);
 }
 
-// Steady surge under full thrust: 2 F = d u + q u^2.
+// Steady surge under full thrust.
 double topSpeed(const vessel::ManoeuvringModel& m, const vessel::Thrusters& thrusters) {
   const double thrust_n = 2.0 * thrusters.ahead_max_n;
-  const double d = m.surge_drag_kgps;
-  const double q = m.surge_drag_quadratic_kgpm;
-  return 2.0 * thrust_n / (d + std::sqrt(d * d + 4.0 * q * thrust_n));
+  return thrust_n / vessel::steadyDrag(m.surge_drag_kgps, m.surge_drag_quadratic_kgpm, thrust_n);
 }
 
 vessel::PaperModel paperFrom(const Fit& fit) {

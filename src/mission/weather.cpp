@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/steady_motion.hpp"
@@ -36,16 +37,6 @@ Push push(double force_n, double mass_kg, double drag_kgps, double time_s) {
   const double decay = 1.0 - std::exp(-time_s / memory);
   const double steady = force_n / drag_kgps;
   return {steady * (time_s - memory * decay), steady * decay};
-}
-
-// The sway drag over the speed at which it balances a force.
-double dragAt(const vessel::ManoeuvringModel& m, double force_n) {
-  const double d = m.sway_drag_kgps;
-  return 0.5 * (d + std::sqrt(d * d + 4.0 * m.sway_drag_quadratic_kgpm * force_n));
-}
-
-double courseOf(const Eigen::Vector2d& velocity) {
-  return std::atan2(velocity.y(), velocity.x());
 }
 
 template <typename Visit>
@@ -158,7 +149,7 @@ double Weather::turningShare(const Eigen::Vector2d& velocity, const Disturbance&
   const vessel::Thrusters& t = vessel_.thrusters;
   double least = kNotHeld;
   for (const vessel::SteadyMotion& motion :
-       vessel::steadyHeadings(velocity, courseOf(velocity), vessel_, hard)) {
+       vessel::steadyHeadings(velocity, angleOf(velocity), vessel_, hard)) {
     if (motion.thrusts.sum() > -kAheadShare * 2.0 * t.ahead_max_n) {
       const double difference = motion.thrusts[vessel::kRight] - motion.thrusts[vessel::kLeft];
       least = std::min(least, std::abs(difference) * t.lever_arm_m / vessel::greatestMoment(t));
@@ -168,7 +159,7 @@ double Weather::turningShare(const Eigen::Vector2d& velocity, const Disturbance&
 }
 
 bool Weather::hasThrustFor(const Eigen::Vector2d& velocity) const {
-  const auto motions = vessel::steadyHeadings(velocity, courseOf(velocity), vessel_, mean_);
+  const auto motions = vessel::steadyHeadings(velocity, angleOf(velocity), vessel_, mean_);
   return std::any_of(motions.begin(), motions.end(), [&](const auto& motion) {
     return motion.thrust_share <= kThrustShare &&
            motion.thrusts.sum() > kAheadShare * 2.0 * vessel_.thrusters.ahead_max_n;
@@ -189,7 +180,7 @@ double Weather::sailingSpeed(double usual_mps) const {
     double share = 0.0;
     for (int k = 0; k < kCourses; ++k) {
       const double course = k * 2.0 * kPi / kCourses;
-      const Eigen::Vector2d velocity = speed * Eigen::Vector2d(std::cos(course), std::sin(course));
+      const Eigen::Vector2d velocity = speed * unitVector(course);
       share = std::max(
           share, with_thrust && !hasThrustFor(velocity) ? kNotHeld : turningShare(velocity, hard));
     }
@@ -240,7 +231,7 @@ double Weather::gustReach() const {
   const double left_nm = std::max(moment_nm - yaw_nm, 0.05 * moment_nm);
   // There and round again with all of the moment left, half the time each way.
   const double turn_s = std::min(kNextS, 2.0 * std::sqrt(turn_rad * m.yaw_inertia_kgm2 / left_nm));
-  const double drag = dragAt(m, more_n);
+  const double drag = vessel::steadyDrag(m.sway_drag_kgps, m.sway_drag_quadratic_kgpm, more_n);
   const Push at_first = push(more_n, m.sway_inertia_kg, drag, turn_s);
   const double rest_n = std::max(0.0, most_n - thrust_n);
   const Push later = push(std::min(rest_n, more_n), m.sway_inertia_kg, drag, kNextS - turn_s);
@@ -255,7 +246,7 @@ Eigen::Vector2d Weather::drift() const {
     fastest = std::max(fastest, vessel::setAside(vessel_.manoeuvring, hard, psi));
   });
   const double bow = vessel::headingIntoLoad(vessel_.manoeuvring, mean_, 0.0);
-  return -kRecoversS * fastest * Eigen::Vector2d(std::cos(bow), std::sin(bow));
+  return -kRecoversS * fastest * unitVector(bow);
 }
 
 }  // namespace otter_nav::mission

@@ -5,6 +5,7 @@
 
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
+#include "otter_nav/vessel/steady_motion.hpp"
 
 namespace otter_nav::vessel {
 namespace {
@@ -97,7 +98,7 @@ TurnLaw turnLaw(const Parameters& vessel, double moment_nm) {
   // which k makes just M.
   const double nr = vessel.manoeuvring.yaw_drag_kgm2ps;
   const double nrr = vessel.manoeuvring.yaw_drag_quadratic_kgm2;
-  const double top = 2.0 * moment_nm / (nr + std::sqrt(nr * nr + 4.0 * nrr * moment_nm));
+  const double top = moment_nm / steadyDrag(nr, nrr, moment_nm);
   const double reached = kReachedShare * top;
   const double r_full = kFullShare * reached;
   const auto back = [&](double k) {

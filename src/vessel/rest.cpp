@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "otter_nav/vessel/inverse_dynamics.hpp"
+#include "otter_nav/vessel/steady_motion.hpp"
 
 namespace otter_nav::vessel {
 namespace {
@@ -19,10 +20,8 @@ double driftAbeam(const ManoeuvringModel& model, const Disturbance& disturbance,
   const double sine = std::sin(psi_rad);
   const double pushed = outsideForce(cosine, sine, model, disturbance).sway;
   const double abeam = std::abs(pushed);
-  // d v + q v^2 = |Y|
-  const double d = model.sway_drag_kgps;
-  const double q = model.sway_drag_quadratic_kgpm;
-  const double through = 2.0 * abeam / (d + std::sqrt(d * d + 4.0 * q * abeam) + 1e-12);
+  const double drag = steadyDrag(model.sway_drag_kgps, model.sway_drag_quadratic_kgpm, abeam);
+  const double through = abeam / (drag + 5e-13);  // 0 without drag and load
   const Eigen::Vector2d& current = disturbance.current_mps;
   return std::copysign(through, pushed) + portPart(cosine, sine, current.x(), current.y());
 }

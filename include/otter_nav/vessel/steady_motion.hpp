@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "otter_nav/vessel/motion_law.hpp"
@@ -14,6 +15,11 @@
 #include "otter_nav/vessel/types.hpp"
 
 namespace otter_nav::vessel {
+
+// A force over the steady speed v that it keeps up against drag: d v + q v |v| = force.
+[[nodiscard]] inline double steadyDrag(double linear, double quadratic, double force) {
+  return 0.5 * (linear + std::sqrt(linear * linear + 4.0 * quadratic * force));
+}
 
 struct SteadyMotion {
   double psi_rad = 0.0;
