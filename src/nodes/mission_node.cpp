@@ -72,6 +72,11 @@ vessel::State stateOf(const PlantState& message) {
   return state;
 }
 
+// The track lies beside the result.
+std::string trackPath(const std::string& result) {
+  return std::filesystem::path(result).replace_extension(".csv").string();
+}
+
 }  // namespace
 
 class MissionNode {
@@ -156,10 +161,8 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   }
   std::optional<scenario::TableWriter> track;
   if (!options->result.empty()) {
-    // The track lies beside the result.
-    Result<scenario::TableWriter> opened = scenario::TableWriter::open(
-        std::filesystem::path(options->result).replace_extension(".csv").string(),
-        scenario::kTrackColumns);
+    Result<scenario::TableWriter> opened =
+        scenario::TableWriter::open(trackPath(options->result), scenario::kTrackColumns);
     if (!opened) {
       return failure(opened.error().message);
     }
