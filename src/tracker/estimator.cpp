@@ -12,8 +12,12 @@ namespace otter_nav::tracker {
 namespace {
 
 // What the model leaves open, and how it wanders: standard deviations per square root of a second.
+// Of the velocities at least; in waves it is more, by what the corrections of the last seconds say.
 constexpr double kVelocityWalkMps = 0.02;
 constexpr double kYawRateWalkRadps = 0.02;
+constexpr double kCorrectionsS = 0.3;  // waves push longer than that one way, noise doesn't
+constexpr double kMemoryS = 10.0;
+constexpr double kWalkShare = 0.25;  // of their intensity: most is faster than a force that lasts
 // A force fixed in the earth frame and a moment about the yaw axis. Wind and waves push a hull by
 // its area, so walks and what is not known at the start go with length times beam, the moment's
 // with the length again. The walk of the force is slow on purpose: waves taken for a force would be
@@ -25,7 +29,12 @@ constexpr double kMomentWalkInWindNpm2 = 2.0 / 4.32;  // what the wind's own mom
 constexpr double kMomentSigmaNpm2 = 5.0 / 4.32;
 constexpr double kForceMostNpm2 = 80.0 / 2.16;  // more is not believed
 constexpr double kMomentMostNpm2 = 60.0 / 4.32;
+constexpr double kCurrentSigmaMps = 0.3;
 constexpr double kCurrentMostMps = 1.5;
+// On a steady course the two aren't told apart: both fade, or they would walk away from each other.
+constexpr double kForceFadesS = 100.0;
+constexpr double kCurrentFadesS = 200.0;
+constexpr double kDragRatio = 1.25;  // abeam to ahead or the reverse, that tells current from force
 // Of q = |w| w, for vessels whose model knows wind loads.
 constexpr double kWindWalkM2ps2 = 10.0;
 constexpr double kWindSigmaM2ps2 = 30.0;
@@ -36,6 +45,14 @@ constexpr double kWaveDamping = 0.2;
 // Hull's lengths a second, at which waves begin to be steered against, and are altogether.
 constexpr double kCrawlingPerS = 0.4;
 constexpr double kSailingPerS = 0.6;
+
+// Under one drag ahead and abeam a current is a force.
+bool tellsCurrent(const vessel::ManoeuvringModel& model) {
+  constexpr double kThroughMps = 0.5;
+  const double ahead = model.surge_drag_kgps + kThroughMps * model.surge_drag_quadratic_kgpm;
+  const double abeam = model.sway_drag_kgps + kThroughMps * model.sway_drag_quadratic_kgpm;
+  return std::max(ahead, abeam) > kDragRatio * std::min(ahead, abeam);
+}
 
 }  // namespace
 
@@ -61,10 +78,17 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   const double force_walk = kForceWalkNpm2 * area_m2;
   const double moment_walk =
       (model_.feelsWind() ? kMomentWalkInWindNpm2 : kMomentWalkNpm2) * area_moment_m3;
+  const double current_walk = tellsCurrent(model_) ? o.current_walk_mps : 0.0;
+  const double current_sigma = current_walk > 0.0 ? kCurrentSigmaMps : 0.0;
+  if (current_walk > 0.0) {
+    force_fade_per_s_ = 1.0 / kForceFadesS;
+    current_fade_per_s_ = 1.0 / kCurrentFadesS;
+  }
   walk_variance_ << 0.0, 0.0, 0.0, kVelocityWalkMps, kVelocityWalkMps, kYawRateWalkRadps,
-      force_walk, force_walk, moment_walk, o.current_walk_mps, o.current_walk_mps, kWindWalkM2ps2,
+      force_walk, force_walk, moment_walk, current_walk, current_walk, kWindWalkM2ps2,
       kWindWalkM2ps2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
   walk_variance_ = walk_variance_.cwiseAbs2().eval();
+  least_walk_variance_ = walk_variance_.segment<3>(kSurge);
   // A driven oscillator's velocity has the variance intensity / (4 damping frequency).
   const double drive = std::sqrt(4.0 * kWaveDamping * kWaveRadps);
   walk_variance_.segment<3>(kWaveRate) << o.wave_velocity_mps, o.wave_velocity_mps,
@@ -73,8 +97,8 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   walk_variance_.segment<3>(kWaveRate) = walk_variance_.segment<3>(kWaveRate).cwiseAbs2().eval();
   if (o.enabled) {
     covariance_.diagonal().segment<7>(kForce) << kForceSigmaNpm2 * area_m2,
-        kForceSigmaNpm2 * area_m2, kMomentSigmaNpm2 * area_moment_m3, 0.0, 0.0, kWindSigmaM2ps2,
-        kWindSigmaM2ps2;
+        kForceSigmaNpm2 * area_m2, kMomentSigmaNpm2 * area_moment_m3, current_sigma, current_sigma,
+        kWindSigmaM2ps2, kWindSigmaM2ps2;
     covariance_ = covariance_.cwiseAbs2().eval();
   } else {
     walk_variance_.segment<7>(kForce).setZero();
@@ -92,6 +116,7 @@ void Estimator::reset(const vessel::State& measured) {
   covariance_.diagonal().head<6>() = measurement_variance_;
   covariance_.bottomRows<6>().setZero();
   covariance_.rightCols<6>().setZero();
+  correction_.setZero();
   wave_.setZero();
   wave_rate_.setZero();
   const Eigen::Vector3d sigma(options_.wave_velocity_mps, options_.wave_velocity_mps,
@@ -185,6 +210,8 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   f(kYawRate, kMoment) = dt_s / model_.yaw_inertia_kgm2;
   f.block<3, 2>(kSurge, kCurrent) = dt_s * l.current_jacobian;
   f.block<3, 2>(kSurge, kWind) = dt_s * fromWind();
+  f.block<2, 2>(kForce, kForce).diagonal().array() -= dt_s * force_fade_per_s_;
+  f.block<2, 2>(kCurrent, kCurrent).diagonal().array() -= dt_s * current_fade_per_s_;
   const double w = kWaveRadps;
   f.block<3, 3>(kWave, kWaveRate).diagonal().setConstant(dt_s);
   f.block<3, 3>(kWaveRate, kWave).diagonal().setConstant(-dt_s * w * w);
@@ -193,6 +220,7 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
 }
 
 void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
+  predicted_s_ += dt_s;
   const Covariance f = transition(thrusts, dt_s);
   const Covariance spread = f * covariance_;
   covariance_.noalias() = spread * f.transpose();
@@ -201,6 +229,8 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   // come late to what is steered against.
   covariance_.diagonal().segment<3>(kWaveRate) -=
       dt_s * sailingShare() * walk_variance_.segment<3>(kWaveRate);
+  disturbance_.force_n *= 1.0 - dt_s * force_fade_per_s_;
+  disturbance_.current_mps *= 1.0 - dt_s * current_fade_per_s_;
   // Semi-implicit, so that the oscillator keeps its energy.
   const double w = kWaveRadps;
   wave_rate_ -= dt_s * (w * w * wave_ + 2.0 * kWaveDamping * w * wave_rate_);
@@ -226,6 +256,7 @@ void Estimator::update(const vessel::State& measured) {
   wave_ += step.segment<3>(kWave);
   wave_rate_ += step.segment<3>(kWaveRate);
   state_ += step.head<6>();
+  learnWalk(step.segment<3>(kSurge));
   if (options_.enabled) {
     disturbance_.force_n += step.segment<2>(kForce);
     disturbance_.moment_nm += step[kMoment];
@@ -233,6 +264,24 @@ void Estimator::update(const vessel::State& measured) {
     wind_pressure_ += step.segment<2>(kWind);
     limit();
   }
+}
+
+// A filter whose noise is right corrects by white noise of that intensity (Mehra 1970); what pushes
+// the hull to and fro beyond it comes in corrections of one sign for a while. Seen through a low
+// pass, white noise of intensity q has the variance q / (2 kCorrectionsS).
+void Estimator::learnWalk(const Eigen::Vector3d& step) {
+  if (predicted_s_ <= 0.0) {
+    return;
+  }
+  correction_ += std::min(1.0, predicted_s_ / kCorrectionsS) * (step / predicted_s_ - correction_);
+  Eigen::Vector3d intensity = 2.0 * kCorrectionsS * correction_.cwiseAbs2();
+  intensity.head<2>().setConstant(intensity.head<2>().mean());  // as the hull turns
+  correction_intensity_ +=
+      std::min(1.0, predicted_s_ / kMemoryS) * (intensity - correction_intensity_);
+  // At crawling pace the waves have states of their own.
+  walk_variance_.segment<3>(kSurge) =
+      (sailingShare() * kWalkShare * correction_intensity_).cwiseMax(least_walk_variance_);
+  predicted_s_ = 0.0;
 }
 
 vessel::DisturbanceEstimate Estimator::disturbanceEstimate() const {

@@ -1,10 +1,10 @@
 // Extended Kalman filter for the vessel's state and what pushes it: a force fixed in the earth
-// frame, a yaw moment, the wind if the vessel's model knows wind loads and, if asked for, a
-// current.
+// frame, a yaw moment, the wind if the vessel's model knows wind loads, and a current.
 //
-// Force and current are told apart only by how they change with heading and speed (a hull with the
-// same linear drag ahead and abeam shows no difference at all), so the current is off by default
-// and the force carries both: over a prediction of seconds they act alike (docs/tracker.md).
+// Force and current are told apart only by how they change with heading and speed. A hull with
+// about the same drag ahead and abeam shows no difference, so for such a one the force carries both:
+// over a prediction of seconds they act alike. In waves the model leaves more open than in calm
+// water; how much is learned from how the filter has to correct the velocities (docs/tracker.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -54,6 +54,8 @@ class Estimator {
   [[nodiscard]] Eigen::Matrix<double, 3, 2> fromWind() const;
   // From 0 at crawling pace to 1 at speed.
   [[nodiscard]] double sailingShare() const;
+  // Of surge, sway and yaw rate, by what an update changed them by.
+  void learnWalk(const Eigen::Vector3d& step);
   void limit();
 
   EstimatorOptions options_;
@@ -68,8 +70,14 @@ class Estimator {
   Covariance covariance_ = Covariance::Zero();
   vessel::State measurement_variance_;
   double force_most_n_;
+  double force_fade_per_s_ = 0.0;
+  double current_fade_per_s_ = 0.0;
   double moment_most_nm_;
-  Eigen::Matrix<double, kSize, 1> walk_variance_;
+  Eigen::Matrix<double, kSize, 1> walk_variance_;  // per second
+  Eigen::Vector3d least_walk_variance_;            // of surge, sway and yaw rate
+  Eigen::Vector3d correction_ = Eigen::Vector3d::Zero();  // of these, a second, lately
+  Eigen::Vector3d correction_intensity_ = Eigen::Vector3d::Zero();
+  double predicted_s_ = 0.0;  // since the last update
 };
 
 }  // namespace otter_nav::tracker

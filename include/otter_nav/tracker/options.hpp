@@ -46,7 +46,7 @@ struct EstimatorOptions {
   double heading_sigma_rad = 0.005;
   double velocity_sigma_mps = 0.02;
   double yaw_rate_sigma_radps = 0.01;
-  double current_walk_mps = 0.0;
+  double current_walk_mps = 0.01;
   double wave_velocity_mps = 0.1;
   double wave_yaw_rate_radps = 0.05;
 
@@ -60,7 +60,7 @@ struct EstimatorOptions {
     fields("velocity_sigma_mps", o.velocity_sigma_mps, kSigma, "");
     fields("yaw_rate_sigma_radps", o.yaw_rate_sigma_radps, kSigma, "");
     fields("current_walk_mps", o.current_walk_mps, kNotNegative,
-           "per sqrt(s); 0: no current is estimated, the force carries it");
+           "per sqrt(s), for hulls whose drag ahead and abeam differ; 0: the force carries it");
     fields("wave_velocity_mps", o.wave_velocity_mps, kNotNegative,
            "of motion with the waves, which the propellers leave alone at crawling pace; 0: none");
     fields("wave_yaw_rate_radps", o.wave_yaw_rate_radps, kNotNegative, "of the same");

@@ -34,8 +34,9 @@ struct Sea {
   double wave_radps = 2.0;
 
   double push_n = 22.0;  // of each thruster, more or less
+  double turn_n = 2.0;
 
-  vessel::Thrusts thrusts() const { return {push_n - 2.0, push_n + 2.0}; }
+  vessel::Thrusts thrusts() const { return {push_n - turn_n, push_n + turn_n}; }
   void advance() {
     x = rk4Step(
         [&](double, const vessel::State& s) {
@@ -92,7 +93,72 @@ TEST(Estimator, FindsTheWindOfAVesselThatKnowsItsLoads) {
   const Eigen::Vector2d off = told.mean.wind_mps - sea.disturbance.wind_mps;
   const Eigen::Matrix2d of_wind = told.covariance.block<2, 2>(Estimate::kWind, Estimate::kWind);
   EXPECT_LT(off.dot(of_wind.inverse() * off), 9.0);
-  EXPECT_EQ(told.covariance(Estimate::kCurrent, Estimate::kCurrent), 0.0);  // not estimated
+  EXPECT_EQ(told.covariance(Estimate::kCurrent, Estimate::kCurrent), 0.0);  // one drag: a force
+}
+
+vessel::Parameters otter() {
+  return *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+}
+
+struct Off {
+  double current_mps = 0.0;
+  double force_n = 0.0;
+  double moment_nm = 0.0;
+};
+
+// The most that the estimate is off in a second minute, in a current, a force and waves.
+Off worstOff(double turn_n, double wave_m) {
+  Sea sea;
+  sea.vessel = otter();
+  sea.push_n = 60.0;
+  sea.turn_n = turn_n;
+  sea.wave_m = wave_m;
+  sea.wave_radps = 2.5;
+  sea.disturbance.current_mps = {0.4, -0.2};
+  sea.disturbance.force_n = {5.0, 8.0};
+  Estimator estimator(shipped(), sea.vessel);
+  estimator.reset(sea.measured());
+  Off worst;
+  for (int i = 0; i < 12000; ++i) {
+    sea.advance();
+    estimator.predict(sea.thrusts(), kStepS);
+    estimator.update(sea.measured());
+    if (i > 6000) {
+      const vessel::Disturbance& found = estimator.disturbance();
+      const auto off = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+        return (a - b).norm();
+      };
+      worst.current_mps =
+          std::max(worst.current_mps, off(found.current_mps, sea.disturbance.current_mps));
+      worst.force_n = std::max(worst.force_n, off(found.force_n, sea.disturbance.force_n));
+      worst.moment_nm = std::max(worst.moment_nm, std::abs(found.moment_nm));
+    }
+  }
+  return worst;
+}
+
+constexpr double kInCirclesN = 15.0;
+
+TEST(Estimator, TellsTheCurrentFromAForceInCircles) {
+  const Off off = worstOff(kInCirclesN, 0.0);
+  EXPECT_LT(off.current_mps, 0.1);
+  EXPECT_LT(off.force_n, 7.0);  // it fades
+  EXPECT_LT(off.moment_nm, 8.0);
+}
+
+// What waves do to the hull is put down neither to a force nor to a moment.
+TEST(Estimator, KeepsWavesOutOfTheForce) {
+  const Off off = worstOff(kInCirclesN, 0.15);
+  EXPECT_LT(off.current_mps, 0.5);
+  EXPECT_LT(off.force_n, 25.0);
+  EXPECT_LT(off.moment_nm, 45.0);
+}
+
+// Where the heading stays the same, force and current can't be told apart.
+TEST(Estimator, KeepsForceAndCurrentTogetherOnASteadyCourse) {
+  const Off off = worstOff(2.0, 0.15);
+  EXPECT_LT(off.current_mps, 0.9);
+  EXPECT_LT(off.force_n, 60.0);
 }
 
 // Largest error of the estimated velocity against the motion without its waves, at crawling pace.
