@@ -127,7 +127,9 @@ double Safety::freeThrustShare() const {
   constexpr double kMostForMean = 0.1;
   const bool found = plansWithWeather() && !plansBlind();  // by the plan itself
   const double mean = found ? 0.0 : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
-  return planThrustShare(options_.thrust_share, weather_.gustShare() + mean, times_left_behind_);
+  const double waves = found ? weather_.waveShare() : 0.0;
+  return planThrustShare(options_.thrust_share, std::max(weather_.gustShare() + mean, waves),
+                         times_left_behind_);
 }
 
 double Safety::nextThrustShare() const {

@@ -103,6 +103,8 @@ class Safety {
   // What wind and current are estimated to be.
   void feel(double now_s, const vessel::Disturbance& estimate) { weather_.feel(now_s, estimate); }
   [[nodiscard]] const Weather& weather() const { return weather_; }
+  // The vessel's sway beside its trajectory's, m/s.
+  void feelSway(double now_s, double off_mps) { weather_.feelSway(now_s, off_mps); }
   // How far the vessel is off its trajectory.
   void wander(double now_s, double off_m) { wander_.feel(now_s, off_m); }
   // What it needs around it for that, m, where there is room.

@@ -778,10 +778,16 @@ class Supervisor::Impl {
     if (m.situation.odometry_stamp_s > felt_s_) {  // not twice the same
       felt_s_ = m.situation.odometry_stamp_s;
       safety().feel(felt_s_, m.situation.disturbance.mean);
+      const vessel::State& state = m.situation.state;
+      double sway_mps = 0.0;
       if (!sailed_.trajectory.empty() && sailed_.elapsed(felt_s_) >= 0.0) {
-        const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(felt_s_)).position;
-        safety().wander(felt_s_, (m.situation.state.head<2>() - there).norm());
+        const vessel::State there =
+            sailed_.trajectory.sample(sailed_.elapsed(felt_s_), vessel_, planned_disturbance_)
+                .state;
+        safety().wander(felt_s_, (state.head<2>() - there.head<2>()).norm());
+        sway_mps = there[vessel::kSway];
       }
+      safety().feelSway(felt_s_, state[vessel::kSway] - sway_mps);
     }
   }
   double headingOff(const Moment& m) {

@@ -5,6 +5,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/steady_motion.hpp"
@@ -85,6 +86,16 @@ void Weather::feel(double now_s, const Disturbance& estimate) {
   moment_nm_.add(estimate.moment_nm, share, fade);
 }
 
+void Weather::feelSway(double now_s, double off_mps) {
+  constexpr double kStepMostS = 0.5;  // of what happened between nothing is known
+  const double dt = std::clamp(now_s - last_sway_s_, 0.0, kStepMostS);
+  last_sway_s_ = now_s;
+  sway_felt_s_ += dt;
+  if (sway_felt_s_ > 0.0) {
+    sway_off_mps_.add(off_mps, dt / std::min(kMemoryS, sway_felt_s_), std::exp(-dt / kFastestS));
+  }
+}
+
 bool Weather::isKnown() const {
   return felt_s_ >= kKnownS;
 }
@@ -125,8 +136,10 @@ double Weather::greatestMoment() const {
 double Weather::meanShare() const {
   double most = 0.0;
   forEachHeading([&](double psi) {
-    const vessel::OutsideLoad load = vessel::outsideLoad(psi, vessel_.manoeuvring, mean_);
-    most = std::max(most, std::hypot(load.surge_n, load.sway_n));
+    const vessel::Demand demand =
+        vessel::demandOf(vessel_.manoeuvring, mean_, psi, 0.0, 0.0, Eigen::Vector2d::Zero(),
+                         Eigen::Vector2d::Zero());
+    most = std::max(most, std::hypot(demand.tau.surge_n, demand.sway_n));
   });
   return most / (2.0 * vessel_.thrusters.ahead_max_n);
 }
@@ -143,6 +156,15 @@ double Weather::gustShare() const {
     most = std::max(most, each_n / t.ahead_max_n);
   });
   return std::min(1.0, most);
+}
+
+// With s the share that is left, the speed is s of the top speed and the moment
+// munk * speed * sway; both thrusters share it.
+double Weather::waveShare() const {
+  const vessel::Thrusters& t = vessel_.thrusters;
+  const double each_n = std::abs(vessel_.manoeuvring.munk_kg) * vessel_.top_speed_mps *
+                        std::sqrt(sway_off_mps_.variance) / (2.0 * t.lever_arm_m);
+  return each_n / (t.ahead_max_n + each_n);
 }
 
 double Weather::turningShare(const Eigen::Vector2d& velocity, const Disturbance& hard) const {

@@ -13,6 +13,8 @@ class Weather {
 
   // The estimate at `now_s`; times rise.
   void feel(double now_s, const vessel::Disturbance& estimate);
+  // The vessel's sway beside the one that its trajectory has, m/s; times rise.
+  void feelSway(double now_s, double off_mps);
   // The estimate begins at nothing and has found what blows by then; until it has, it is no ground
   // to change a plan.
   [[nodiscard]] bool isKnown() const;
@@ -33,6 +35,10 @@ class Weather {
   // Of a thruster's limit that the gust takes beside the mean, at the heading where it is most:
   // what plans leave over. In [0, 1].
   [[nodiscard]] double gustShare() const;
+  // Of a thruster's limit that holds the heading while waves move the hull abeam: the moment of
+  // Munk, which goes with that and with the speed, at the speed that the rest of the thrust gives.
+  // In [0, 1).
+  [[nodiscard]] double waveShare() const;
   // The speed over ground, m/s, to sail at: `usual_mps` where the gust leaves moment enough to hold
   // the headings of all courses, else the fastest that does, or the one that leaves most
   // (docs/weather.md).
@@ -66,6 +72,9 @@ class Weather {
   vessel::Parameters vessel_;
   vessel::Disturbance mean_;
   Spread wind_mps_, force_n_, moment_nm_;
+  Spread sway_off_mps_;
+  double sway_felt_s_ = 0.0;
+  double last_sway_s_ = 0.0;
   double felt_s_ = 0.0;
   double last_s_ = 0.0;
   bool started_ = false;

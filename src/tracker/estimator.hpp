@@ -2,9 +2,10 @@
 // frame, a yaw moment, the wind if the vessel's model knows wind loads, and a current.
 //
 // Force and current are told apart only by how they change with heading and speed. A hull with
-// about the same drag ahead and abeam shows no difference, so for such a one the force carries both:
-// over a prediction of seconds they act alike. In waves the model leaves more open than in calm
-// water; how much is learned from how the filter has to correct the velocities (docs/tracker.md).
+// about the same drag ahead and abeam shows no difference, so for such a one the force carries
+// both: over a prediction of seconds they act alike. In waves the model leaves more open than in
+// calm water; how much is learned from how the filter has to correct the velocities
+// (docs/tracker.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -73,8 +74,8 @@ class Estimator {
   double force_fade_per_s_ = 0.0;
   double current_fade_per_s_ = 0.0;
   double moment_most_nm_;
-  Eigen::Matrix<double, kSize, 1> walk_variance_;  // per second
-  Eigen::Vector3d least_walk_variance_;            // of surge, sway and yaw rate
+  Eigen::Matrix<double, kSize, 1> walk_variance_;         // per second
+  Eigen::Vector3d least_walk_variance_;                   // of surge, sway and yaw rate
   Eigen::Vector3d correction_ = Eigen::Vector3d::Zero();  // of these, a second, lately
   Eigen::Vector3d correction_intensity_ = Eigen::Vector3d::Zero();
   double predicted_s_ = 0.0;  // since the last update

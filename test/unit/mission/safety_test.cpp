@@ -116,6 +116,40 @@ TEST(Safety, ReckonsWithWanderingInUnknownWater) {
   EXPECT_LT(safety.reach(), 0.06);
 }
 
+vessel::Parameters otter() {
+  return *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+}
+
+// What plans may take of the thrust in a load, with the hull swaying by so much beside a steady
+// sway.
+double shareInWaves(const vessel::Parameters& vessel, double load_n, double sway_mps,
+                    double steady_mps = 0.0) {
+  Safety safety(SupervisorOptions{}, vessel);
+  for (int k = 0; k < 600; ++k) {
+    vessel::Disturbance load;
+    load.force_n = {-load_n, 0.0};
+    safety.feel(0.1 * k, load);
+    safety.feelSway(0.1 * k, steady_mps + sway_mps * std::sin(0.25 * k));
+  }
+  return safety.freeThrustShare();
+}
+
+// Munk's moment turns a hull that waves move abeam while she makes way.
+TEST(Safety, LeavesThrustToHoldTheHeadingInWaves) {
+  constexpr double kFirmN = 40.0;
+  const double most = SupervisorOptions{}.thrust_share;
+  EXPECT_DOUBLE_EQ(shareInWaves(otter(), kFirmN, 0.0), most);
+  EXPECT_DOUBLE_EQ(shareInWaves(otter(), kFirmN, 0.0, 0.5), most);  // a crab angle is no wave
+  // 0.2 m/s rms: 67.6 kg * 0.2 m/s * (0.7 of 3.1 m/s) turn by 29 N m, 36 N a side.
+  EXPECT_NEAR(shareInWaves(otter(), kFirmN, 0.28), 0.68, 0.051);
+  EXPECT_LT(shareInWaves(otter(), kFirmN, 0.56), 0.61);
+  EXPECT_DOUBLE_EQ(shareInWaves(otter(), 1.0, 0.56),
+                   most);  // in a light load plans stay as they are
+  vessel::Parameters without = otter();
+  without.manoeuvring.munk_kg = 0.0;
+  EXPECT_DOUBLE_EQ(shareInWaves(without, kFirmN, 0.56), most);
+}
+
 // A wider hull is kept as far from everything, beside it.
 TEST(Safety, ClearancesGrowWithTheBeam) {
   vessel::Parameters wam_v;

@@ -86,6 +86,27 @@ TEST(SupervisorInWind, LeavesThrustAndDistanceToASteadyPush) {
   EXPECT_NEAR(others->plan->thrust_share, 0.875, 0.026);
 }
 
+// Waves move the hull abeam: some thrust is left to hold the heading with.
+TEST(SupervisorInWind, LeavesThrustForWhatWavesTurn) {
+  const auto otter =
+      vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+  ASSERT_TRUE(otter);
+  const auto thrustShare = [&](double sway_mps) {
+    ScriptedMission mission(openWater(), knowing());
+    mission.supervisor = Supervisor(mission.options, *otter, 1);
+    for (int k = 0; k < 300; ++k) {
+      mission.rest[vessel::kSway] = sway_mps * std::sin(0.25 * k);
+      blow(mission, 0.1, [](double) { return Vector2d(-40.0, 0.0); });
+    }
+    mission.rest[vessel::kSway] = 0.0;
+    const auto orders = mission.goTo({20.0, 0.0});
+    EXPECT_TRUE(orders && orders->plan);
+    return orders && orders->plan ? orders->plan->thrust_share : 0.0;
+  };
+  EXPECT_GT(thrustShare(0.0), 0.9);
+  EXPECT_LT(thrustShare(0.4), 0.7);
+}
+
 TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
   ScriptedMission mission;
   mission.setOut(6.0);
