@@ -127,7 +127,9 @@ double Safety::freeThrustShare() const {
   constexpr double kMostForMean = 0.1;
   const bool found = plansWithWeather() && !plansBlind();  // by the plan itself
   const double mean = found ? 0.0 : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
-  const double waves = found ? weather_.waveShare() : 0.0;
+  // With less than most of the thrust the hull runs before the wind so slowly that it is carried.
+  constexpr double kMostForWaves = 0.3;
+  const double waves = found ? std::min(kMostForWaves, weather_.waveShare()) : 0.0;
   return planThrustShare(options_.thrust_share, std::max(weather_.gustShare() + mean, waves),
                          times_left_behind_);
 }
@@ -191,9 +193,11 @@ void Safety::newGoal() {
 
 bool Safety::refused() {
   // On the narrower levels a hull in a firm load is set aside by more than they leave beside it: a
-  // wide way planned for still water, and left again when it is set aside, comes first.
+  // wide way planned for still water, and left again when it is set aside, comes first. Before it
+  // comes one that takes what is left over for the waves.
   if (plansWithWeather() && !plansBlind() && levels_.level() + 1 >= kLevelsInLoad) {
-    times_refused_ = kRefusedMost;
+    const bool has_more = times_refused_ == 0 && nextThrustShare() < options_.thrust_share - 0.01;
+    times_refused_ = has_more ? 1 : kRefusedMost;
     levels_.widest();
     return true;
   }
