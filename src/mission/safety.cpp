@@ -78,9 +78,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   const double clearance =
       planClearance(options_, levels_.level(), weather_.gustReach(), vessel_.hull, room_m);
   auto limits = feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
-  if (weather_.isKnown()) {
-    limits.speed_max_mps = weather_.sailingSpeed(limits.speed_max_mps);
-  }
+  limits.speed_max_mps = sailingSpeed(limits.speed_max_mps);
   constexpr double kLeeShares[] = {1.0, 0.5, 0.25, 0.1};  // by level
   limits.drift_m =
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
@@ -101,6 +99,11 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
     }
   }
   return limits;
+}
+
+double Safety::sailingSpeed(double usual_mps) const {
+  const bool light = mayPlanWithWeather() && !plansWithWeather();
+  return !weather_.isKnown() || light ? usual_mps : weather_.sailingSpeed(usual_mps);
 }
 
 double Safety::reach() const {

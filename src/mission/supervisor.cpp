@@ -369,7 +369,7 @@ class Supervisor::Impl {
     constexpr double kLeftS = 5.0;
     const double planned_mps = planned_limits_.speed_max_mps;
     return mayReplanForWeather(m) && sailed_.left(m.now_s) > kLeftS &&
-           weather().sailingSpeed(planned_mps) < kWorthShare * planned_mps;
+           safety().sailingSpeed(planned_mps) < kWorthShare * planned_mps;
   }
   // The plan ends on a heading that can't be held there, or not on the goal's though it can.
   bool endsOnAWrongHeading(const Moment& m) {

@@ -150,6 +150,23 @@ TEST(Safety, LeavesThrustToHoldTheHeadingInWaves) {
   EXPECT_DOUBLE_EQ(shareInWaves(without, kFirmN, 0.56), most);
 }
 
+// The moment that is found in a light load is little, or the waves'.
+TEST(Safety, SailsAsFastAsUsualInALightLoad) {
+  const auto speed = [](double current_mps) {
+    Safety safety(SupervisorOptions{}, otter());
+    for (int k = 0; k < 600; ++k) {
+      vessel::Disturbance load;
+      load.current_mps = {0.0, current_mps};
+      load.force_n = {0.0, 10.0};
+      load.moment_nm = 30.0;
+      safety.feel(0.1 * k, load);
+    }
+    return safety.sailingSpeed(2.9);
+  };
+  EXPECT_EQ(speed(0.05), 2.9);
+  EXPECT_LT(speed(0.4), 1.5);
+}
+
 // A wider hull is kept as far from everything, beside it.
 TEST(Safety, ClearancesGrowWithTheBeam) {
   vessel::Parameters wam_v;
