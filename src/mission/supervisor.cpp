@@ -323,7 +323,14 @@ class Supervisor::Impl {
   // Bow to it, with something near, or to leeward nearer than a lost heading takes, and a better
   // place ahead or astern.
   bool liesOffALeeShore(const Moment& m) {
+    constexpr double kShorterM = 0.5;
+    const Obstacles now = m.obstacles.startingAt(m.now_s);
     sea_room_m_ = weather().isKnown() ? seaRoomToMake(m) : 0.0;
+    // The bow comes farther than the centre, and something may move.
+    while (sea_room_m_ != 0.0 &&
+           !stopping::backOffIsClear(legAhead(m, sea_room_m_), 0.0, now, vessel_)) {
+      sea_room_m_ = std::copysign(std::max(0.0, std::abs(sea_room_m_) - kShorterM), sea_room_m_);
+    }
     return sea_room_m_ != 0.0;
   }
   // All but at rest, and another vessel comes over her; there is a way out.
@@ -594,21 +601,8 @@ class Supervisor::Impl {
         m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
   }
   Orders turnIntoTheLoad(const Moment& /*m*/) { return holdHere(); }
-  // Straight ahead or astern, bow to what pushes.
   Orders makeSeaRoom(const Moment& m) {
-    constexpr double kSpeedMps = 0.5;
-    constexpr double kLeastS = 4.0;
-    const vessel::State& x = m.situation.state;
-    vessel::FlatPoint from;
-    from.position = x.head<2>();
-    vessel::FlatPoint to = from;
-    to.position += sea_room_m_ * bowOf(x);
-    const double duration = std::max(kLeastS, std::abs(sea_room_m_) / kSpeedMps);
-    // The heading is kept, astern as well.
-    trajectory::Piece piece =
-        trajectory::spinPiece(from.position, x[vessel::kPsi], x[vessel::kPsi], duration);
-    piece.position = trajectory::hermitePiece(from, to, duration).position;
-    return manoeuvre(m, Phase::kBackingOff, Trajectory({piece}),
+    return manoeuvre(m, Phase::kBackingOff, legAhead(m, sea_room_m_),
                      text("makes room, %.1f m %s", std::abs(sea_room_m_),
                           sea_room_m_ > 0.0 ? "ahead" : "astern"));
   }
@@ -818,6 +812,21 @@ class Supervisor::Impl {
   }
   static Eigen::Vector2d bowOf(const vessel::State& x) {
     return {std::cos(x[vessel::kPsi]), std::sin(x[vessel::kPsi])};
+  }
+  // Straight ahead (astern, if negative), bow to what pushes; the heading is kept, astern as well.
+  static Trajectory legAhead(const Moment& m, double ahead_m) {
+    constexpr double kSpeedMps = 0.5;
+    constexpr double kLeastS = 4.0;
+    const vessel::State& x = m.situation.state;
+    vessel::FlatPoint from;
+    from.position = x.head<2>();
+    vessel::FlatPoint to = from;
+    to.position += ahead_m * bowOf(x);
+    const double duration = std::max(kLeastS, std::abs(ahead_m) / kSpeedMps);
+    trajectory::Piece piece =
+        trajectory::spinPiece(from.position, x[vessel::kPsi], x[vessel::kPsi], duration);
+    piece.position = trajectory::hermitePiece(from, to, duration).position;
+    return Trajectory({piece});
   }
   // How far ahead of a vessel that lies into what pushes, m (negative: astern), there is enough
   // room round it and to leeward, or most; 0 where it has that already, or there is no better

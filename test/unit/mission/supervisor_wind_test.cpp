@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "../feasibility/moving_disc.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "scripted_mission.hpp"
@@ -325,6 +326,23 @@ TEST(SupervisorInWind, MakesRoomOffALeeShoreBeforeItPlans) {
       EXPECT_NEAR(end.state[vessel::kPsi], 0.0, 1e-6);
     }
   }
+}
+
+// Not into the way of what crosses ahead: it would be broken off at once, again and again.
+TEST(SupervisorInWind, MakesNoRoomWhereSomethingWillPass) {
+  ScriptedMission mission;
+  blow(mission, 5.0, [](double) { return Vector2d(-30.0, 0.0); });
+  const Vector2d northward(0.0, 1.5);
+  const Vector2d ahead(2.0, 0.0);
+  const feasibility::test::MovingDisc crossing(ahead - (mission.now_s + 3.0) * northward, northward,
+                                               0.5);
+  mission.put({-4.0, -5.0}, {-2.5, 5.0});
+  mission.layer = &crossing;
+  const auto orders = mission.goTo({20.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  (void)mission.refuse(*orders->plan, "no");
+  (void)mission.update(0.1);
+  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning) << mission.supervisor.reason();
 }
 
 TEST(SupervisorInWind, WaitsAMinuteForLessWind) {
