@@ -9,11 +9,13 @@
 
 #include "goal_check.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/stopping/stand_aside.hpp"
+#include "otter_nav/stopping/straight_leg.hpp"
 #include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -810,23 +812,13 @@ class Supervisor::Impl {
     }
     return longer;
   }
-  static Eigen::Vector2d bowOf(const vessel::State& x) {
-    return {std::cos(x[vessel::kPsi]), std::sin(x[vessel::kPsi])};
-  }
-  // Straight ahead (astern, if negative), bow to what pushes; the heading is kept, astern as well.
+  // Bow to what pushes.
   static Trajectory legAhead(const Moment& m, double ahead_m) {
     constexpr double kSpeedMps = 0.5;
     constexpr double kLeastS = 4.0;
     const vessel::State& x = m.situation.state;
-    vessel::FlatPoint from;
-    from.position = x.head<2>();
-    vessel::FlatPoint to = from;
-    to.position += ahead_m * bowOf(x);
-    const double duration = std::max(kLeastS, std::abs(ahead_m) / kSpeedMps);
-    trajectory::Piece piece =
-        trajectory::spinPiece(from.position, x[vessel::kPsi], x[vessel::kPsi], duration);
-    piece.position = trajectory::hermitePiece(from, to, duration).position;
-    return Trajectory({piece});
+    return Trajectory({stopping::straightLeg(x.head<2>(), x[vessel::kPsi], ahead_m,
+                                             std::max(kLeastS, std::abs(ahead_m) / kSpeedMps))});
   }
   // How far ahead of a vessel that lies into what pushes, m (negative: astern), there is enough
   // room round it and to leeward, or most; 0 where it has that already, or there is no better
@@ -843,7 +835,7 @@ class Supervisor::Impl {
     const Eigen::Vector2d drift = weather().drift();
     const double far = std::min(drift.norm(), kLeewardM);
     const vessel::State& x = m.situation.state;
-    const Eigen::Vector2d bow = bowOf(x);
+    const Eigen::Vector2d bow = unitVector(x[vessel::kPsi]);
     const double round = std::min(kRoundMostM, kRoundM + kRoundAgainM * retries_.stops());
     if (far < kRoundM || -bow.dot(drift) < kIntoCosine * drift.norm()) {
       return 0.0;

@@ -11,10 +11,11 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
+#include "otter_nav/stopping/straight_leg.hpp"
 #include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/rest.hpp"
-#include "stopping/straight_leg.hpp"
+#include "stopping/can_follow.hpp"
 
 namespace otter_nav::stopping {
 namespace {

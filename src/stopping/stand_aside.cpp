@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "otter_nav/stopping/back_off.hpp"
+#include "otter_nav/stopping/straight_leg.hpp"
 #include "otter_nav/stopping/watch.hpp"
-#include "stopping/straight_leg.hpp"
+#include "stopping/can_follow.hpp"
 
 namespace otter_nav::stopping {
 namespace {
