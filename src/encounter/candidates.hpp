@@ -46,6 +46,8 @@ class Chooser {
   Chooser(const Options& options, const vessel::Parameters& vessel)
       : vessel_(vessel), prospect_(options, vessel.hull), options_(options) {}
 
+  void feel(double swing_mps) { prospect_.feel(swing_mps); }
+
   // The cheapest, from cheapest on, at most `count` that differ; of those that begin at once
   // unless one `may_wait`, and first to starboard unless one `may_turn_to_port`.
   [[nodiscard]] std::vector<Choice> choose(const Water& water, const std::vector<Other>& others,

@@ -11,6 +11,7 @@
 #include "encounter/manoeuvre.hpp"
 #include "encounter/prospect.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 
@@ -71,6 +72,37 @@ class SteadyLine {
   double time2_ = 0.0;
   Eigen::Vector2d sum_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d cross_ = Eigen::Vector2d::Zero();
+};
+
+// How fast waves move the hull to the side of what is steered, means over 2 s as courses are.
+class Swing {
+ public:
+  // So far, m/s: what it often reaches. `off` is the hull's place from where it is steered.
+  double seen(double now_s, const Eigen::Vector2d& off, const Eigen::Vector2d& steered_mps) {
+    constexpr double kMemoryS = 30.0;
+    constexpr double kUsuallyAtMostMps = 0.3;  // what is more is no wave
+    constexpr double kPeak = 1.5;              // of the root of the mean square
+    const double dt = trail_.empty() ? 0.0 : now_s - trail_.back().first;
+    trail_.push_back({now_s, off});
+    while (trail_.size() > 2 && now_s - trail_[1].first >= kCourseS - 1e-6) {
+      trail_.pop_front();
+    }
+    const double span = now_s - trail_.front().first;
+    const double speed = steered_mps.norm();
+    if (dt > 0.0 && span > 0.5 * kCourseS && speed > kStillMps) {
+      const double aside = cross(steered_mps, off - trail_.front().second) / (speed * span);
+      const double square = std::pow(std::min(std::abs(aside), kUsuallyAtMostMps), 2);
+      felt_s_ = std::min(kMemoryS, felt_s_ + dt);
+      square_ += std::min(1.0, dt / felt_s_) * (square - square_);
+    }
+    return kPeak * std::sqrt(square_);
+  }
+
+ private:
+  static constexpr double kStillMps = 0.3;
+  std::deque<std::pair<double, Eigen::Vector2d>> trail_;
+  double felt_s_ = 0.0;
+  double square_ = 0.0;
 };
 
 // Where we were, and how we sailed.
@@ -174,10 +206,12 @@ class Pilot::Impl {
     act_by_s_ = kNever;
   }
 
-  void observe(double now_s, const Motion& own, const std::vector<traffic::Track>& tracks,
-               const Eigen::Vector2d& goal, double cruise_mps) {
+  void observe(double now_s, const Motion& own, const Eigen::Vector2d& steered,
+               const std::vector<traffic::Track>& tracks, const Eigen::Vector2d& goal,
+               double cruise_mps) {
     now_s_ = now_s;
-    remember(now_s, own, goal, cruise_mps);
+    remember(now_s, own, steered, goal, cruise_mps);
+    chooser_.feel(swing_.seen(now_s, own.position - steered, own_.velocity));
     const Past now{now_s, own_, under_way_};
     const auto known = [&](const traffic::Track& track) { return memories_.count(track.id) > 0; };
     std::vector<traffic::Track> fresh;
@@ -287,16 +321,18 @@ class Pilot::Impl {
 
  private:
   // Our own course as a mean; while getting under way, the course and speed we are about to have.
-  void remember(double now_s, const Motion& own, const Eigen::Vector2d& goal, double cruise_mps) {
+  // As it is steered: that waves swing the hull is no action, and no course to be kept either.
+  void remember(double now_s, const Motion& own, const Eigen::Vector2d& steered,
+                const Eigen::Vector2d& goal, double cruise_mps) {
     cruise_mps_ = cruise_mps;
-    trail_.push_back({now_s, own.position});
+    trail_.push_back({now_s, steered});
     while (trail_.size() > 2 && now_s - trail_[1].first >= kCourseS - 1e-6) {
       trail_.pop_front();
     }
     const double span = now_s - trail_.front().first;
     own_ = own;
     if (span > 0.5) {
-      own_.velocity = (own.position - trail_.front().second) / span;
+      own_.velocity = (steered - trail_.front().second) / span;
     }
     constexpr double kCruising = 0.92;
     const double sails_s = now_s - goal_time_s_;
@@ -673,6 +709,7 @@ class Pilot::Impl {
   Chooser chooser_;
   std::map<int, Memory> memories_;
   std::deque<std::pair<double, Eigen::Vector2d>> trail_;
+  Swing swing_;
   static constexpr double kPastS = 40.0;  // between two reports of a slow vessel, and some
   static constexpr double kPastStepS = 0.5;
   std::deque<Past> past_;
@@ -694,9 +731,10 @@ Pilot& Pilot::operator=(Pilot&&) noexcept = default;
 void Pilot::newGoal(double now_s) {
   impl_->newGoal(now_s);
 }
-void Pilot::observe(double now_s, const Motion& own, const std::vector<traffic::Track>& tracks,
-                    const Eigen::Vector2d& goal, double cruise_mps) {
-  impl_->observe(now_s, own, tracks, goal, cruise_mps);
+void Pilot::observe(double now_s, const Motion& own, const Eigen::Vector2d& steered,
+                    const std::vector<traffic::Track>& tracks, const Eigen::Vector2d& goal,
+                    double cruise_mps) {
+  impl_->observe(now_s, own, steered, tracks, goal, cruise_mps);
 }
 std::optional<Manoeuvre> Pilot::decide(const Outset& outset) {
   return impl_->decide(outset);

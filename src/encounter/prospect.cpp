@@ -149,6 +149,7 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
     out.from_s = -std::numeric_limits<double>::infinity();
   }
   bool past = false;
+  bool swings_first = false;
   // Gaining speed is no action: it counts once the speed kept was reached, or falls again.
   bool settling = record.role != Role::kNone && !record.acted;
   double speed_before = 0.0;
@@ -220,6 +221,10 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
       if (share <= kSlowShare && record.first_turn == 0) {
         record.slowed_first = true;
       }
+      // Slower than that waves swing the course by what counts as a turn, to port as well; who has
+      // turned to starboard before has shown what it means.
+      const bool swings = swing_mps_ > std::tan(kActionRad) * leg.velocity.norm();
+      swings_first = swings_first || (slows && swings && !turns && record.first_turn == 0);
       record.turn_max_rad = std::max(record.turn_max_rad, std::abs(turn));
       record.slowest_share =
           settling ? record.slowest_share : std::min(record.slowest_share, share);
@@ -240,6 +245,9 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
   }
   out.role = record.role;
   out.to_s = out.nearest_s;
+  if (swings_first && record.role == Role::kStandOn) {
+    out.broken |= kToPort;
+  }
   if (out.role == Role::kNone || out.nearest_s <= 0.0) {
     return out;
   }
@@ -251,8 +259,9 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
     }
     const bool to_starboard = record.first_turn >= 0;
     const bool narrow = std::abs(record.bearing_rad) < kBroadRad;
-    if ((record.role == Role::kHeadOn && record.first_turn != 1) ||
-        (record.role == Role::kGiveWay && narrow && !to_starboard && !record.slowed_first)) {
+    if ((record.role == Role::kHeadOn && (record.first_turn != 1 || swings_first)) ||
+        (record.role == Role::kGiveWay && narrow && (!to_starboard || swings_first) &&
+         !record.slowed_first)) {
       out.broken |= kWrongTurn;
     }
     if (record.role == Role::kHeadOn) {

@@ -83,6 +83,8 @@ class Prospect {
  public:
   Prospect(const Options& options, const vessel::Hull& hull) : options_(options), hull_(hull) {}
 
+  // How fast waves move the hull to the side, m/s.
+  void feel(double swing_mps) { swing_mps_ = swing_mps; }
   [[nodiscard]] Outlook look(const Course& own, const Other& other) const;
   // The price of a course, in seconds that it would be worth sailing longer to avoid it.
   [[nodiscard]] double price(const Course& own, const std::vector<Other>& others,
@@ -91,6 +93,7 @@ class Prospect {
  private:
   Options options_;
   vessel::Hull hull_;
+  double swing_mps_ = 0.0;
 };
 
 // An action (rule 8): a change of course by more than 5 deg, or of speed by more than 10 %.

@@ -892,7 +892,10 @@ class Supervisor::Impl {
     }
     const vessel::State& x = m.situation.state;
     const Eigen::Rotation2D<double> map_from_base(x[vessel::kPsi]);
-    pilot_.observe(m.now_s, {x.head<2>(), map_from_base * x.segment<2>(vessel::kSurge)},
+    const bool follows = m.situation.tracking_error_m < 0.5 * options_.tracking_error_max_m;
+    const Eigen::Vector2d steered =
+        follows ? sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position : x.head<2>();
+    pilot_.observe(m.now_s, {x.head<2>(), map_from_base * x.segment<2>(vessel::kSurge)}, steered,
                    m.situation.tracks, goal_.position,
                    kCruiseShare * planned_limits_.speed_max_mps);
   }

@@ -63,9 +63,11 @@ class Pilot {
 
   // A new way: its first seconds count as getting under way.
   void newGoal(double now_s);
-  // Positions and courses as they are now; several times a second.
-  void observe(double now_s, const Motion& own, const std::vector<traffic::Track>& tracks,
-               const Eigen::Vector2d& goal, double cruise_mps);
+  // Positions and courses as they are now; several times a second. What we do is told from where
+  // the hull is steered to be, `steered`: waves swing it about that.
+  void observe(double now_s, const Motion& own, const Eigen::Vector2d& steered,
+               const std::vector<traffic::Track>& tracks, const Eigen::Vector2d& goal,
+               double cruise_mps);
   // Something better than what is being sailed, if there is.
   [[nodiscard]] std::optional<Manoeuvre> decide(const Outset& outset);
   // Those with risk of collision.

@@ -45,8 +45,8 @@ class PilotTest : public ::testing::Test {
   std::optional<Manoeuvre> decideAt(double now, double heading_deg, double speed) {
     for (double t = now - 3.0; t <= now; t += 0.5) {
       const vessel::FlatPoint z = sailed_.trajectory.flat(t);
-      pilot_.observe(t, {z.position, z.velocity}, {trackAt(heading_deg, speed, t)}, {0.0, 200.0},
-                     1.98);
+      pilot_.observe(t, {z.position, z.velocity}, z.position, {trackAt(heading_deg, speed, t)},
+                     {0.0, 200.0}, 1.98);
     }
     return pilot_.decide({now, sailed_, {0.0, 200.0}, now + 0.3, limits_, water_});
   }
@@ -117,7 +117,7 @@ TEST_F(PilotTest, WhoIsHeardOfLateWasThereBefore) {
     if (t > 17.0) {
       tracks.push_back(trackAt(270.0, 2.0, t));
     }
-    pilot_.observe(t, {position, velocity}, tracks, goal, 1.98);
+    pilot_.observe(t, {position, velocity}, position, tracks, goal, 1.98);
     position += 0.5 * velocity;
   }
   const auto encounters = pilot_.encounters();
@@ -141,7 +141,7 @@ TEST_F(PilotTest, KnowsWhoComesBackAsAnotherTrack) {
       tracks.back().id = 8;
       tracks.back().position.x() += 3.0;
     }
-    pilot_.observe(t, {z.position, z.velocity}, tracks, {0.0, 200.0}, 1.98);
+    pilot_.observe(t, {z.position, z.velocity}, z.position, tracks, {0.0, 200.0}, 1.98);
     if (t > 16.0 && t <= 18.0) {
       EXPECT_TRUE(pilot_.encounters().empty());
     }
@@ -167,7 +167,7 @@ TEST_F(PilotTest, ArrivesAheadOfWhoFollows) {
       const vessel::FlatPoint z = sailed_.trajectory.flat(t);
       traffic::Track track = trackAt(0.0, 1.4, t);
       track.position = {0.0, -60.0 + 1.4 * t};
-      pilot_.observe(t, {z.position, z.velocity}, {track}, goal, 1.98);
+      pilot_.observe(t, {z.position, z.velocity}, z.position, {track}, goal, 1.98);
     }
     EXPECT_FALSE(pilot_.decide({now, sailed_, goal, now + 0.3, limits_, water_})) << now;
   }
@@ -185,11 +185,61 @@ TEST_F(PilotTest, ActsOnlyByWhatLasts) {
       const double shape = waves ? std::sin(2.0 * kPi * t / kWaveS) : 1.0;
       const double aside = t > 20.0 ? kAsideRad * shape : 0.0;
       const Eigen::Vector2d velocity = 2.0 * Eigen::Vector2d(std::sin(aside), std::cos(aside));
-      pilot_.observe(t, {position, velocity}, {trackAt(67.5, 2.0, t)}, {0.0, 200.0}, 1.98);
+      pilot_.observe(t, {position, velocity}, position, {trackAt(67.5, 2.0, t)}, {0.0, 200.0},
+                     1.98);
       position += 0.1 * velocity;
     }
     ASSERT_EQ(pilot_.encounters().size(), 1U);
     EXPECT_EQ(pilot_.encounters()[0].acted, !waves);
+  }
+}
+
+// Long waves swing the hull for longer than an action lasts: what is steered tells what we do, and
+// what was kept.
+TEST_F(PilotTest, SwingingAboutWhatIsSteeredIsNoAction) {
+  constexpr double kSwingMps = 0.3;
+  constexpr double kWaveS = 9.0;
+  for (const bool steers : {false, true}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    Eigen::Vector2d position(0.0, -180.0);
+    for (double t = 10.0; t <= 40.0; t += 0.1) {
+      const Eigen::Vector2d straight(0.0, -200.0 + 2.0 * t);
+      const Eigen::Vector2d velocity(kSwingMps * std::sin(2.0 * kPi * (t - 10.0) / kWaveS), 2.0);
+      pilot_.observe(t, {position, velocity}, steers ? position : straight, {trackAt(67.5, 2.0, t)},
+                     {0.0, 200.0}, 1.98);
+      position += 0.1 * velocity;
+    }
+    ASSERT_EQ(pilot_.encounters().size(), 1U);
+    EXPECT_EQ(pilot_.encounters()[0].acted, steers);
+  }
+}
+
+// In waves slowing down shows a turn to either side before one is meant.
+TEST_F(PilotTest, InWavesWhoStandsOnTurnsToStarboardFirst) {
+  constexpr double kSwingMps = 0.16;
+  constexpr double kWaveS = 8.0;
+  constexpr double kLastS = 85.0;
+  for (const bool waves : {false, true}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    std::optional<Manoeuvre> way;
+    for (double t = 30.0; t <= kLastS && !way; t += 0.1) {
+      const Eigen::Vector2d steered = sailed_.trajectory.flat(t).position;
+      const double phase = 2.0 * kPi * t / kWaveS;
+      const double swing = waves ? kSwingMps : 0.0;
+      const Eigen::Vector2d off(swing * kWaveS / (2.0 * kPi) * std::sin(phase), 0.0);
+      pilot_.observe(t, {steered + off, {swing * std::cos(phase), 2.0}}, steered,
+                     {trackAt(67.5, 2.0, t)}, {0.0, 200.0}, 1.98);
+      way = pilot_.decide({t, sailed_, {0.0, 200.0}, t + 0.3, limits_, water_});
+    }
+    ASSERT_TRUE(way);
+    double first_turn = 0.0;
+    for (double t = 0.0; t < 15.0 && first_turn < 0.1; t += 0.5) {
+      const Eigen::Vector2d v = way->path.trajectory.flat(t).velocity;
+      first_turn = std::atan2(v.x(), v.y());
+    }
+    EXPECT_EQ(first_turn > 0.1, waves) << first_turn;
   }
 }
 
@@ -202,7 +252,8 @@ TEST_F(PilotTest, TurnsToPortOnlyOnceItHasListened) {
     pilot_.newGoal(-60.0);
     for (double t = kNow - since; t <= kNow; t += 0.5) {
       const vessel::FlatPoint z = sailed_.trajectory.flat(t);
-      pilot_.observe(t, {z.position, z.velocity}, {trackAt(340.0, 2.4, t)}, {0.0, 200.0}, 1.98);
+      pilot_.observe(t, {z.position, z.velocity}, z.position, {trackAt(340.0, 2.4, t)},
+                     {0.0, 200.0}, 1.98);
     }
     const auto way = pilot_.decide({kNow, sailed_, {0.0, 200.0}, kNow + 0.3, limits_, water_});
     ASSERT_TRUE(way) << since;
@@ -227,7 +278,7 @@ TEST_F(PilotTest, ListensBeforeItActsForOneItMayHaveToStandOnFor) {
       traffic::Track track = trackAt(90.0, 2.0, t);
       track.position = {2.0 * (t - kNow - kMeetsS), -200.0 + 2.0 * (kNow + kMeetsS) + 13.0};
       const vessel::FlatPoint z = sailed_.trajectory.flat(t);
-      pilot_.observe(t, {z.position, z.velocity}, {track}, {0.0, 200.0}, 1.98);
+      pilot_.observe(t, {z.position, z.velocity}, z.position, {track}, {0.0, 200.0}, 1.98);
     }
     const auto way = pilot_.decide({kNow, sailed_, {0.0, 200.0}, kNow + 0.3, limits_, water_});
     EXPECT_EQ(way.has_value(), since > 6.0);
@@ -238,7 +289,7 @@ TEST_F(PilotTest, NobodyNearNothingToDo) {
   EXPECT_FALSE(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}));
   traffic::Track far = trackAt(180.0, 2.0, 10.0);
   far.position.x() += 60.0;
-  pilot_.observe(10.0, {{0.0, -180.0}, {0.0, 2.0}}, {far}, {0.0, 200.0}, 2.0);
+  pilot_.observe(10.0, {{0.0, -180.0}, {0.0, 2.0}}, {0.0, -180.0}, {far}, {0.0, 200.0}, 2.0);
   EXPECT_FALSE(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}));
   EXPECT_TRUE(pilot_.encounters().empty());
 }

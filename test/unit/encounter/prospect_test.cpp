@@ -124,6 +124,26 @@ TEST(Prospect, WhoStandsOnWaits) {
   EXPECT_EQ(broken(80.0, -50.0), unsigned{kToPort});
 }
 
+// Slower, waves swing the course by what counts as a turn: after one to starboard that is no
+// matter.
+TEST(Prospect, SlowingDownInWavesMayShowATurnToPort) {
+  Prospect prospect(Options(), hull());
+  const Course slows = sail({{north(2.0), 80.0}, {north(1.4), 15.0}, {north(2.0), 100.0}});
+  const Course turns =
+      sail({{north(2.0), 78.0}, {north(2.0, 30.0), 4.0}, {north(1.4), 15.0}, {north(2.0), 100.0}});
+  const Other from_port = meeting(67.5, 2.0);
+  const Other from_starboard = meeting(270.0, 2.0);
+  const Course early = sail({{north(2.0), 5.0}, {north(1.4), 60.0}, {north(2.0), 190.0}});
+  for (const double swing_mps : {0.1, 0.15}) {
+    const bool swings = swing_mps > 0.12;
+    prospect.feel(swing_mps);
+    EXPECT_EQ(prospect.look(slows, from_port).broken, swings ? unsigned{kToPort} : 0U);
+    EXPECT_EQ(prospect.look(turns, from_port).broken, 0U);
+    EXPECT_EQ(prospect.look(early, from_starboard).broken & kWrongTurn,
+              swings ? unsigned{kWrongTurn} : 0U);
+  }
+}
+
 TEST(Prospect, GettingUnderWayIsNoAction) {
   Other other = meeting(67.5, 2.0);
   other.record.role = Role::kStandOn;
