@@ -170,7 +170,7 @@ std::vector<OmplRow> runGeometric(const OmplProblem& problem, const OmplBudget& 
   const planner::StateAdapter adapter = planner::se2Adapter();
   setup.setStateValidityChecker([&](const ob::State* state) {
     return problem.field.clearance(adapter.pose(state).position) >=
-           feasibility::SafetyLimits().clearance_m;
+           feasibility::SafetyLimits::of(problem.vessel).clearance_m;
   });
   setup.getSpaceInformation()->setStateValidityCheckingResolution(0.0005);
   ob::ScopedState<ob::SE2StateSpace> start(setup.getStateSpace());
@@ -203,8 +203,9 @@ std::vector<OmplRow> runKinodynamic(const OmplProblem& problem, const OmplBudget
       });
   const auto& space = setup.getSpaceInformation();
   setup.setStateValidityChecker([&](const ob::State* state) {
-    return space->satisfiesBounds(state) && problem.field.clearance(adapter.pose(state).position) >=
-                                                feasibility::SafetyLimits().clearance_m;
+    return space->satisfiesBounds(state) &&
+           problem.field.clearance(adapter.pose(state).position) >=
+               feasibility::SafetyLimits::of(problem.vessel).clearance_m;
   });
   space->setPropagationStepSize(kStepS);
   space->setMinMaxControlDuration(2, 20);

@@ -47,18 +47,22 @@ SafetyLimits SafetyLimits::startingAt(double speed_mps, const vessel::Parameters
   SafetyLimits limits = *this;
   if (speed_mps > speed_max_mps) {
     const vessel::PaperModel& m = vessel.paper;
-    limits.start_speed_mps = kStillFaster * speed_mps;
-    limits.slowing_from_s = kNoticeS;
-    limits.slowing_per_s = kSlowingShare * std::min(m.d1_kgps, m.d2_kgps) / m.m1_kg;
+    limits.slowing = {kStillFaster * speed_mps,
+                      kSlowingShare * std::min(m.d1_kgps, m.d2_kgps) / m.m1_kg, kNoticeS};
   }
   return limits;
+}
+
+double headingForceAtSpeed(const vessel::Parameters& vessel, const SafetyLimits& limits,
+                           double share) {
+  return share * vessel.paper.d2_kgps * limits.speed_max_mps;
 }
 
 double leastHeadingForce(const vessel::Parameters& vessel, const SafetyLimits& limits,
                          double share) {
   constexpr double kOfSteady = 0.3;
   return std::min(share * 2.0 * vessel.thrusters.ahead_max_n,
-                  kOfSteady * vessel.paper.d2_kgps * limits.speed_max_mps);
+                  headingForceAtSpeed(vessel, limits, kOfSteady));
 }
 
 double usualSpeed(const vessel::Parameters& vessel, const SafetyLimits& limits) {

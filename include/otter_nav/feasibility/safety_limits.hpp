@@ -12,36 +12,44 @@
 
 namespace otter_nav::feasibility {
 
+// A vessel that is faster than the limit where the plan starts: it has to slow down by this rate.
+struct SlowingDown {
+  double start_mps = 0.0;
+  double per_s = 0.0;
+  double from_s = 0.0;
+
+  // The limit at a time from the plan's start, of one that is `usual_mps` later.
+  [[nodiscard]] double limitAt(double time_s, double usual_mps) const {
+    return start_mps <= usual_mps
+               ? usual_mps
+               : std::max(usual_mps, start_mps * std::exp(-per_s * std::max(0.0, time_s - from_s)));
+  }
+};
+
+// Until they are made from a vessel they allow nothing to move.
 struct SafetyLimits {
   // Of the hull's centre from everything occupied, m. The discs that cover the hull keep
   // `hull_margin_m` besides.
-  double clearance_m = 0.8;
+  double clearance_m = 0.0;
   double hull_margin_m = 0.0;
   vessel::Hull hull;
   // Of each thruster's limits; the rest is for control, wind and current.
-  double thrust_share = 0.97;
-  double speed_max_mps = 4.9;  // over ground
-  double yaw_rate_max_radps = 2.0;
+  double thrust_share = 0.0;
+  double speed_max_mps = 0.0;  // over ground
+  double yaw_rate_max_radps = 0.0;
   // What the thrusters work against besides, all along: every demand of a plan is made and verified
   // with it (docs/planner.md).
   vessel::Disturbance disturbance;
   // How far these set a hull aside that loses its heading: nothing may lie there
   // (feasibility/lee_shore.hpp). Earth frame, m.
   Eigen::Vector2d drift_m = Eigen::Vector2d::Zero();
-  // A vessel that is faster than that where the plan starts: it has to slow down by this rate.
-  double start_speed_mps = 0.0;
-  double slowing_per_s = 0.0;
-  double slowing_from_s = 0.0;
+  SlowingDown slowing;
 
   // At a time from the plan's start.
   [[nodiscard]] double speedMaxAt(double time_s) const {
-    return start_speed_mps <= speed_max_mps
-               ? speed_max_mps
-               : std::max(speed_max_mps,
-                          start_speed_mps *
-                              std::exp(-slowing_per_s * std::max(0.0, time_s - slowing_from_s)));
+    return slowing.limitAt(time_s, speed_max_mps);
   }
-  [[nodiscard]] double speedMaxEver() const { return std::max(speed_max_mps, start_speed_mps); }
+  [[nodiscard]] double speedMaxEver() const { return std::max(speed_max_mps, slowing.start_mps); }
 
   // Of a vessel that may use `thrust_share` of what plans usually take, for instance less in wind:
   // its speed falls with it, as under linear drag.
@@ -56,8 +64,11 @@ struct SafetyLimits {
   [[nodiscard]] SafetyLimits startingAt(double speed_mps, const vessel::Parameters& vessel) const;
 };
 
+// `share` of what sway drag holds |w| at, at the speed limit, N.
+[[nodiscard]] double headingForceAtSpeed(const vessel::Parameters& vessel,
+                                         const SafetyLimits& limits, double share);
 // The least |w| that holds a heading where the path turns, N: `share` of both thrusters' force
-// ahead, but no more than a part of what holds it at the speed limit.
+// ahead, but no more than a part of that.
 [[nodiscard]] double leastHeadingForce(const vessel::Parameters& vessel, const SafetyLimits& limits,
                                        double share);
 // What plans with limits.thrust_share sail where nothing limits their speed.

@@ -11,6 +11,7 @@
 
 #include "optimizer/objective/spline.hpp"
 #include "otter_nav/feasibility/obstacles.hpp"
+#include "otter_nav/feasibility/safety_limits.hpp"
 #include "otter_nav/trajectory/polynomial/hermite.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 
@@ -38,9 +39,7 @@ struct SplineLimits {
   double thrust_ahead_n = 0.0;    // per side
   double thrust_astern_n = 0.0;
   double speed_mps = 0.0;
-  double start_speed_mps = 0.0;  // of a vessel that is faster, and slows down by the rate
-  double slowing_per_s = 0.0;
-  double slowing_from_s = 0.0;
+  feasibility::SlowingDown slowing;  // of a vessel that is faster
   double yaw_rate_radps = 0.0;
   double heading_force_n = 0.0;  // least |w|
 };

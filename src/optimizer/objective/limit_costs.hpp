@@ -69,11 +69,7 @@ class SpeedLimit final : public Cost {
     const Eigen::Vector2d velocity = point.path().col(1);
     const double speed = velocity.norm();
     const SplineLimits& limits = targets.limits;
-    double most = limits.speed_mps;
-    if (limits.start_speed_mps > most) {
-      const double slowing_s = std::max(0.0, point.time_s - limits.slowing_from_s);
-      most = std::max(most, limits.start_speed_mps * std::exp(-limits.slowing_per_s * slowing_s));
-    }
+    const double most = limits.slowing.limitAt(point.time_s, limits.speed_mps);
     point.addHinge(targets.weights.dynamics, speed - most, kMotionKnee, 1,
                    [&]() -> Eigen::Vector2d { return velocity / speed; });
   }

@@ -43,7 +43,7 @@ double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Param
   feasibility::SafetyLimits open = safety;
   open.thrust_share *= kOpen;
   open.speed_max_mps *= kOpen;
-  open.start_speed_mps *= kOpen;
+  open.slowing.start_mps *= kOpen;
   open.yaw_rate_max_radps *= kOpen;
   feasibility::Tolerances tolerances;
   tolerances.heading_force_share = 0.0;

@@ -59,9 +59,8 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   const double slow = feasibility::speedShare(vessel, safety);
   limits.speed_mps =
       kSpeedShare * safety.speed_max_mps / slow * std::min(1.0, care.thrust_factor / slow);
-  limits.start_speed_mps = kSpeedShare * safety.start_speed_mps / slow;
-  limits.slowing_per_s = safety.slowing_per_s;
-  limits.slowing_from_s = safety.slowing_from_s;
+  limits.slowing = safety.slowing;
+  limits.slowing.start_mps = kSpeedShare * safety.slowing.start_mps / slow;
   limits.yaw_rate_radps = kYawRateShare * safety.yaw_rate_max_radps / slow;
   limits.heading_force_n = std::min(kHeadingForceShare * 2.0 * vessel.thrusters.ahead_max_n,
                                     mostHeadingForce(vessel, safety));
@@ -106,7 +105,7 @@ EndOptions endsOf(const Care& care, const vessel::Parameters& vessel,
 }  // namespace
 
 double mostHeadingForce(const vessel::Parameters& vessel, const feasibility::SafetyLimits& safety) {
-  return kSwayDragShare * vessel.paper.d2_kgps * safety.speed_max_mps;
+  return feasibility::headingForceAtSpeed(vessel, safety, kSwayDragShare);
 }
 
 Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parameters& vessel,

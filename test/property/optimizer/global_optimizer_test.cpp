@@ -46,11 +46,11 @@ TEST(GlobalOptimizer, StraightAheadTakesTheTimeFullThrustDoes) {
   GlobalOptimizer optimizer(options, vessel);
   const auto result = optimizer.optimize(
       field, std::vector<Eigen::Vector2d>{{-30.0, 0.0}, {30.0, 0.0}}, berth(-30.0, 0.0, 0.0),
-      berth(30.0, 0.0, 0.0), Budget(), feasibility::SafetyLimits());
+      berth(30.0, 0.0, 0.0), Budget(), feasibility::SafetyLimits::of(vessel));
   ASSERT_TRUE(result.has_value()) << result.error().message;
   EXPECT_NEAR(trajectory::length(result->trajectory), 60.0, 0.05);
   // Bang-bang under the share allowed: no trajectory is quicker.
-  const double force = 100.0 * feasibility::SafetyLimits().thrust_share;
+  const double force = 100.0 * feasibility::SafetyLimits::of(vessel).thrust_share;
   double best = 0.0;
   double s = 0.0;
   double v = 0.0;
@@ -90,11 +90,11 @@ TEST(GlobalOptimizer, ReturnsVerifiedTrajectoriesAmongIslands) {
     const double side = trial % 2 == 0 ? 20.0 : -20.0;
     const std::vector<Eigen::Vector2d> way = {
         start.flat.position, {-45.0, side}, {45.0, side}, goal.flat.position};
-    const auto result =
-        optimizer.optimize(field, way, start, goal, Budget(), feasibility::SafetyLimits());
+    const auto result = optimizer.optimize(field, way, start, goal, Budget(),
+                                           feasibility::SafetyLimits::of(vessel));
     ASSERT_TRUE(result.has_value()) << trial << ": " << result.error().message;
-    const feasibility::Verification again =
-        verify(result->trajectory, field, vessel, start, goal, feasibility::SafetyLimits());
+    const feasibility::Verification again = verify(result->trajectory, field, vessel, start, goal,
+                                                   feasibility::SafetyLimits::of(vessel));
     EXPECT_TRUE(again.ok) << again.reason;
     EXPECT_LT(trajectory::length(result->trajectory), 1.05 * lengthOf(way));
     sailed += result->last_resort ? 0 : 1;
@@ -111,9 +111,9 @@ TEST(GlobalOptimizer, FromAMovingStartTakesOverItsMotion) {
   start.flat.velocity = {3.5, 0.5};
   start.flat.acceleration = {0.1, 0.1};
   start.flat.jerk = {0.0, 0.02};
-  const auto result =
-      optimizer.optimize(field, std::vector<Eigen::Vector2d>{{-40.0, 0.0}, {0.0, 8.0}, {40.0, 0.0}},
-                         start, berth(40.0, 0.0, 0.2), Budget(), feasibility::SafetyLimits());
+  const auto result = optimizer.optimize(
+      field, std::vector<Eigen::Vector2d>{{-40.0, 0.0}, {0.0, 8.0}, {40.0, 0.0}}, start,
+      berth(40.0, 0.0, 0.2), Budget(), feasibility::SafetyLimits::of(vessel));
   ASSERT_TRUE(result.has_value()) << result.error().message;
   const vessel::FlatPoint z = result->trajectory.flat(0.0);
   EXPECT_LT((z.velocity - start.flat.velocity).norm(), 1e-9);
@@ -128,7 +128,7 @@ TEST(GlobalOptimizer, SameInputsGiveTheSameTrajectory) {
   const auto run = [&] {
     GlobalOptimizer optimizer(GlobalOptions(), vessel);
     return optimizer.optimize(field, way, berth(-50.0, 0.0, 1.0), berth(50.0, 0.0, -1.0), Budget(),
-                              feasibility::SafetyLimits());
+                              feasibility::SafetyLimits::of(vessel));
   };
   const auto a = run();
   const auto b = run();
@@ -164,7 +164,7 @@ TEST(GlobalOptimizer, StopsAtTheSharpestCornerAloneWhereNothingLeadsRoundIt) {
       {-30.0, 1.5}, {20.5, 1.5}, {20.5, 13.5}, {-30.0, 13.5}};
   const vessel::Parameters vessel;
   GlobalOptimizer optimizer(GlobalOptions(), vessel);
-  const feasibility::SafetyLimits limits;
+  const auto limits = feasibility::SafetyLimits::of(vessel);
   const trajectory::Boundary start = berth(-30.0, 1.5, 0.0);
   const trajectory::Boundary goal = berth(-30.0, 13.5, kPi);
   const auto stops = optimizer.stopAndSpin(field, path, start, goal, limits);

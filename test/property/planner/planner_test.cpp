@@ -21,6 +21,7 @@ Termination byIterations() {
 
 Query across() {
   Query query;
+  query.limits = feasibility::SafetyLimits::of(vessel::Parameters{});
   query.start.flat.position = {-30.0, -5.0};
   query.start.psi_rad = 1.0;
   query.goal.flat.position = {30.0, 5.0};
@@ -146,6 +147,7 @@ TEST(Planner, EndsEarlyWhereItMayAndTheWholeWayCantBePlanned) {
   test::fill(grid, 10.0, 1.0, 30.0, 39.0);
   const map::DistanceField field(grid, map::DistanceFieldOptions{});
   Query query;
+  query.limits = feasibility::SafetyLimits::of(vessel::Parameters{});
   query.start.flat.position = {-20.0, 0.0};
   query.goal.flat.position = {30.0, 0.0};
   query.goal.psi_rad = 1.5707963;

@@ -65,7 +65,7 @@ TEST(Search, KeepsItsTreesSoundAndItsWaysContinuous) {
     start.position = {-25.0, 0.0};
     KinoState goal;
     goal.position = {25.0, 0.0};
-    search.reset(field, feasibility::SafetyLimits{}, start, goal);
+    search.reset(field, feasibility::SafetyLimits::of(vessel), start, goal);
     GuideLine line;
     line.build({{-25.0, 0.0}, {0.0, 15.0}, {25.0, 0.0}}, field, vessel, GuideLineOptions{});
     Sampler sampler(SamplerOptions{}, line, field, 5);
@@ -136,7 +136,7 @@ TEST(Search, TheStartsTreeMeetsWhatMovesWhereItWillBeByThen) {
   options.repair_edges = false;
   Search search(options, vessel::Parameters{});
   const auto grow = [&](const feasibility::Obstacles& obstacles) -> const Tree& {
-    search.reset(obstacles, feasibility::SafetyLimits{}, start, goal);
+    search.reset(obstacles, feasibility::SafetyLimits::of(vessel::Parameters{}), start, goal);
     search.extend(first);
     search.extend(second);
     return search.fromStart();

@@ -21,7 +21,7 @@ KinoState moving(double x, double y, double speed) {
 
 EdgeCheck makeCheck(const map::DistanceField& field) {
   EdgeCheck check{vessel::Parameters{}};
-  check.begin(field, SafetyLimits{});
+  check.begin(field, SafetyLimits::of(vessel::Parameters{}));
   return check;
 }
 

@@ -35,7 +35,8 @@ Verification verifyBeside(const Disc& disc, double start_s) {
   static const map::DistanceField field = openWater();
   Obstacles obstacles(field);
   obstacles.add(disc);
-  return verify(eastward(), obstacles.startingAt(start_s), vessel::Parameters{}, SafetyLimits{});
+  return verify(eastward(), obstacles.startingAt(start_s), vessel::Parameters{},
+                SafetyLimits::of(vessel::Parameters{}));
 }
 
 TEST(MovingObstacle, IsMetOnlyInTime) {
@@ -65,7 +66,7 @@ TEST(MovingObstacle, IsSeenByTheTreesCheck) {
   Obstacles obstacles(field);
   obstacles.add(disc);
   EdgeCheck check{vessel::Parameters{}};
-  check.begin(obstacles, SafetyLimits{});
+  check.begin(obstacles, SafetyLimits::of(vessel::Parameters{}));
   const trajectory::Trajectory path = eastward();
   EXPECT_EQ(check.check(path.pieces().front(), 0.0), EdgeFault::kClearance);
   EXPECT_EQ(check.check(path.pieces().front(), 6.0), EdgeFault::kNone);

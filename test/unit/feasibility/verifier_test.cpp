@@ -57,7 +57,7 @@ class VerificationTest : public ::testing::Test {
   trajectory::Boundary start = berth(10.0, 30.0, 0.4);
   trajectory::Boundary goal = berth(50.0, 30.0, -2.0);
   std::vector<Piece> pieces;
-  SafetyLimits options;
+  SafetyLimits options = SafetyLimits::of(vessel);
 };
 
 TEST_F(VerificationTest, PassesWhatIsSound) {

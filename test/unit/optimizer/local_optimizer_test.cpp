@@ -28,7 +28,7 @@ trajectory::Piece edge(double y) {
 
 feasibility::EdgeCheck checkOn(const map::DistanceField& field) {
   feasibility::EdgeCheck check{vessel::Parameters()};
-  check.begin(field, feasibility::SafetyLimits());
+  check.begin(field, feasibility::SafetyLimits::of(vessel::Parameters()));
   return check;
 }
 

@@ -51,7 +51,7 @@ TEST(StopAndSpin, GoesRoundABendWithFewStops) {
   const trajectory::Boundary start = berth(path.front().x(), path.front().y(), 0.0);
   const trajectory::Boundary goal = berth(path.back().x(), path.back().y(), 0.5 * kPi);
   const vessel::Parameters vessel;
-  feasibility::SafetyLimits limits;
+  auto limits = feasibility::SafetyLimits::of(vessel);
   limits.clearance_m = kWallM;
   const StopAndSpin spinning(vessel, SpinLimits(), limits);
   const std::vector<Eigen::Vector2d> stops = spinning.quickestStops(field, path, start, goal);
@@ -68,7 +68,7 @@ TEST(StopAndSpin, GoesRoundABendWithFewStops) {
 TEST(StopAndSpin, KeepsThePathThatIsNotClear) {
   const map::DistanceField field = corner();
   const std::vector<Eigen::Vector2d> path = {{-6.0, -2.0}, {-3.0, 3.0}, {3.0, 3.0}};
-  feasibility::SafetyLimits limits;
+  auto limits = feasibility::SafetyLimits::of(vessel::Parameters{});
   limits.clearance_m = 3.5;
   const vessel::Parameters vessel;
   EXPECT_EQ(StopAndSpin(vessel, SpinLimits(), limits)

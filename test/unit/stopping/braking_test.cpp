@@ -23,7 +23,7 @@ constexpr double kSpeed = 4.3;
 constexpr double kClearanceM = 0.8;
 
 feasibility::Verification verify(const Trajectory& stop, const map::DistanceField& field) {
-  feasibility::SafetyLimits limits;
+  auto limits = feasibility::SafetyLimits::of(vessel::Parameters{});
   limits.clearance_m = kClearanceM;
   limits.thrust_share = 1.1;
   limits.speed_max_mps = 10.0;
