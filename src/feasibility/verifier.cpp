@@ -8,6 +8,7 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/feasibility/piece_check.hpp"
+#include "otter_nav/trajectory/joint.hpp"
 #include "otter_nav/trajectory/motion_along.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 
@@ -15,10 +16,7 @@ namespace otter_nav::feasibility {
 namespace {
 
 // Largest jumps at a joint: what rounding leaves.
-constexpr double kJumpM = 1e-6;
-constexpr double kJumpMps = 1e-6;
-constexpr double kJumpMps2 = 1e-5;
-constexpr double kJumpMps3 = 1e-4;
+constexpr trajectory::Gap kJump = {1e-6, 1e-6, 1e-5, 1e-4};
 constexpr double kJumpRad = 1e-3;
 constexpr double kJumpRadps = 1e-3;
 // A boundary's velocity, acceleration and jerk are met this closely.
@@ -78,8 +76,7 @@ class Verifier {
   void checkFinite() {
     for (std::size_t i = 0; i < trajectory_.pieces().size(); ++i) {
       const trajectory::Piece& piece = trajectory_.pieces()[i];
-      if (!(piece.duration_s > 0.0) || !std::isfinite(piece.duration_s) ||
-          !piece.position.allFinite() || !piece.heading.allFinite()) {
+      if (!trajectory::isSound(piece)) {
         return fail(trajectory_.startOf(i), "a piece is not finite or has no duration",
                     piece.duration_s, 0.0);
       }
@@ -122,17 +119,16 @@ class Verifier {
     const trajectory::Piece& before = trajectory_.pieces()[i - 1];
     const trajectory::Piece& after = trajectory_.pieces()[i];
     const double t = trajectory_.startOf(i);
-    const vessel::FlatPoint a = before.flat(before.duration_s);
-    const vessel::FlatPoint b = after.flat(0.0);
-    const auto jump = [&](const char* what, const Eigen::Vector2d& off, double limit) {
-      if (result_.ok && off.norm() > limit) {
-        fail(t, what, off.norm(), limit);
+    const auto jump = [&](const char* what, double off, double limit) {
+      if (result_.ok && !(off <= limit)) {
+        fail(t, what, off, limit);
       }
     };
-    jump("position jumps", b.position - a.position, kJumpM);
-    jump("velocity jumps", b.velocity - a.velocity, kJumpMps);
-    jump("acceleration jumps", b.acceleration - a.acceleration, kJumpMps2);
-    jump("jerk jumps", b.jerk - a.jerk, kJumpMps3);
+    const trajectory::Gap gap = trajectory::gapBetween(before, after);
+    jump("position jumps", gap.position_m, kJump.position_m);
+    jump("velocity jumps", gap.velocity_mps, kJump.velocity_mps);
+    jump("acceleration jumps", gap.acceleration_mps2, kJump.acceleration_mps2);
+    jump("jerk jumps", gap.jerk_mps3, kJump.jerk_mps3);
     if (!result_.ok) {
       return;
     }

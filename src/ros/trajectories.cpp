@@ -4,34 +4,25 @@
 #include <cmath>
 
 #include "otter_nav/ros/frames.hpp"
+#include "otter_nav/trajectory/joint.hpp"
 
 namespace otter_nav::ros_bridge {
 namespace {
 
 constexpr std::size_t kMaxPieces = 10000;
 constexpr double kMaxPieceDurationS = 3600.0;
-constexpr double kJointTolerance = 1e-3;  // m and m/s
+constexpr trajectory::Gap kLargest = {1e-3, 1e-3};
 
 using trajectory::kCoefficients;
 using trajectory::Piece;
 using trajectory::PieceKind;
 
-bool allFinite(const TrajectoryPiece& message) {
-  const auto finite = [](double value) { return std::isfinite(value); };
-  return std::all_of(message.x.begin(), message.x.end(), finite) &&
-         std::all_of(message.y.begin(), message.y.end(), finite) &&
-         std::all_of(message.heading.begin(), message.heading.end(), finite);
-}
-
 Result<Piece> toPiece(const TrajectoryPiece& message) {
   if (message.kind != TrajectoryPiece::SAIL && message.kind != TrajectoryPiece::SPIN) {
     return failure("kind " + std::to_string(message.kind) + " is neither SAIL nor SPIN");
   }
-  if (!(message.duration > 0.0) || message.duration > kMaxPieceDurationS) {
-    return failure("duration has to lie in (0, " + std::to_string(kMaxPieceDurationS) + "] s");
-  }
-  if (!allFinite(message)) {
-    return failure("a coefficient is not finite");
+  if (message.duration > kMaxPieceDurationS) {
+    return failure("duration is more than " + std::to_string(kMaxPieceDurationS) + " s");
   }
   Piece piece;
   piece.kind = message.kind == TrajectoryPiece::SAIL ? PieceKind::kSail : PieceKind::kSpin;
@@ -55,13 +46,6 @@ TrajectoryPiece toMessage(const Piece& piece) {
     message.heading[i] = piece.heading[k];
   }
   return message;
-}
-
-bool join(const Piece& before, const Piece& after) {
-  const vessel::FlatPoint end = before.flat(before.duration_s);
-  const vessel::FlatPoint start = after.flat(0.0);
-  return (end.position - start.position).norm() < kJointTolerance &&
-         (end.velocity - start.velocity).norm() < kJointTolerance;
 }
 
 }  // namespace
@@ -110,11 +94,10 @@ Result<trajectory::TimedTrajectory> toTrajectory(const Trajectory& message,
     if (!piece) {
       return failure("pieces[" + std::to_string(i) + "]: " + piece.error().message);
     }
-    if (!pieces.empty() && !join(pieces.back(), *piece)) {
-      return failure("pieces[" + std::to_string(i) +
-                     "] does not begin where the piece before it ends");
-    }
     pieces.push_back(*piece);
+  }
+  if (const Status status = trajectory::checkPieces(pieces, kLargest); !status) {
+    return failure(status.error().message);
   }
   trajectory::TimedTrajectory timed{trajectory::Trajectory(std::move(pieces)),
                                     message.header.stamp.toSec()};

@@ -6,6 +6,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/rk4.hpp"
+#include "otter_nav/trajectory/joint.hpp"
 #include "otter_nav/vessel/model.hpp"
 
 namespace otter_nav::trajectory {
@@ -87,6 +88,23 @@ TEST(Sample, SpinTurnsOnTheSpot) {
   EXPECT_TRUE(middle.flat.position.isApprox(Eigen::Vector2d(1.0, 2.0)));
   EXPECT_NEAR(middle.tau.surge_n, 0.0, 1e-12);
   EXPECT_NEAR(spin.sample(2.0, vessel::Parameters{}).state[vessel::kYawRate], 0.0, 1e-12);
+}
+
+TEST(Joint, GapsAreMeasuredAndTooWideOnesNamed) {
+  const std::vector<Piece> whole = eightTrajectory().pieces();
+  EXPECT_TRUE(checkPieces(whole, {1e-9, 1e-9}));
+  std::vector<Piece> torn = whole;
+  torn[2].position(0, 0) += 0.2;
+  EXPECT_NEAR(gapBetween(torn[1], torn[2]).position_m, 0.2, 1e-9);
+  EXPECT_TRUE(checkPieces(torn, {0.21, 1e-9}));
+  EXPECT_NE(checkPieces(torn, {0.19, 1e-9}).error().message.find("pieces[2]"), std::string::npos);
+  torn = whole;
+  torn[3].position(1, 1) += 0.2;
+  EXPECT_NEAR(gapBetween(torn[2], torn[3]).velocity_mps, 0.2, 1e-9);
+  EXPECT_NE(checkPieces(torn, {1e-9, 0.19}).error().message.find("velocity"), std::string::npos);
+  torn = whole;
+  torn[1].duration_s = 0.0;
+  EXPECT_FALSE(checkPieces(torn, {1e9, 1e9}));
 }
 
 TEST(Length, OfAQuarterCircleLikeEight) {
