@@ -85,8 +85,8 @@ Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
   }
   const trajectory::Sample start = setup.trajectory.sample(0.0, setup.vessel);
   simulator->placeAt(start.state.head<2>(), start.state[vessel::kPsi]);
-  tracker::Tracker tracker(setup.tracker, setup.vessel);
-  if (Status status = tracker.setTrajectory({setup.trajectory, simulator->time()}); !status) {
+  const auto tracker = tracker::Tracker::create(setup.tracker, setup.vessel);
+  if (Status status = tracker->setTrajectory({setup.trajectory, simulator->time()}); !status) {
     return failure(status.error().message);
   }
   if (dump != nullptr) {
@@ -102,10 +102,10 @@ Result<RunFigures> run(const RunSetup& setup, std::ostream* dump,
   double capsized_at_s = -1.0;
   for (int i = 0; i < cycles; ++i) {
     const double now = simulator->time();
-    tracker.addOdometry(simulator->odometry().stamp_s, simulator->odometry().state,
-                        -simulator->odometry().pitch_rad);
+    tracker->addOdometry(simulator->odometry().stamp_s, simulator->odometry().state,
+                         -simulator->odometry().pitch_rad);
     const auto before = std::chrono::steady_clock::now();
-    const tracker::Command command = tracker.step(now);
+    const tracker::Command command = tracker->step(now);
     const auto after = std::chrono::steady_clock::now();
     step_us.push_back(std::chrono::duration<double, std::micro>(after - before).count());
     const trajectory::Sample reference = setup.trajectory.sample(now - began, setup.vessel);

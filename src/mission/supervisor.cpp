@@ -66,17 +66,117 @@ struct RuleOf {
   bool goes_on = false;
 };
 
-}  // namespace
-
-class Supervisor::Impl {
+class Decider final : public Supervisor {
  public:
-  Impl(const SupervisorOptions& options, const vessel::Parameters& vessel, std::uint64_t seed)
+  Decider(const SupervisorOptions& options, const vessel::Parameters& vessel, std::uint64_t seed)
       : options_(options),
         vessel_(vessel),
         plans_(options, vessel, seed),
         retries_(options.rounds_from_rest, options.stops_max),
         pilot_(options.encounter, vessel) {}
 
+  Result<Orders> setGoal(double now_s, const vessel::Pose& goal, const Situation& situation,
+                         const Obstacles& obstacles) override {
+    const Moment m = momentOf(now_s, situation, obstacles);
+    if (const Status status = checkGoal(goal, m.obstacles, safety().narrowest()); !status) {
+      return failure(status.error().message);
+    }
+    goal_ = goal;
+    sailed_since_s_ = m.now_s;
+    safety().newGoal();
+    feel(m);
+    plans_.drop();
+    plans_.latency.onTime();
+    retries_.newGoal(m.now_s);
+    cancelled_ = false;
+    suspended_.reset();
+    replans_ = 0;
+    nearest_left_m_ = std::numeric_limits<double>::infinity();
+    pilot_.newGoal(m.now_s);
+    return withOthers(follow(kGoalRules, m));
+  }
+
+  Orders cancel(double now_s, const Situation& situation, const Obstacles& obstacles,
+                std::string why) override {
+    const Moment m = momentOf(now_s, situation, obstacles);
+    plans_.drop();
+    suspended_.reset();
+    end_reason_ = std::move(why);
+    return follow(kCancelRules, m);
+  }
+
+  Result<Orders> pause(double now_s, const Situation& situation,
+                       const Obstacles& obstacles) override {
+    if (!hasMission()) {
+      return failure("there is no mission to pause");
+    }
+    return suspend(momentOf(now_s, situation, obstacles), Phase::kPaused);
+  }
+  Orders hold(double now_s, const Situation& situation, const Obstacles& obstacles) override {
+    return suspend(momentOf(now_s, situation, obstacles), Phase::kHolding);
+  }
+  Result<Orders> resume(double now_s, const Situation& situation,
+                        const Obstacles& obstacles) override {
+    const Moment m = momentOf(now_s, situation, obstacles);
+    if (!std::exchange(suspended_, std::nullopt)) {
+      return failure("nothing is paused");
+    }
+    return withOthers(follow(kResumeRules, m));
+  }
+
+  void setOptions(const SupervisorOptions& options) override {
+    options_ = options;
+    safety().setOptions(options);
+  }
+
+  Status setSpeedMax(double speed_mps) override {
+    if (Status status = checkSpeedMax(speed_mps); !status) {
+      return status;
+    }
+    safety().setSpeedMax(speed_mps);
+    return {};
+  }
+
+  Orders update(double now_s, const Situation& situation, const Obstacles& obstacles) override {
+    const Moment m = momentOf(now_s, situation, obstacles);
+    feel(m);
+    lookOut(m);
+    return withOthers(plans_.overdue(now_s)
+                          ? planFailed(m, "no answer from the planner", plans_.take())
+                          : follow(kRules, m));
+  }
+
+  Orders planFinished(double now_s, int id, const planner::Plan& plan, const Situation& situation,
+                      const Obstacles& obstacles) override {
+    const Moment m = momentOf(now_s, situation, obstacles);
+    std::optional<PlanRequests::Asked> asked = plans_.take(id);
+    if (!asked) {
+      return {};
+    }
+    asked->left_m = plan.left_m;
+    if (plan.outcome != planner::Outcome::kSolved || plan.trajectory.empty()) {
+      return withOthers(planFailed(m, plan.reason, *asked));
+    }
+    return withOthers(asked->from == From::kRest ? takeFromRest(m, plan, *asked)
+                                                 : takeMoving(m, plan, *asked));
+  }
+
+  [[nodiscard]] double speedMax() const override { return plans_.safety.speedMax(); }
+  [[nodiscard]] Phase phase() const override { return phase_; }
+  [[nodiscard]] const std::string& reason() const override { return reason_; }
+  [[nodiscard]] const vessel::Pose& goal() const override { return goal_; }
+  [[nodiscard]] const TimedTrajectory& sailed() const override { return sailed_; }
+  [[nodiscard]] const std::optional<TimedTrajectory>& lastStop() const override {
+    return fallback_;
+  }
+  [[nodiscard]] double plannedClearance() const override { return planned_clearance_m_; }
+  [[nodiscard]] std::vector<encounter::Encounter> encounters() const override {
+    return pilot_.encounters();
+  }
+  [[nodiscard]] int replans() const override { return replans_; }
+  [[nodiscard]] int stops() const override { return retries_.stops(); }
+
+ private:
   // With other vessels among the obstacles, until the next call.
   Moment momentOf(double now_s, const Situation& situation, const Obstacles& obstacles) {
     if (situation.tracks.empty()) {
@@ -94,83 +194,6 @@ class Supervisor::Impl {
     }
     return orders;
   }
-
-  Result<Orders> setGoal(const Moment& m, const vessel::Pose& goal) {
-    if (const Status status = checkGoal(goal, m.obstacles, safety().narrowest()); !status) {
-      return failure(status.error().message);
-    }
-    goal_ = goal;
-    sailed_since_s_ = m.now_s;
-    safety().newGoal();
-    feel(m);
-    plans_.drop();
-    plans_.latency.onTime();
-    retries_.newGoal(m.now_s);
-    cancelled_ = false;
-    suspended_.reset();
-    replans_ = 0;
-    nearest_left_m_ = std::numeric_limits<double>::infinity();
-    pilot_.newGoal(m.now_s);
-    return follow(kGoalRules, m);
-  }
-
-  Orders cancel(const Moment& m, std::string why) {
-    plans_.drop();
-    suspended_.reset();
-    end_reason_ = std::move(why);
-    return follow(kCancelRules, m);
-  }
-
-  Result<Orders> pause(const Moment& m) {
-    if (!hasMission()) {
-      return failure("there is no mission to pause");
-    }
-    return suspend(m, Phase::kPaused);
-  }
-  Orders hold(const Moment& m) { return suspend(m, Phase::kHolding); }
-  Result<Orders> resume(const Moment& m) {
-    if (!std::exchange(suspended_, std::nullopt)) {
-      return failure("nothing is paused");
-    }
-    return follow(kResumeRules, m);
-  }
-
-  void setOptions(const SupervisorOptions& options) {
-    options_ = options;
-    safety().setOptions(options);
-  }
-
-  Status setSpeedMax(double speed_mps) {
-    if (Status status = checkSpeedMax(speed_mps); !status) {
-      return status;
-    }
-    safety().setSpeedMax(speed_mps);
-    return {};
-  }
-
-  Orders update(const Moment& m) {
-    feel(m);
-    lookOut(m);
-    if (plans_.overdue(m.now_s)) {
-      return planFailed(m, "no answer from the planner", plans_.take());
-    }
-    return follow(kRules, m);
-  }
-
-  Orders planFinished(const Moment& m, int id, const planner::Plan& plan) {
-    std::optional<PlanRequests::Asked> asked = plans_.take(id);
-    if (!asked) {
-      return {};
-    }
-    asked->left_m = plan.left_m;
-    if (plan.outcome != planner::Outcome::kSolved || plan.trajectory.empty()) {
-      return planFailed(m, plan.reason, *asked);
-    }
-    return asked->from == From::kRest ? takeFromRest(m, plan, *asked) : takeMoving(m, plan, *asked);
-  }
-
- private:
-  friend class Supervisor;
 
   // ---- The rules' conditions
 
@@ -678,79 +701,79 @@ class Supervisor::Impl {
   // ---- The rules: the first whose phase and condition hold is followed; a rule that goes on lets
   // those below it act too.
 
-  using Rule = RuleOf<Impl>;
+  using Rule = RuleOf<Decider>;
   static constexpr bool kGoesOn = true;
 
   // A goal was accepted.
   static constexpr Rule kGoalRules[] = {
-      {kUnderWay, &Impl::always, &Impl::planForNewGoal},
-      {kComingToRest, &Impl::always, &Impl::keepOn},
-      {kAny, &Impl::moves, &Impl::stopUnplanned},
-      {kAny, &Impl::always, &Impl::planFirst},
+      {kUnderWay, &Decider::always, &Decider::planForNewGoal},
+      {kComingToRest, &Decider::always, &Decider::keepOn},
+      {kAny, &Decider::moves, &Decider::stopUnplanned},
+      {kAny, &Decider::always, &Decider::planFirst},
   };
   // The mission is given up.
   static constexpr Rule kCancelRules[] = {
-      {kUnderWay, &Impl::always, &Impl::brakeCancelled},
-      {kComingToRest, &Impl::always, &Impl::endAtRest},
-      {kAny, &Impl::moves, &Impl::stopCancelled},
-      {kAny, &Impl::always, &Impl::idle},
+      {kUnderWay, &Decider::always, &Decider::brakeCancelled},
+      {kComingToRest, &Decider::always, &Decider::endAtRest},
+      {kAny, &Decider::moves, &Decider::stopCancelled},
+      {kAny, &Decider::always, &Decider::idle},
   };
   // The vessel is to rest for a while.
   static constexpr Rule kSuspendRules[] = {
-      {kUnderWay, &Impl::always, &Impl::brakeSuspended},
-      {kComingToRest, &Impl::always, &Impl::keepOn},
-      {kAny, &Impl::moves, &Impl::stopSuspended},
-      {kAny, &Impl::always, &Impl::restSuspended},
+      {kUnderWay, &Decider::always, &Decider::brakeSuspended},
+      {kComingToRest, &Decider::always, &Decider::keepOn},
+      {kAny, &Decider::moves, &Decider::stopSuspended},
+      {kAny, &Decider::always, &Decider::restSuspended},
   };
   // And goes on.
   static constexpr Rule kResumeRules[] = {
-      {kComingToRest, &Impl::always, &Impl::keepOn},
-      {kAny, &Impl::hasNoMission, &Impl::idleAfterStop},
-      {kAny, &Impl::always, &Impl::planFirst},
+      {kComingToRest, &Decider::always, &Decider::keepOn},
+      {kAny, &Decider::hasNoMission, &Decider::idleAfterStop},
+      {kAny, &Decider::always, &Decider::planFirst},
   };
   // Several times a second.
   static constexpr Rule kRules[] = {
-      {kWaiting | in(Phase::kStopping), &Impl::isRunDown, &Impl::standAside},
-      {kWaiting, &Impl::mustWait, &Impl::keepOn},
-      {kWaiting, &Impl::hasFault, &Impl::loseRound},
-      {kWaiting, &Impl::doesNotKnowTheWeather, &Impl::keepOn},
-      {kWaiting, &Impl::isOverTheEdge, &Impl::turnBack},
-      {kWaiting, &Impl::isBeyondThrust, &Impl::waitForCalm},
-      {kWaiting, &Impl::liesAcrossTheLoad, &Impl::turnIntoTheLoad},
-      {kWaiting, &Impl::liesOffALeeShore, &Impl::makeSeaRoom},
-      {kWaiting, &Impl::always, &Impl::planFromRest},
+      {kWaiting | in(Phase::kStopping), &Decider::isRunDown, &Decider::standAside},
+      {kWaiting, &Decider::mustWait, &Decider::keepOn},
+      {kWaiting, &Decider::hasFault, &Decider::loseRound},
+      {kWaiting, &Decider::doesNotKnowTheWeather, &Decider::keepOn},
+      {kWaiting, &Decider::isOverTheEdge, &Decider::turnBack},
+      {kWaiting, &Decider::isBeyondThrust, &Decider::waitForCalm},
+      {kWaiting, &Decider::liesAcrossTheLoad, &Decider::turnIntoTheLoad},
+      {kWaiting, &Decider::liesOffALeeShore, &Decider::makeSeaRoom},
+      {kWaiting, &Decider::always, &Decider::planFromRest},
 
-      {kUnderWay, &Impl::hasFault, &Impl::stopForFault},
-      {kUnderWay, &Impl::hasArrived, &Impl::arrive},
-      {kUnderWay, &Impl::settlesNoMore, &Impl::planAnew},
-      {kUnderWay, &Impl::isAtTheEnd, &Impl::keepOn},
-      {kUnderWay, &Impl::isLostOverTheEdge, &Impl::stopOverTheEdge},
-      {kUnderWay, &Impl::hasLostItsHeading, &Impl::stopHeadingLost},
-      {kUnderWay, &Impl::isBeyondThrust, &Impl::stopBeyondThrust},
-      {kUnderWay, &Impl::isSetAside, &Impl::stopSetAside},
-      {kSailing, &Impl::isNarrow, &Impl::lookForAnother, kGoesOn},
-      {kUnderWay, &Impl::hasNoStop, &Impl::takeLastStop},
-      {kUnderWay, &Impl::isTooFastForLong, &Impl::brakeForSpeed},
-      {kReplanning, &Impl::isClearAgain, &Impl::keepThePlan, kGoesOn},
-      {kUnderWay, &Impl::mustWait, &Impl::keepOn},
-      {kUnderWay, &Impl::shouldMakeWay, &Impl::makeWay},
-      {kUnderWay, &Impl::isFarOff, &Impl::planFromFarOff},
-      {kUnderWay, &Impl::lacksThrust, &Impl::planForWeather},
-      {kSailing, &Impl::isTooFastForGusts, &Impl::planForGusts},
-      {kUnderWay, &Impl::endsOnAWrongHeading, &Impl::planForGoalHeading},
-      {kUnderWay, &Impl::hasNewSpeedMax, &Impl::planForSpeedMax},
-      {kReplanning, &Impl::always, &Impl::planFromSailed},
-      {kSailing, &Impl::mayImprove, &Impl::planToImprove},
+      {kUnderWay, &Decider::hasFault, &Decider::stopForFault},
+      {kUnderWay, &Decider::hasArrived, &Decider::arrive},
+      {kUnderWay, &Decider::settlesNoMore, &Decider::planAnew},
+      {kUnderWay, &Decider::isAtTheEnd, &Decider::keepOn},
+      {kUnderWay, &Decider::isLostOverTheEdge, &Decider::stopOverTheEdge},
+      {kUnderWay, &Decider::hasLostItsHeading, &Decider::stopHeadingLost},
+      {kUnderWay, &Decider::isBeyondThrust, &Decider::stopBeyondThrust},
+      {kUnderWay, &Decider::isSetAside, &Decider::stopSetAside},
+      {kSailing, &Decider::isNarrow, &Decider::lookForAnother, kGoesOn},
+      {kUnderWay, &Decider::hasNoStop, &Decider::takeLastStop},
+      {kUnderWay, &Decider::isTooFastForLong, &Decider::brakeForSpeed},
+      {kReplanning, &Decider::isClearAgain, &Decider::keepThePlan, kGoesOn},
+      {kUnderWay, &Decider::mustWait, &Decider::keepOn},
+      {kUnderWay, &Decider::shouldMakeWay, &Decider::makeWay},
+      {kUnderWay, &Decider::isFarOff, &Decider::planFromFarOff},
+      {kUnderWay, &Decider::lacksThrust, &Decider::planForWeather},
+      {kSailing, &Decider::isTooFastForGusts, &Decider::planForGusts},
+      {kUnderWay, &Decider::endsOnAWrongHeading, &Decider::planForGoalHeading},
+      {kUnderWay, &Decider::hasNewSpeedMax, &Decider::planForSpeedMax},
+      {kReplanning, &Decider::always, &Decider::planFromSailed},
+      {kSailing, &Decider::mayImprove, &Decider::planToImprove},
 
-      {kManoeuvring, &Impl::hasFault, &Impl::stopForFault},
-      {kManoeuvring, &Impl::isBlocked, &Impl::stopBlocked},
-      {in(Phase::kStopping), &Impl::hasMilderStop, &Impl::changeTheStop},
-      {in(Phase::kStopping), &Impl::mayGoOn, &Impl::goOn},
-      {kComingToRest, &Impl::isStillMoving, &Impl::keepOn},
-      {kComingToRest, &Impl::isSuspended, &Impl::restSuspended},
-      {kComingToRest, &Impl::isCancelled, &Impl::idleAfterStop},
-      {kComingToRest, &Impl::isLost, &Impl::giveUp},
-      {kComingToRest, &Impl::always, &Impl::restBeforeTheGoal},
+      {kManoeuvring, &Decider::hasFault, &Decider::stopForFault},
+      {kManoeuvring, &Decider::isBlocked, &Decider::stopBlocked},
+      {in(Phase::kStopping), &Decider::hasMilderStop, &Decider::changeTheStop},
+      {in(Phase::kStopping), &Decider::mayGoOn, &Decider::goOn},
+      {kComingToRest, &Decider::isStillMoving, &Decider::keepOn},
+      {kComingToRest, &Decider::isSuspended, &Decider::restSuspended},
+      {kComingToRest, &Decider::isCancelled, &Decider::idleAfterStop},
+      {kComingToRest, &Decider::isLost, &Decider::giveUp},
+      {kComingToRest, &Decider::always, &Decider::restBeforeTheGoal},
   };
 
   template <std::size_t Count>
@@ -1181,6 +1204,8 @@ class Supervisor::Impl {
   std::optional<encounter::Manoeuvre> way_made_;  // what the last decision found
 };
 
+}  // namespace
+
 const char* name(Phase phase) {
   constexpr const char* kNames[] = {"idle",     "planning", "sailing",     "replanning",
                                     "stopping", "stopped",  "backing off", "turning back",
@@ -1188,80 +1213,10 @@ const char* name(Phase phase) {
   return kNames[static_cast<std::size_t>(phase)];
 }
 
-Supervisor::Supervisor(const SupervisorOptions& options, const vessel::Parameters& vessel,
-                       std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(options, vessel, seed)) {}
-Supervisor::~Supervisor() = default;
-Supervisor::Supervisor(Supervisor&&) noexcept = default;
-Supervisor& Supervisor::operator=(Supervisor&&) noexcept = default;
-
-Result<Orders> Supervisor::setGoal(double now_s, const vessel::Pose& goal,
-                                   const Situation& situation, const Obstacles& obstacles) {
-  const auto moment = impl_->momentOf(now_s, situation, obstacles);
-  return impl_->setGoal(moment, goal).map([&](Orders orders) {
-    return impl_->withOthers(std::move(orders));
-  });
-}
-Orders Supervisor::cancel(double now_s, const Situation& situation, const Obstacles& obstacles,
-                          std::string why) {
-  return impl_->cancel(impl_->momentOf(now_s, situation, obstacles), std::move(why));
-}
-Result<Orders> Supervisor::pause(double now_s, const Situation& situation,
-                                 const Obstacles& obstacles) {
-  return impl_->pause(impl_->momentOf(now_s, situation, obstacles));
-}
-Orders Supervisor::hold(double now_s, const Situation& situation, const Obstacles& obstacles) {
-  return impl_->hold(impl_->momentOf(now_s, situation, obstacles));
-}
-Result<Orders> Supervisor::resume(double now_s, const Situation& situation,
-                                  const Obstacles& obstacles) {
-  return impl_->resume(impl_->momentOf(now_s, situation, obstacles)).map([&](Orders orders) {
-    return impl_->withOthers(std::move(orders));
-  });
-}
-Orders Supervisor::update(double now_s, const Situation& situation, const Obstacles& obstacles) {
-  return impl_->withOthers(impl_->update(impl_->momentOf(now_s, situation, obstacles)));
-}
-Orders Supervisor::planFinished(double now_s, int id, const planner::Plan& plan,
-                                const Situation& situation, const Obstacles& obstacles) {
-  return impl_->withOthers(
-      impl_->planFinished(impl_->momentOf(now_s, situation, obstacles), id, plan));
-}
-Status Supervisor::setSpeedMax(double speed_mps) {
-  return impl_->setSpeedMax(speed_mps);
-}
-void Supervisor::setOptions(const SupervisorOptions& options) {
-  impl_->setOptions(options);
-}
-double Supervisor::speedMax() const {
-  return impl_->safety().speedMax();
-}
-Phase Supervisor::phase() const {
-  return impl_->phase_;
-}
-const std::string& Supervisor::reason() const {
-  return impl_->reason_;
-}
-const vessel::Pose& Supervisor::goal() const {
-  return impl_->goal_;
-}
-const TimedTrajectory& Supervisor::sailed() const {
-  return impl_->sailed_;
-}
-const std::optional<TimedTrajectory>& Supervisor::lastStop() const {
-  return impl_->fallback_;
-}
-double Supervisor::plannedClearance() const {
-  return impl_->planned_clearance_m_;
-}
-std::vector<encounter::Encounter> Supervisor::encounters() const {
-  return impl_->pilot_.encounters();
-}
-int Supervisor::replans() const {
-  return impl_->replans_;
-}
-int Supervisor::stops() const {
-  return impl_->retries_.stops();
+std::unique_ptr<Supervisor> Supervisor::create(const SupervisorOptions& options,
+                                               const vessel::Parameters& vessel,
+                                               std::uint64_t seed) {
+  return std::make_unique<Decider>(options, vessel, seed);
 }
 
 }  // namespace otter_nav::mission

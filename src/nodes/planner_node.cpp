@@ -131,7 +131,7 @@ class PlannerNode {
   TrackerWatch tracker_;
   std::vector<traffic::Track> tracks_;  // other vessels, as last told
   double tracks_stamp_s_ = 0.0;
-  mission::Supervisor supervisor_;
+  std::unique_ptr<mission::Supervisor> supervisor_;
   PlannerPublisher publisher_;
   mission::Phase shown_ = mission::Phase::kIdle;  // by its markers
 
@@ -187,7 +187,8 @@ PlannerNode::PlannerNode(const Setup& setup)
     : setup_(setup),
       diagnostics_(node_, private_node_, setup.vessel.name),
       map_(setup.node.distance_field),
-      supervisor_(setup.supervisor, setup.vessel, static_cast<std::uint64_t>(setup.node.seed)),
+      supervisor_(mission::Supervisor::create(setup.supervisor, setup.vessel,
+                                              static_cast<std::uint64_t>(setup.node.seed))),
       publisher_(node_, setup.vessel),
       acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", kQueue)),
       goals_(
@@ -282,7 +283,7 @@ void PlannerNode::decideInTurn() {
     if (stamp > acknowledged_) {
       vessel_ = *vessel;
       now_s_ = stamp.toSec() + setup_.node.lockstep_lag_s;
-      execute(supervisor_.update(now_s_, situation(), obstacles()));
+      execute(supervisor_->update(now_s_, situation(), obstacles()));
     }
     goals_.setReady(true);
     goals_.retryWaiting();
@@ -297,14 +298,14 @@ void PlannerNode::decide() {
   vessel_ = odometry_.latest();
   now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
   tracker_.countUntil(std::numeric_limits<double>::infinity());
-  execute(supervisor_.update(now_s_, situation(), obstacles()));
+  execute(supervisor_->update(now_s_, situation(), obstacles()));
   goals_.setReady(true);
   goals_.retryWaiting();
   settle();
 }
 
 Status PlannerNode::onGoal(const vessel::Pose& goal) {
-  Result<mission::Orders> orders = supervisor_.setGoal(now_s_, goal, situation(), obstacles());
+  Result<mission::Orders> orders = supervisor_->setGoal(now_s_, goal, situation(), obstacles());
   if (!orders) {
     return failure(orders.error().message);
   }
@@ -314,7 +315,7 @@ Status PlannerNode::onGoal(const vessel::Pose& goal) {
 }
 
 void PlannerNode::onCancel() {
-  execute(supervisor_.cancel(now_s_, situation(), obstacles()));
+  execute(supervisor_->cancel(now_s_, situation(), obstacles()));
   settle();
 }
 
@@ -328,7 +329,7 @@ void PlannerNode::serve(const std::string& name, Result<mission::Orders> (Planne
     if (orders) {
       execute(*orders);
       settle();
-      response.message = mission::name(supervisor_.phase());
+      response.message = mission::name(supervisor_->phase());
     } else {
       response.message = orders.error().message;
     }
@@ -340,17 +341,17 @@ void PlannerNode::serve(const std::string& name, Result<mission::Orders> (Planne
 }
 
 Result<mission::Orders> PlannerNode::pause() {
-  return supervisor_.pause(now_s_, situation(), obstacles());
+  return supervisor_->pause(now_s_, situation(), obstacles());
 }
 Result<mission::Orders> PlannerNode::hold() {
-  return supervisor_.hold(now_s_, situation(), obstacles());
+  return supervisor_->hold(now_s_, situation(), obstacles());
 }
 Result<mission::Orders> PlannerNode::resume() {
-  return supervisor_.resume(now_s_, situation(), obstacles());
+  return supervisor_->resume(now_s_, situation(), obstacles());
 }
 Result<mission::Orders> PlannerNode::stop() {
   goals_.abort(kStopped);
-  return supervisor_.cancel(now_s_, situation(), obstacles(), kStopped);
+  return supervisor_->cancel(now_s_, situation(), obstacles(), kStopped);
 }
 
 void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner::Plan& plan,
@@ -369,7 +370,7 @@ void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner:
     vessel_ = odometry_.latest();
     now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
   }
-  execute(supervisor_.planFinished(now_s_, request.id, plan, situation(), obstacles()));
+  execute(supervisor_->planFinished(now_s_, request.id, plan, situation(), obstacles()));
   settle();
   decideInTurn();
 }
@@ -382,16 +383,16 @@ void PlannerNode::execute(const mission::Orders& orders) {
   if (orders.sail) {
     sent_id_ =
         publisher_.publish(setup_.node.lockstep ? beginningAt(now_s_, *orders.sail) : *orders.sail,
-                           supervisor_.goal());
+                           supervisor_->goal());
     tracker_.expect(sent_id_, false);
   } else if (orders.stop) {
-    sent_id_ = publisher_.publishStop(now_s_, supervisor_.goal());
+    sent_id_ = publisher_.publishStop(now_s_, supervisor_->goal());
     tracker_.expect(sent_id_, true);
   }
   // The map around the way may have changed whenever the phase does.
-  if (orders.sail || orders.stop || shown_ != supervisor_.phase()) {
-    shown_ = supervisor_.phase();
-    publisher_.show(supervisor_, map_.field());
+  if (orders.sail || orders.stop || shown_ != supervisor_->phase()) {
+    shown_ = supervisor_->phase();
+    publisher_.show(*supervisor_, map_.field());
   }
 }
 
@@ -403,21 +404,21 @@ void PlannerNode::settle() {
   if (handed_over) {
     confirmed_id_ = sent_id_;
   }
-  const Phase phase = supervisor_.phase();
-  publisher_.publishStatus(supervisor_, now_s_, confirmed_id_);
+  const Phase phase = supervisor_->phase();
+  publisher_.publishStatus(*supervisor_, now_s_, confirmed_id_);
   goals_.feedback({vessel_.state.head<2>(), vessel_.state[vessel::kPsi]},
                   ros_bridge::toRosTime(vessel_.stamp_s));
   if (phase == Phase::kArrived) {
-    goals_.succeed(supervisor_.reason().empty() ? "arrived" : "arrived: " + supervisor_.reason());
+    goals_.succeed(supervisor_->reason().empty() ? "arrived" : "arrived: " + supervisor_->reason());
   } else if (phase == Phase::kFailed) {
-    goals_.abort(supervisor_.reason());
+    goals_.abort(supervisor_->reason());
   }
   diagnostics_.setState(phase == Phase::kFailed ? Level::kError : Level::kOk,
                         std::string(mission::name(phase)) +
-                            (supervisor_.reason().empty() ? "" : ": " + supervisor_.reason()));
-  diagnostics_.setValue("replans", supervisor_.replans());
-  diagnostics_.setValue("stops", supervisor_.stops());
-  diagnostics_.setValue("speed limit, m/s", supervisor_.speedMax());
+                            (supervisor_->reason().empty() ? "" : ": " + supervisor_->reason()));
+  diagnostics_.setValue("replans", supervisor_->replans());
+  diagnostics_.setValue("stops", supervisor_->stops());
+  diagnostics_.setValue("speed limit, m/s", supervisor_->speedMax());
   diagnostics_.setValue("tracking error, m", situation().tracking_error_m);
   if (unacknowledged_) {
     acknowledged_ = std::max(acknowledged_, *unacknowledged_);
@@ -456,7 +457,7 @@ std::vector<config::NumberField> PlannerNode::live() const {
 
 Status PlannerNode::change(config::Section section) {
   return readSetup(std::move(section)).map([this](const Setup& setup) {
-    supervisor_.setOptions(setup.supervisor);
+    supervisor_->setOptions(setup.supervisor);
   });
 }
 
@@ -470,7 +471,7 @@ mission::Situation PlannerNode::situation() const {
   mission::Situation situation;
   situation.state = vessel_.state;
   situation.odometry_stamp_s = vessel_.stamp_s;
-  const trajectory::TimedTrajectory& sailed = supervisor_.sailed();
+  const trajectory::TimedTrajectory& sailed = supervisor_->sailed();
   if (!sailed.trajectory.empty() && vessel_.stamp_s >= sailed.start_time_s) {
     const vessel::FlatPoint reference = sailed.trajectory.flat(sailed.elapsed(vessel_.stamp_s));
     situation.tracking_error_m = (reference.position - vessel_.state.head<2>()).norm();

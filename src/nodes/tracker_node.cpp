@@ -101,7 +101,7 @@ class TrackerNode {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
   ros_bridge::Diagnostics diagnostics_;
-  tracker::Tracker tracker_;
+  std::unique_ptr<tracker::Tracker> tracker_;
   double period_s_;
   CycleStatistics statistics_;
 
@@ -148,7 +148,7 @@ TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tra
                          const vessel::Parameters& vessel)
     : options_(std::move(options)),
       diagnostics_(node_, private_node_, vessel.name),
-      tracker_(tracker, vessel),
+      tracker_(tracker::Tracker::create(tracker, vessel)),
       period_s_(tracker.period_s),
       command_publisher_(node_.advertise<ThrusterCommand>("thruster_command", kQueue)),
       status_publisher_(node_.advertise<TrackerStatus>("tracker_status", kQueue)),
@@ -180,20 +180,20 @@ TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tra
 void TrackerNode::begin() {
   if (!options_.lockstep && !begun_) {
     loop_ = std::make_unique<ControlLoop>(
-        ControlLoop::Options{period_s_, options_.speed, kPredictionInterval}, tracker_, statistics_,
-        [] { return ros::Time::now().toSec(); },
+        ControlLoop::Options{period_s_, options_.speed, kPredictionInterval}, *tracker_,
+        statistics_, [] { return ros::Time::now().toSec(); },
         [this](const ControlOutput& output) { publish(output); });
   }
   begun_ = true;
 }
 
 std::vector<config::NumberField> TrackerNode::live() const {
-  return config::numbersOf(tracker_.options().flatness, "tracker/flatness/");
+  return config::numbersOf(tracker_->options().flatness, "tracker/flatness/");
 }
 
 Status TrackerNode::change(config::Section section) {
   return readSetup(std::move(section)).map([this](const Setup& setup) {
-    tracker_.setWeights(setup.tracker.flatness);
+    tracker_->setWeights(setup.tracker.flatness);
   });
 }
 
@@ -205,10 +205,10 @@ void TrackerNode::onTrajectory(const Trajectory& message) {
           .and_then([&](const trajectory::TimedTrajectory& timed) -> Status {
             if (timed.trajectory.empty()) {
               // In lockstep no step may depend on when the message came.
-              tracker_.requestStop("asked to stop", options_.lockstep ? start_s : 0.0, message.id);
+              tracker_->requestStop("asked to stop", options_.lockstep ? start_s : 0.0, message.id);
               return {};
             }
-            return tracker_.setTrajectory(timed, message.id);
+            return tracker_->setTrajectory(timed, message.id);
           });
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -245,7 +245,7 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
   }
   last_odometry_ = stamp;
   if (sample) {
-    tracker_.addOdometry(sample->stamp_s, sample->state, -sample->pitch_rad);
+    tracker_->addOdometry(sample->stamp_s, sample->state, -sample->pitch_rad);
   } else {
     diagnostics_.refuse("odom", sample.error().message);
   }
@@ -257,17 +257,17 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
 void TrackerNode::controlStep(const ros::Time& stamp) {
   const ros::WallTime now = ros::WallTime::now();
   ControlOutput output;
-  const double solver_ms = timedStep(tracker_, stamp.toSec(), output.command);
+  const double solver_ms = timedStep(*tracker_, stamp.toSec(), output.command);
   output.has_prediction = lockstep_steps_++ % kPredictionInterval == 0;
   if (output.has_prediction) {
-    output.prediction = tracker_.prediction();
+    output.prediction = tracker_->prediction();
   }
   command_message_.header.stamp = stamp;
   publish(output);
   if (told_s_ == output.command.stamp_s) {
     publishStatus();
   }
-  tracker_.prepare(stamp.toSec() + period_s_);
+  tracker_->prepare(stamp.toSec() + period_s_);
   statistics_.add(solver_ms, latenessMs(now));
 }
 

@@ -29,14 +29,14 @@ ClosedLoop::ClosedLoop(const LoopOptions& options, plant::Simulator plant, map::
       plant_(std::move(plant)),
       sensing_(std::make_unique<Sensing>(std::move(chart), options)),
       planner_(options.planner, options.vessel),
-      tracker_(options.tracker, options.vessel),
-      supervisor_(options.supervisor, options.vessel, seed),
+      tracker_(tracker::Tracker::create(options.tracker, options.vessel)),
+      supervisor_(mission::Supervisor::create(options.supervisor, options.vessel, seed)),
       goal_(mission.goal) {
   plant_.placeAt(mission.start.position, mission.start.psi_rad);
 }
 
 Status ClosedLoop::setSpeedMax(double speed_mps) {
-  return supervisor_.setSpeedMax(speed_mps);
+  return supervisor_->setSpeedMax(speed_mps);
 }
 
 ClosedLoop::~ClosedLoop() = default;
@@ -67,7 +67,7 @@ bool ClosedLoop::step() {
   if (reply_ && time() >= reply_time_s_) {
     const Reply reply = std::move(*reply_);
     reply_.reset();
-    carryOut(supervisor_.planFinished(time(), reply.id, reply.plan, situation(), obstacles()));
+    carryOut(supervisor_->planFinished(time(), reply.id, reply.plan, situation(), obstacles()));
   }
   control();
   judge();
@@ -76,7 +76,7 @@ bool ClosedLoop::step() {
 
 void ClosedLoop::sense() {
   const plant::Odometry& odometry = plant_.odometry();
-  tracker_.addOdometry(odometry.stamp_s, odometry.state, -odometry.pitch_rad);
+  tracker_->addOdometry(odometry.stamp_s, odometry.state, -odometry.pitch_rad);
   if (plant_.radarDue()) {
     sensing_->hear(plant_.radar(), odometry);
   }
@@ -95,13 +95,13 @@ void ClosedLoop::sense() {
     start();
     return;
   }
-  carryOut(supervisor_.update(time(), situation(), obstacles()));
+  carryOut(supervisor_->update(time(), situation(), obstacles()));
 }
 
 void ClosedLoop::start() {
   started_ = true;
   const Result<mission::Orders> orders =
-      supervisor_.setGoal(time(), goal_, situation(), obstacles());
+      supervisor_->setGoal(time(), goal_, situation(), obstacles());
   if (orders) {
     carryOut(*orders);
   } else {
@@ -111,7 +111,7 @@ void ClosedLoop::start() {
 
 void ClosedLoop::control() {
   const Stopwatch watch;
-  command_ = tracker_.step(time());
+  command_ = tracker_->step(time());
   recorder_.addTracking(watch.milliseconds());
   plant_.step(command_.thrusts, options_.control_period_s);
   if (time() - last_record_s_ >= options_.record_period_s - 1e-6) {
@@ -123,17 +123,17 @@ void ClosedLoop::control() {
 void ClosedLoop::judge() {
   if (plant_.hadContact()) {
     finish(scenario::Outcome::kCollided, "the hull touched " + touched() + " while " +
-                                             std::string(mission::name(supervisor_.phase())));
+                                             std::string(mission::name(supervisor_->phase())));
   } else if (plant::capsized(plant_.truth().roll_rad, plant_.truth().pitch_rad)) {
     finish(scenario::Outcome::kCapsized, "turned over by waves and thrust while " +
-                                             std::string(mission::name(supervisor_.phase())));
-  } else if (supervisor_.phase() == mission::Phase::kArrived) {
-    finish(scenario::Outcome::kArrived, supervisor_.reason());
-  } else if (supervisor_.phase() == mission::Phase::kFailed) {
-    finish(scenario::Outcome::kStopped, supervisor_.reason());
+                                             std::string(mission::name(supervisor_->phase())));
+  } else if (supervisor_->phase() == mission::Phase::kArrived) {
+    finish(scenario::Outcome::kArrived, supervisor_->reason());
+  } else if (supervisor_->phase() == mission::Phase::kFailed) {
+    finish(scenario::Outcome::kStopped, supervisor_->reason());
   } else if (!outcome_ && time() >= options_.timeout_s) {
     finish(scenario::Outcome::kTimeout,
-           std::string(mission::name(supervisor_.phase())) + ": " + supervisor_.reason());
+           std::string(mission::name(supervisor_->phase())) + ": " + supervisor_->reason());
   }
 }
 
@@ -149,11 +149,11 @@ std::string ClosedLoop::touched() const {
 void ClosedLoop::carryOut(const mission::Orders& orders) {
   if (orders.stop) {
     stop_ordered_ = true;
-    tracker_.requestStop("stop ordered");
+    tracker_->requestStop("stop ordered");
   }
   if (orders.sail) {
     stop_ordered_ = false;
-    if (const Status status = tracker_.setTrajectory(*orders.sail); !status) {
+    if (const Status status = tracker_->setTrajectory(*orders.sail); !status) {
       finish(scenario::Outcome::kError,
              "the tracker refused a trajectory: " + status.error().message);
     }
@@ -207,7 +207,7 @@ scenario::MotionSample ClosedLoop::motion() const {
   sample.pitch_rad = truth.pitch_rad;
   sample.thrusts_n = truth.thrusts_n;
   sample.clearance_m = plant_.clearance();
-  const trajectory::TimedTrajectory& sailed = supervisor_.sailed();
+  const trajectory::TimedTrajectory& sailed = supervisor_->sailed();
   if (!sailed.trajectory.empty()) {
     sample.reference =
         sailed.trajectory.sample(sailed.elapsed(time()), options_.vessel).state.head<3>();
@@ -222,9 +222,9 @@ scenario::Progress ClosedLoop::progress() const {
   progress.speed_mps = vessel::speedOf(now.state);
   progress.clearance_m = now.clearance_m;
   progress.tracking_error_m = command_.tracking_error_m;
-  progress.state = mission::name(supervisor_.phase());
-  progress.detail = supervisor_.reason();
-  const trajectory::TimedTrajectory& sailed = supervisor_.sailed();
+  progress.state = mission::name(supervisor_->phase());
+  progress.detail = supervisor_->reason();
+  const trajectory::TimedTrajectory& sailed = supervisor_->sailed();
   progress.distance_left_m =
       sailed.trajectory.empty()
           ? (now.state.head<2>() - goal_.position).norm()
@@ -234,7 +234,7 @@ scenario::Progress ClosedLoop::progress() const {
 
 scenario::MissionResult ClosedLoop::result(const scenario::MissionLabel& label) const {
   return recorder_.result(label, outcome_.value_or(scenario::Outcome::kTimeout), reason_,
-                          supervisor_.replans());
+                          supervisor_->replans());
 }
 
 void ClosedLoop::finish(scenario::Outcome outcome, std::string reason) {

@@ -42,41 +42,21 @@ Vector2d velocityOverGround(const vessel::State& x) {
   return x[kSurge] * e + x[kSway] * across(e);
 }
 
-}  // namespace
-
-std::string_view name(Mode mode) {
-  switch (mode) {
-    case Mode::kIdle:
-      return "idle";
-    case Mode::kTracking:
-      return "tracking";
-    case Mode::kHolding:
-      return "holding";
-    case Mode::kStopping:
-      return "stopping";
-    case Mode::kStopped:
-      return "stopped";
-    case Mode::kFault:
-      return "fault";
-  }
-  return "unknown";
-}
-
-// What happens in one control step.
-class Tracker::Core {
+// By nonlinear model predictive control.
+class PredictiveTracker final : public Tracker {
  public:
-  Core(const Options& options, const vessel::Parameters& vessel);
+  PredictiveTracker(const Options& options, const vessel::Parameters& vessel);
 
-  Status setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order);
-  void addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad);
-  void requestStop(std::string_view reason, double start_s, std::uint32_t order);
-  void setWeights(const Weights& weights);
-  Command step(double now_s);
-  void replaceCommand(const vessel::Thrusts& sent);
-  void prepare(double next_s);
+  Status setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order) override;
+  void addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad) override;
+  void requestStop(std::string_view reason, double start_s, std::uint32_t order) override;
+  void setWeights(const Weights& weights) override;
+  Command step(double now_s) override;
+  void replaceCommand(const vessel::Thrusts& sent) override;
+  void prepare(double next_s) override;
 
-  [[nodiscard]] const Prediction& prediction() const { return controller_.prediction(); }
-  [[nodiscard]] const Options& options() const { return options_; }
+  [[nodiscard]] const Prediction& prediction() const override { return controller_.prediction(); }
+  [[nodiscard]] const Options& options() const override { return options_; }
 
  private:
   struct Assignment {
@@ -136,7 +116,7 @@ class Tracker::Core {
   vessel::Thrusts last_thrusts_ = vessel::Thrusts::Zero();
 };
 
-Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
+PredictiveTracker::PredictiveTracker(const Options& options, const vessel::Parameters& vessel)
     : options_(options),
       vessel_(vessel),
       navigator_(options, vessel),
@@ -144,7 +124,7 @@ Tracker::Core::Core(const Options& options, const vessel::Parameters& vessel)
       keeper_(vessel),
       controller_(options, vessel) {}
 
-Status Tracker::Core::setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order) {
+Status PredictiveTracker::setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order) {
   if (Status status = checkTrajectory(sailed.trajectory, vessel_.top_speed_mps); !status) {
     return status;
   }
@@ -165,7 +145,7 @@ Status Tracker::Core::setTrajectory(trajectory::TimedTrajectory sailed, std::uin
   return {};
 }
 
-void Tracker::Core::requestStop(std::string_view reason, double start_s, std::uint32_t order) {
+void PredictiveTracker::requestStop(std::string_view reason, double start_s, std::uint32_t order) {
   auto assignment = std::make_unique<Assignment>();
   assignment->sailed.start_time_s = start_s;
   assignment->order = order;
@@ -173,15 +153,15 @@ void Tracker::Core::requestStop(std::string_view reason, double start_s, std::ui
   incoming_.give(std::move(assignment));
 }
 
-void Tracker::Core::setWeights(const Weights& weights) {
+void PredictiveTracker::setWeights(const Weights& weights) {
   new_weights_.give(std::make_unique<Weights>(weights));
 }
 
-void Tracker::Core::addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad) {
+void PredictiveTracker::addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad) {
   odometry_.push({stamp_s, state, bow_up_rad});
 }
 
-void Tracker::Core::takeOdometry() {
+void PredictiveTracker::takeOdometry() {
   Measurement m;
   while (odometry_.pop(m)) {
     navigator_.addOdometry(m.stamp_s, m.state);
@@ -191,7 +171,7 @@ void Tracker::Core::takeOdometry() {
   }
 }
 
-void Tracker::Core::takeAssignment(double now_s, const vessel::State& state) {
+void PredictiveTracker::takeAssignment(double now_s, const vessel::State& state) {
   if (incoming_.take(waiting_)) {
     fresh_ = true;
     order_taken_ = waiting_->order;
@@ -209,7 +189,7 @@ void Tracker::Core::takeAssignment(double now_s, const vessel::State& state) {
   }
 }
 
-void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
+void PredictiveTracker::beginTracking(double now_s, const vessel::State& state) {
   const bool under_way = mode_ == Mode::kTracking;
   mode_ = Mode::kTracking;
   stop_reason_ = {};
@@ -226,7 +206,8 @@ void Tracker::Core::beginTracking(double now_s, const vessel::State& state) {
   controller_.start(under_way && offset.norm() < kSamePathLengths * vessel_.hull.length_m);
 }
 
-void Tracker::Core::beginStop(std::string_view reason, double now_s, const vessel::State& state) {
+void PredictiveTracker::beginStop(std::string_view reason, double now_s,
+                                  const vessel::State& state) {
   if (mode_ != Mode::kStopped) {
     mode_ = Mode::kStopping;
     restAhead(now_s, state);
@@ -234,7 +215,7 @@ void Tracker::Core::beginStop(std::string_view reason, double now_s, const vesse
   stop_reason_ = reason;
 }
 
-void Tracker::Core::restAhead(double now_s, const vessel::State& state) {
+void PredictiveTracker::restAhead(double now_s, const vessel::State& state) {
   const Vector2d velocity = velocityOverGround(state);
   const double braking_mps2 =
       kBrakingShare * 2.0 * vessel_.thrusters.astern_max_n / vessel_.manoeuvring.surge_inertia_kg;
@@ -245,7 +226,7 @@ void Tracker::Core::restAhead(double now_s, const vessel::State& state) {
   controller_.start(false);
 }
 
-void Tracker::Core::beginHolding(double now_s, const vessel::State& state) {
+void PredictiveTracker::beginHolding(double now_s, const vessel::State& state) {
   mode_ = Mode::kHolding;
   const trajectory::Sample goal = reference_source_.at(reference_source_.end());
   // A path that alone says how the hull lies says nothing at rest but for the line: bow where it
@@ -257,7 +238,8 @@ void Tracker::Core::beginHolding(double now_s, const vessel::State& state) {
   keeper_.start(goal.state.head<2>(), goal.state[kPsi] + (turned ? kPi : 0.0), state[kPsi], now_s);
 }
 
-vessel::Thrusts Tracker::Core::track(double now_s, const vessel::State& state, Command& command) {
+vessel::Thrusts PredictiveTracker::track(double now_s, const vessel::State& state,
+                                         Command& command) {
   const auto thrusts =
       controller_.step(now_s, state, last_thrusts_, navigator_, reference_source_, command);
   if (thrusts) {
@@ -267,7 +249,8 @@ vessel::Thrusts Tracker::Core::track(double now_s, const vessel::State& state, C
   return keeper_.brake(state, navigator_.disturbance());
 }
 
-vessel::Thrusts Tracker::Core::hold(double now_s, const vessel::State& state, Command& command) {
+vessel::Thrusts PredictiveTracker::hold(double now_s, const vessel::State& state,
+                                        Command& command) {
   reference_source_.rest(keeper_.position(), keeper_.heading(now_s, navigator_.disturbance()));
   const auto thrusts =
       controller_.step(now_s, state, last_thrusts_, navigator_, reference_source_, command);
@@ -277,8 +260,8 @@ vessel::Thrusts Tracker::Core::hold(double now_s, const vessel::State& state, Co
   return thrusts ? *thrusts : keeper_.brake(state, navigator_.disturbance());
 }
 
-vessel::Thrusts Tracker::Core::stop(double now_s, const vessel::State& state, Fix fix,
-                                    Command& command) {
+vessel::Thrusts PredictiveTracker::stop(double now_s, const vessel::State& state, Fix fix,
+                                        Command& command) {
   const bool rests =
       std::hypot(state[kSurge], state[kSway]) < kRestMps && std::abs(state[kYawRate]) < kRestRadps;
   if (mode_ == Mode::kStopping && rests && fix != Fix::kLost) {
@@ -296,7 +279,7 @@ vessel::Thrusts Tracker::Core::stop(double now_s, const vessel::State& state, Fi
 
 // Without odometry the model alone brakes the vessel; when that is too old to mean anything, the
 // thrusters rest until odometry comes back, and the vessel then holds the spot it is found at.
-void Tracker::Core::watchFix(Fix fix, double now_s, const vessel::State& state) {
+void PredictiveTracker::watchFix(Fix fix, double now_s, const vessel::State& state) {
   if (fix != Fix::kLost) {
     if (mode_ == Mode::kFault || (lost_ && (mode_ == Mode::kStopping || mode_ == Mode::kStopped))) {
       mode_ = Mode::kStopped;
@@ -315,24 +298,24 @@ void Tracker::Core::watchFix(Fix fix, double now_s, const vessel::State& state) 
   }
 }
 
-vessel::Thrusts Tracker::Core::slew(const vessel::Thrusts& wanted) const {
+vessel::Thrusts PredictiveTracker::slew(const vessel::Thrusts& wanted) const {
   const double most = options_.thrust_rate_nps * options_.period_s;
   const vessel::Thrusts change = (wanted - last_thrusts_).cwiseMax(-most).cwiseMin(most);
   return vessel::clampThrusts(last_thrusts_ + change, vessel_.thrusters);
 }
 
-void Tracker::Core::replaceCommand(const vessel::Thrusts& sent) {
+void PredictiveTracker::replaceCommand(const vessel::Thrusts& sent) {
   last_thrusts_ = sent;
   navigator_.replaceCommand(sent);
 }
 
-void Tracker::Core::prepare(double next_s) {
+void PredictiveTracker::prepare(double next_s) {
   if (mode_ != Mode::kIdle && mode_ != Mode::kFault) {
     controller_.prepare(next_s, last_thrusts_, navigator_, reference_source_);
   }
 }
 
-Command Tracker::Core::step(double now_s) {
+Command PredictiveTracker::step(double now_s) {
   last_now_s_.store(now_s);
   Command command;
   command.stamp_s = now_s;
@@ -377,7 +360,7 @@ Command Tracker::Core::step(double now_s) {
   return command;
 }
 
-void Tracker::Core::finish(double now_s, const vessel::State& state, Command& command) {
+void PredictiveTracker::finish(double now_s, const vessel::State& state, Command& command) {
   if (!command.thrusts.allFinite()) {
     command.thrusts.setZero();
     command.reason = "a thrust was not finite";
@@ -412,46 +395,28 @@ void Tracker::Core::finish(double now_s, const vessel::State& state, Command& co
   }
 }
 
-Tracker::Tracker(const Options& options, const vessel::Parameters& vessel)
-    : core_(std::make_unique<Core>(options, vessel)) {}
-Tracker::~Tracker() = default;
-Tracker::Tracker(Tracker&&) noexcept = default;
-Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+}  // namespace
 
-Status Tracker::setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order) {
-  return core_->setTrajectory(std::move(sailed), order);
+std::string_view name(Mode mode) {
+  switch (mode) {
+    case Mode::kIdle:
+      return "idle";
+    case Mode::kTracking:
+      return "tracking";
+    case Mode::kHolding:
+      return "holding";
+    case Mode::kStopping:
+      return "stopping";
+    case Mode::kStopped:
+      return "stopped";
+    case Mode::kFault:
+      return "fault";
+  }
+  return "unknown";
 }
 
-void Tracker::addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad) {
-  core_->addOdometry(stamp_s, state, bow_up_rad);
-}
-
-void Tracker::requestStop(std::string_view reason, double start_s, std::uint32_t order) {
-  core_->requestStop(reason, start_s, order);
-}
-
-void Tracker::setWeights(const Weights& weights) {
-  core_->setWeights(weights);
-}
-
-Command Tracker::step(double now_s) {
-  return core_->step(now_s);
-}
-
-void Tracker::replaceCommand(const vessel::Thrusts& sent) {
-  core_->replaceCommand(sent);
-}
-
-void Tracker::prepare(double next_s) {
-  core_->prepare(next_s);
-}
-
-const Prediction& Tracker::prediction() const {
-  return core_->prediction();
-}
-
-const Options& Tracker::options() const {
-  return core_->options();
+std::unique_ptr<Tracker> Tracker::create(const Options& options, const vessel::Parameters& vessel) {
+  return std::make_unique<PredictiveTracker>(options, vessel);
 }
 
 }  // namespace otter_nav::tracker

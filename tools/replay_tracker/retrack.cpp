@@ -184,7 +184,7 @@ Figures figures(const std::vector<Step>& steps, const vessel::Thrusters& limits)
 Result<std::vector<Step>> retrack(const RecordedRun& run, const Settings& settings,
                                   const vessel::Parameters& vessel, const Window& window, Sent sent,
                                   bool partial, std::vector<std::string>& notes) {
-  Tracker tracker(settings.options, vessel);
+  const auto tracker = Tracker::create(settings.options, vessel);
   WeightsFeed weights(settings);
   OdometryFeed odometry(run.odometry);
   OrderFeed orders(run.orders);
@@ -203,8 +203,8 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const Settings& settin
                        " are not in the recording");
     }
     last = cycle.number;
-    const Status fed = odometry.give(cycle, tracker);
-    const Status ordered = orders.give(cycle, run.lockstep, tracker);
+    const Status fed = odometry.give(cycle, *tracker);
+    const Status ordered = orders.give(cycle, run.lockstep, *tracker);
     for (const Status* each : std::initializer_list<const Status*>{&status, &fed, &ordered}) {
       if (!*each) {
         if (!partial) {
@@ -216,13 +216,13 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const Settings& settin
     Step step;
     step.recorded = cycle;
     if (!run.from_commands) {
-      weights.give(cycle.weights, tracker);
+      weights.give(cycle.weights, *tracker);
     }
-    step.command = tracker.step(cycle.time_s);
+    step.command = tracker->step(cycle.time_s);
     if (sent == Sent::kRecorded) {
-      tracker.replaceCommand(cycle.thrusts_n);
+      tracker->replaceCommand(cycle.thrusts_n);
     }
-    tracker.prepare(step.command.stamp_s + settings.options.period_s);
+    tracker->prepare(step.command.stamp_s + settings.options.period_s);
     if (window.has(cycle.time_s)) {
       steps.push_back(std::move(step));
     }
@@ -254,7 +254,7 @@ Result<std::vector<Step>> sailAgain(const RecordedRun& run, const Settings& sett
   SimulatedHull& simulated = **vessel_model;
   simulated.place(first->estimate, first->thrusts_n);
   const tracker::Options& options = settings.options;
-  Tracker tracker(options, vessel);
+  const auto tracker = Tracker::create(options, vessel);
   WeightsFeed weights(settings);
   OrderFeed orders(run.orders);
   std::vector<Step> steps;
@@ -262,16 +262,16 @@ Result<std::vector<Step>> sailAgain(const RecordedRun& run, const Settings& sett
     if (!window.has(cycle->time_s)) {
       break;
     }
-    if (const Status status = orders.give(*cycle, run.lockstep, tracker); !status) {
+    if (const Status status = orders.give(*cycle, run.lockstep, *tracker); !status) {
       return failure(status.error().message);
     }
-    tracker.addOdometry(cycle->time_s + options.odometry.latency_s, simulated.state());
+    tracker->addOdometry(cycle->time_s + options.odometry.latency_s, simulated.state());
     Step step;
     step.recorded = *cycle;
     step.truth = simulated.state();
-    weights.give(cycle->weights, tracker);
-    step.command = tracker.step(cycle->time_s);
-    tracker.prepare(cycle->time_s + options.period_s);
+    weights.give(cycle->weights, *tracker);
+    step.command = tracker->step(cycle->time_s);
+    tracker->prepare(cycle->time_s + options.period_s);
     if (tracks(step.command)) {
       step.command.tracking_error_m =
           (step.truth.head<2>() - step.command.reference.head<2>()).norm();

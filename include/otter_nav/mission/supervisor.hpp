@@ -133,67 +133,62 @@ struct Orders {
 // are added here.
 class Supervisor {
  public:
-  Supervisor(const SupervisorOptions& options, const vessel::Parameters& vessel,
-             std::uint64_t seed);
-  ~Supervisor();
-  Supervisor(Supervisor&&) noexcept;
-  Supervisor& operator=(Supervisor&&) noexcept;
+  [[nodiscard]] static std::unique_ptr<Supervisor> create(const SupervisorOptions& options,
+                                                          const vessel::Parameters& vessel,
+                                                          std::uint64_t seed);
+  virtual ~Supervisor() = default;
 
   // Takes a goal and asks for a plan, or refuses it with the reason: not finite, outside the map,
   // too near something occupied. A refused goal leaves the mission under way untouched; an
   // accepted one replaces it, in motion if need be.
-  [[nodiscard]] Result<Orders> setGoal(double now_s, const vessel::Pose& goal,
-                                       const Situation& situation,
-                                       const feasibility::Obstacles& obstacles);
+  [[nodiscard]] virtual Result<Orders> setGoal(double now_s, const vessel::Pose& goal,
+                                               const Situation& situation,
+                                               const feasibility::Obstacles& obstacles) = 0;
   // Gives the mission up: brakes if moving, and is idle then.
-  [[nodiscard]] Orders cancel(double now_s, const Situation& situation,
-                              const feasibility::Obstacles& obstacles,
-                              std::string why = "cancelled");
+  [[nodiscard]] virtual Orders cancel(double now_s, const Situation& situation,
+                                      const feasibility::Obstacles& obstacles,
+                                      std::string why = "cancelled") = 0;
   // Brakes if moving and keeps the place where it comes to rest, and the mission, until resume() or
   // a new goal. Refused without a mission.
-  [[nodiscard]] Result<Orders> pause(double now_s, const Situation& situation,
-                                     const feasibility::Obstacles& obstacles);
+  [[nodiscard]] virtual Result<Orders> pause(double now_s, const Situation& situation,
+                                             const feasibility::Obstacles& obstacles) = 0;
   // The same for any vessel: one that drifts without a goal keeps its place from now on.
-  [[nodiscard]] Orders hold(double now_s, const Situation& situation,
-                            const feasibility::Obstacles& obstacles);
+  [[nodiscard]] virtual Orders hold(double now_s, const Situation& situation,
+                                    const feasibility::Obstacles& obstacles) = 0;
   // Plans from rest to the goal kept; a vessel that had none is idle. Refused if nothing is paused.
-  [[nodiscard]] Result<Orders> resume(double now_s, const Situation& situation,
-                                      const feasibility::Obstacles& obstacles);
+  [[nodiscard]] virtual Result<Orders> resume(double now_s, const Situation& situation,
+                                              const feasibility::Obstacles& obstacles) = 0;
   // To be called regularly (10 Hz or more) and after each change of the map.
-  [[nodiscard]] Orders update(double now_s, const Situation& situation,
-                              const feasibility::Obstacles& obstacles);
+  [[nodiscard]] virtual Orders update(double now_s, const Situation& situation,
+                                      const feasibility::Obstacles& obstacles) = 0;
   // The planner's answer to request `id`; answers to requests that were replaced are ignored.
-  [[nodiscard]] Orders planFinished(double now_s, int id, const planner::Plan& plan,
-                                    const Situation& situation,
-                                    const feasibility::Obstacles& obstacles);
+  [[nodiscard]] virtual Orders planFinished(double now_s, int id, const planner::Plan& plan,
+                                            const Situation& situation,
+                                            const feasibility::Obstacles& obstacles) = 0;
 
   // Of all plans from now on; what is sailed is planned anew. 0: the vessel's alone. An error if it
   // is less than a vessel can steer by.
-  [[nodiscard]] Status setSpeedMax(double speed_mps);
+  [[nodiscard]] virtual Status setSpeedMax(double speed_mps) = 0;
   // What of the options rules decisions and plans from now on; the counts of retries and the
   // latency stay as they were.
-  void setOptions(const SupervisorOptions& options);
-  [[nodiscard]] double speedMax() const;
+  virtual void setOptions(const SupervisorOptions& options) = 0;
+  [[nodiscard]] virtual double speedMax() const = 0;
 
-  [[nodiscard]] Phase phase() const;
+  [[nodiscard]] virtual Phase phase() const = 0;
   // Why the phase is what it is; empty if there is nothing to explain.
-  [[nodiscard]] const std::string& reason() const;
-  [[nodiscard]] const vessel::Pose& goal() const;
+  [[nodiscard]] virtual const std::string& reason() const = 0;
+  [[nodiscard]] virtual const vessel::Pose& goal() const = 0;
   // What is being sailed; empty before the first plan.
-  [[nodiscard]] const trajectory::TimedTrajectory& sailed() const;
+  [[nodiscard]] virtual const trajectory::TimedTrajectory& sailed() const = 0;
   // The way to rest that was verified last, from what was sailed then; none but under way.
-  [[nodiscard]] const std::optional<trajectory::TimedTrajectory>& lastStop() const;
+  [[nodiscard]] virtual const std::optional<trajectory::TimedTrajectory>& lastStop() const = 0;
   // What it was planned to keep from the hull's centre, m; 0 for a manoeuvre without a plan.
-  [[nodiscard]] double plannedClearance() const;
+  [[nodiscard]] virtual double plannedClearance() const = 0;
   // Other vessels with risk of collision, and which rule of the road applies to each.
-  [[nodiscard]] std::vector<encounter::Encounter> encounters() const;
+  [[nodiscard]] virtual std::vector<encounter::Encounter> encounters() const = 0;
   // Plans taken while under way, after the first.
-  [[nodiscard]] int replans() const;
-  [[nodiscard]] int stops() const;
-
- private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  [[nodiscard]] virtual int replans() const = 0;
+  [[nodiscard]] virtual int stops() const = 0;
 };
 
 }  // namespace otter_nav::mission

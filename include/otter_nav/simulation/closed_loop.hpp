@@ -71,7 +71,7 @@ class ClosedLoop {
   [[nodiscard]] Status setSpeedMax(double speed_mps);
 
   [[nodiscard]] double time() const { return plant_.time(); }
-  [[nodiscard]] const mission::Supervisor& supervisor() const { return supervisor_; }
+  [[nodiscard]] const mission::Supervisor& supervisor() const { return *supervisor_; }
   // The true motion and the reference now.
   [[nodiscard]] scenario::MotionSample motion() const;
   // Other vessels as they are known, and as they truly are.
@@ -98,8 +98,8 @@ class ClosedLoop {
   plant::Simulator plant_;
   std::unique_ptr<Sensing> sensing_;
   planner::Planner planner_;
-  tracker::Tracker tracker_;
-  mission::Supervisor supervisor_;
+  std::unique_ptr<tracker::Tracker> tracker_;
+  std::unique_ptr<mission::Supervisor> supervisor_;
   vessel::Pose goal_;
   scenario::Recorder recorder_;
   tracker::Command command_;

@@ -65,42 +65,39 @@ struct Prediction {
 
 class Tracker {
  public:
-  Tracker(const Options& options, const vessel::Parameters& vessel);
-  ~Tracker();
-  Tracker(Tracker&&) noexcept;
-  Tracker& operator=(Tracker&&) noexcept;
+  [[nodiscard]] static std::unique_ptr<Tracker> create(const Options& options,
+                                                       const vessel::Parameters& vessel);
+  virtual ~Tracker() = default;
 
   // Any thread, at any time. The trajectory takes over at its start, or at the next step when that
   // has passed. Errors: empty or malformed (piece and fault named), not finite, over already.
   // `order` is the caller's number for it. Its speed limit is kept to also when the vessel is
   // behind; the vessel's own counts where that is less.
-  [[nodiscard]] Status setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order = 0);
+  [[nodiscard]] virtual Status setTrajectory(trajectory::TimedTrajectory sailed,
+                                             std::uint32_t order = 0) = 0;
   // Any one thread. Not finite or out of order: dropped, and the next status says so. The higher
   // the bow comes up, the less the vessel is pushed ahead: thrust below the centre of gravity and a
   // sea from ahead can turn a small hull over.
-  void addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad = 0.0);
+  virtual void addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad = 0.0) = 0;
   // Any thread: brake and hold the spot from `start_s` on, until the next trajectory. `reason` is
   // static text.
-  void requestStop(std::string_view reason, double start_s = 0.0, std::uint32_t order = 0);
+  virtual void requestStop(std::string_view reason, double start_s = 0.0,
+                           std::uint32_t order = 0) = 0;
 
   // Any thread: from the next step on, for the method `flatness`.
-  void setWeights(const Weights& weights);
+  virtual void setWeights(const Weights& weights) = 0;
 
   // The control loop's thread, once a period.
-  Command step(double now_s);
+  virtual Command step(double now_s) = 0;
   // The last step's command was not sent, this was (a replay of other commands): what moves the
   // vessel is what the estimate has to know. Before prepare().
-  void replaceCommand(const vessel::Thrusts& sent);
+  virtual void replaceCommand(const vessel::Thrusts& sent) = 0;
   // After the command is out: linearises and factors for the step at `next_s`, so that it only has
   // to feed back the state. Optional.
-  void prepare(double next_s);
+  virtual void prepare(double next_s) = 0;
 
-  [[nodiscard]] const Prediction& prediction() const;
-  [[nodiscard]] const Options& options() const;
-
- private:
-  class Core;
-  std::unique_ptr<Core> core_;
+  [[nodiscard]] virtual const Prediction& prediction() const = 0;
+  [[nodiscard]] virtual const Options& options() const = 0;
 };
 
 }  // namespace otter_nav::tracker

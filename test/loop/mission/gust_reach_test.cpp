@@ -32,7 +32,7 @@ Outcome sail(double course_rad, double mean_mps, std::uint64_t seed) {
   plant->disturbance.wind.speed_mps = mean_mps;
   plant->disturbance.wind.gust_intensity = 0.15;
   plant::Simulator sea(*plant, map::OccupancyGrid{}, seed);
-  tracker::Tracker tracker(*options, *vessel);
+  const auto tracker = tracker::Tracker::create(*options, *vessel);
   Weather weather(*vessel);
   constexpr double kDurationS = 60.0;
   constexpr double kMeanMps = 0.25;
@@ -41,12 +41,12 @@ Outcome sail(double course_rad, double mean_mps, std::uint64_t seed) {
   end.position =
       kMeanMps * kDurationS * Eigen::Vector2d(std::cos(course_rad), std::sin(course_rad));
   sea.placeAt({0.0, 0.0}, kPi);  // bow to the wind
-  EXPECT_TRUE(tracker.setTrajectory(
+  EXPECT_TRUE(tracker->setTrajectory(
       {trajectory::Trajectory({trajectory::hermitePiece(start, end, kDurationS)}), 0.0}));
   Outcome outcome;
   for (int k = 0; k < static_cast<int>(100.0 * kDurationS); ++k) {
-    tracker.addOdometry(sea.odometry().stamp_s, sea.odometry().state);
-    const tracker::Command command = tracker.step(sea.time());
+    tracker->addOdometry(sea.odometry().stamp_s, sea.odometry().state);
+    const tracker::Command command = tracker->step(sea.time());
     if (k % 10 == 0) {
       weather.feel(sea.time(), command.disturbance.mean);
     }

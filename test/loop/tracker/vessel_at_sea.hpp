@@ -41,7 +41,7 @@ class VesselAtSea {
     EXPECT_TRUE(vessel && options && plant);
     plant->odometry.latency_s = latency_s;
     plant_ = std::make_unique<plant::Simulator>(*plant, map::OccupancyGrid{}, 1);
-    tracker_ = std::make_unique<Tracker>(*options, *vessel);
+    tracker_ = Tracker::create(*options, *vessel);
   }
 
   Tracker& tracker() { return *tracker_; }

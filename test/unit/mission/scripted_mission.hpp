@@ -16,7 +16,7 @@ class ScriptedMission {
       : grid(std::move(water)),
         field(fieldOf(grid)),
         options(std::move(o)),
-        supervisor(options, vessel::Parameters{}, 1) {
+        supervisor(Supervisor::create(options, vessel::Parameters{}, 1)) {
     knowWeather();
   }
 
@@ -31,7 +31,7 @@ class ScriptedMission {
     s.disturbance.mean = disturbance;
     s.state = rest;
     s.tracks = tracks;
-    const trajectory::TimedTrajectory& sailed = supervisor.sailed();
+    const trajectory::TimedTrajectory& sailed = supervisor->sailed();
     if (!sailed.trajectory.empty()) {
       s.state = sailed.trajectory.sample(now_s - sailed.start_time_s, vessel::Parameters{}).state;
       if (now_s - sailed.start_time_s > sailed.trajectory.duration()) {
@@ -51,22 +51,22 @@ class ScriptedMission {
     return all;
   }
   Result<Orders> goTo(const Eigen::Vector2d& position, double psi_rad = 0.0) {
-    return supervisor.setGoal(now_s, {position, psi_rad}, situation(), obstacles());
+    return supervisor->setGoal(now_s, {position, psi_rad}, situation(), obstacles());
   }
   Orders update(double later_s) {
     now_s += later_s;
-    return supervisor.update(now_s, situation(), obstacles());
+    return supervisor->update(now_s, situation(), obstacles());
   }
   Orders answer(const PlanRequest& request, const trajectory::Trajectory& trajectory) {
     planner::Plan plan;
     plan.outcome = planner::Outcome::kSolved;
     plan.trajectory = trajectory;
-    return supervisor.planFinished(now_s, request.id, plan, situation(), obstacles());
+    return supervisor->planFinished(now_s, request.id, plan, situation(), obstacles());
   }
   Orders refuse(const PlanRequest& request, const std::string& why) {
     planner::Plan plan;
     plan.reason = why;
-    return supervisor.planFinished(now_s, request.id, plan, situation(), obstacles());
+    return supervisor->planFinished(now_s, request.id, plan, situation(), obstacles());
   }
   // To x = 40 m, 80 m east, and `after_s` under way.
   void setOut(double after_s) {
@@ -92,7 +92,7 @@ class ScriptedMission {
   const feasibility::ObstacleLayer* layer = nullptr;  // besides the field
   std::vector<traffic::Track> tracks;
   SupervisorOptions options;
-  Supervisor supervisor;
+  std::unique_ptr<Supervisor> supervisor;
   vessel::State rest = vessel::State::Zero();
   vessel::Disturbance disturbance;  // as the tracker estimates it
   double now_s = 98.5;              // 100 s once the weather is known

@@ -26,12 +26,12 @@ TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
   test::ScriptedMission mission;
   const auto order = backOffFromTheWall(mission);
   ASSERT_TRUE(order);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kBackingOff);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kBackingOff);
   mission.rest = order->trajectory.sample(order->trajectory.duration(), vessel::Parameters{}).state;
-  for (int k = 0; k < 200 && mission.supervisor.phase() == Phase::kBackingOff; ++k) {
+  for (int k = 0; k < 200 && mission.supervisor->phase() == Phase::kBackingOff; ++k) {
     (void)mission.update(0.1);
   }
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopped);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kStopped);
   const Orders next = mission.update(0.1);
   ASSERT_TRUE(next.plan);
   EXPECT_GE(mission.field.clearance(next.plan->query.start.flat.position),
@@ -44,7 +44,7 @@ TEST(BackOff, EndsWhereSomethingComesUpAstern) {
   EXPECT_FALSE(mission.update(0.5).stop);
   mission.put({-1.7, -1.0}, {-1.1, 1.0});
   EXPECT_TRUE(mission.update(0.1).stop);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kStopping);
 }
 
 TEST(BackOff, EndsWhenTheTrackerCannotFollowOrOdometryStays) {
@@ -53,15 +53,15 @@ TEST(BackOff, EndsWhenTheTrackerCannotFollowOrOdometryStays) {
   Situation situation = faulty.situation();
   situation.tracker_fault = true;
   situation.tracker_reason = "the solver fails";
-  EXPECT_TRUE(faulty.supervisor.update(faulty.now_s, situation, faulty.field).stop);
-  EXPECT_NE(faulty.supervisor.reason().find("the solver fails"), std::string::npos);
+  EXPECT_TRUE(faulty.supervisor->update(faulty.now_s, situation, faulty.field).stop);
+  EXPECT_NE(faulty.supervisor->reason().find("the solver fails"), std::string::npos);
 
   test::ScriptedMission blind;
   ASSERT_TRUE(backOffFromTheWall(blind));
   situation = blind.situation();
   situation.odometry_stamp_s = blind.now_s - 2.0 * blind.options.odometry_timeout_s;
-  EXPECT_TRUE(blind.supervisor.update(blind.now_s, situation, blind.field).stop);
-  EXPECT_EQ(blind.supervisor.reason(), "no odometry");
+  EXPECT_TRUE(blind.supervisor->update(blind.now_s, situation, blind.field).stop);
+  EXPECT_EQ(blind.supervisor->reason(), "no odometry");
 }
 
 // A square of 4 m that goes north at 1.5 m/s, `at` 100 s where it is said.
@@ -83,7 +83,7 @@ TEST(StandAside, LeavesTheWayOfWhoComesOverHer) {
   (void)mission.refuse(orders->plan.value(), "the hull touches");
   const Orders aside = mission.update(0.1);
   ASSERT_TRUE(aside.sail);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kBackingOff);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kBackingOff);
   const Eigen::Vector2d end = aside.sail->trajectory.flat(100.0).position;
   EXPECT_GT(end.norm(), 2.0);
   // Something ahead doesn't hold her up; by and by she plans again, and it was no stop that counts.
@@ -95,7 +95,7 @@ TEST(StandAside, LeavesTheWayOfWhoComesOverHer) {
   }
   ASSERT_TRUE(next.plan);
   EXPECT_LT((next.plan->query.start.flat.position - end).norm(), 0.1);
-  EXPECT_EQ(mission.supervisor.stops(), 0);
+  EXPECT_EQ(mission.supervisor->stops(), 0);
 }
 
 TEST(StandAside, LosesNoRoundToOthersForAMinute) {
@@ -104,7 +104,7 @@ TEST(StandAside, LosesNoRoundToOthersForAMinute) {
     auto orders = mission.goTo({-20.0, 0.0});
     std::optional<PlanRequest> plan = orders->plan;
     const double began_s = mission.now_s;
-    while (mission.supervisor.phase() != Phase::kFailed && mission.now_s < began_s + 100.0) {
+    while (mission.supervisor->phase() != Phase::kFailed && mission.now_s < began_s + 100.0) {
       if (near) {  // beside her, and stays there
         mission.tracks = {northward({6.0, 0.0}, 100.0)};
         mission.tracks[0].velocity.setZero();
@@ -115,7 +115,7 @@ TEST(StandAside, LosesNoRoundToOthersForAMinute) {
       }
       plan = mission.update(0.1).plan;
     }
-    EXPECT_EQ(mission.supervisor.phase(), Phase::kFailed);
+    EXPECT_EQ(mission.supervisor->phase(), Phase::kFailed);
     EXPECT_EQ(mission.now_s - began_s > 60.0, near);
   }
 }

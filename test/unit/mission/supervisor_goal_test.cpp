@@ -15,7 +15,7 @@ void expectRefused(ScriptedMission& mission, const Eigen::Vector2d& goal, double
   const auto orders = mission.goTo(goal, psi_rad);
   ASSERT_FALSE(orders.has_value());
   EXPECT_NE(orders.error().message.find(why), std::string::npos) << orders.error().message;
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kIdle);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kIdle);
 }
 
 TEST(Goal, IsRefusedWithTheReason) {
@@ -34,7 +34,7 @@ TEST(Goal, AsksForAPlanFromRestAtTheWidestClearance) {
   mission.rest << -40.0, 3.0, 0.5, 0.0, 0.0, 0.0;
   const auto orders = mission.goTo({40.0, 0.0}, 1.0);
   ASSERT_TRUE(orders.has_value() && orders->plan);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning);
   const PlanRequest& request = *orders->plan;
   EXPECT_FALSE(request.moving);
   EXPECT_EQ(request.query.start.flat.position, Eigen::Vector2d(-40.0, 3.0));
@@ -56,8 +56,8 @@ TEST(Goal, RefusalLeavesTheMissionUntouched) {
   ScriptedMission mission;
   mission.setOut(5.0);
   EXPECT_FALSE(mission.goTo({99.0, 0.0}).has_value());
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
-  EXPECT_EQ(mission.supervisor.goal().position, Eigen::Vector2d(40.0, 0.0));
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor->goal().position, Eigen::Vector2d(40.0, 0.0));
 }
 
 TEST(Goal, NewOneUnderWayIsPlannedInMotion) {
@@ -65,7 +65,7 @@ TEST(Goal, NewOneUnderWayIsPlannedInMotion) {
   mission.setOut(6.0);
   const auto orders = mission.goTo({0.0, 30.0});
   ASSERT_TRUE(orders.has_value() && orders->plan);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kReplanning);
   EXPECT_TRUE(orders->plan->moving);
   EXPECT_NEAR(orders->plan->query.start.flat.velocity.norm(), 4.0, 1e-6);
   EXPECT_NEAR(orders->plan->start_time_s, mission.now_s + mission.options.planning_latency_s, 1e-9);
@@ -76,15 +76,15 @@ TEST(Goal, PlansThatFailAreTriedNarrowerThenGivenUpWithTheReason) {
   auto orders = mission.goTo({40.0, 0.0});
   std::optional<PlanRequest> request = orders->plan;
   std::vector<double> tried;
-  for (int k = 0; k < 100 && mission.supervisor.phase() != Phase::kFailed; ++k) {
+  for (int k = 0; k < 100 && mission.supervisor->phase() != Phase::kFailed; ++k) {
     if (request) {
       tried.push_back(request->query.limits.clearance_m);
       (void)mission.refuse(*request, "no way at all");
     }
     request = mission.update(0.1).plan;
   }
-  ASSERT_EQ(mission.supervisor.phase(), Phase::kFailed);
-  EXPECT_NE(mission.supervisor.reason().find("no way at all"), std::string::npos);
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kFailed);
+  EXPECT_NE(mission.supervisor->reason().find("no way at all"), std::string::npos);
   const std::size_t levels = mission.options.side_clearances_m.size();
   ASSERT_EQ(tried.size(), 3 * levels);
   for (std::size_t k = 0; k < tried.size(); ++k) {
@@ -98,7 +98,7 @@ TEST(Goal, RepliesToReplacedRequestsAreIgnored) {
   const auto second = mission.goTo({30.0, 0.0});
   const Orders orders = mission.answer(*first->plan, test::eastward({0.0, 0.0}, 40.0, 4.0));
   EXPECT_FALSE(orders.sail);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning);
   EXPECT_TRUE(mission.answer(*second->plan, test::eastward({0.0, 0.0}, 30.0, 3.0)).sail);
 }
 

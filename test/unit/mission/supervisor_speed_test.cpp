@@ -15,28 +15,28 @@ TEST(SupervisorSpeed, LimitsPlansFromRest) {
   ScriptedMission mission(test::openWater(), options);
   mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
   EXPECT_NEAR(mission.goTo({40.0, 0.0})->plan->query.limits.speed_max_mps, 0.98 * 2.0, 1e-12);
-  ASSERT_TRUE(mission.supervisor.setSpeedMax(1.0));
+  ASSERT_TRUE(mission.supervisor->setSpeedMax(1.0));
   EXPECT_NEAR(mission.goTo({30.0, 0.0})->plan->query.limits.speed_max_mps, 0.98, 1e-12);
   // Less than a vessel can steer by is refused and leaves the limit as it was.
-  EXPECT_FALSE(mission.supervisor.setSpeedMax(0.1));
-  EXPECT_FALSE(mission.supervisor.setSpeedMax(-1.0));
-  EXPECT_EQ(mission.supervisor.speedMax(), 1.0);
+  EXPECT_FALSE(mission.supervisor->setSpeedMax(0.1));
+  EXPECT_FALSE(mission.supervisor->setSpeedMax(-1.0));
+  EXPECT_EQ(mission.supervisor->speedMax(), 1.0);
 }
 
 TEST(SupervisorSpeed, PlansAnewForALimitSetUnderWay) {
   ScriptedMission mission;
   mission.setOut(6.0);
   EXPECT_FALSE(mission.update(0.1).plan);
-  ASSERT_TRUE(mission.supervisor.setSpeedMax(1.0));
+  ASSERT_TRUE(mission.supervisor->setSpeedMax(1.0));
   const Orders orders = mission.update(0.1);
   ASSERT_TRUE(orders.plan);
   EXPECT_TRUE(orders.plan->moving);
   EXPECT_NEAR(orders.plan->query.limits.speed_max_mps, 0.98, 1e-12);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kReplanning);
   // What is taken carries the limit to the tracker, and is the end of it.
-  const double from = orders.plan->start_time_s - mission.supervisor.sailed().start_time_s;
+  const double from = orders.plan->start_time_s - mission.supervisor->sailed().start_time_s;
   const Orders taken = mission.answer(
-      *orders.plan, stopping::remainder(mission.supervisor.sailed().trajectory, from));
+      *orders.plan, stopping::remainder(mission.supervisor->sailed().trajectory, from));
   ASSERT_TRUE(taken.sail);
   EXPECT_NEAR(taken.sail->speed_max_mps, 0.98, 1e-12);
   EXPECT_FALSE(mission.update(0.1).plan);
@@ -45,15 +45,15 @@ TEST(SupervisorSpeed, PlansAnewForALimitSetUnderWay) {
 TEST(SupervisorSpeed, StopsWhereNoPlanKeepsToALimitSetUnderWay) {
   ScriptedMission mission;
   mission.setOut(6.0);
-  ASSERT_TRUE(mission.supervisor.setSpeedMax(1.0));
-  for (int i = 0; i < 60 && mission.supervisor.phase() != Phase::kStopping; ++i) {
+  ASSERT_TRUE(mission.supervisor->setSpeedMax(1.0));
+  for (int i = 0; i < 60 && mission.supervisor->phase() != Phase::kStopping; ++i) {
     const Orders orders = mission.update(0.1);
     if (orders.plan) {
       (void)mission.refuse(*orders.plan, "too fast");
     }
   }
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
-  EXPECT_NE(mission.supervisor.reason().find("1.00 m/s"), std::string::npos);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kStopping);
+  EXPECT_NE(mission.supervisor->reason().find("1.00 m/s"), std::string::npos);
 }
 
 // A higher limit is no hurry: a faster plan is asked for once, and taken if it is faster.
@@ -62,10 +62,10 @@ TEST(SupervisorSpeed, LooksForAFasterPlanWhenTheLimitRises) {
   options.speed_max_mps = 4.0;
   ScriptedMission mission(test::openWater(), options);
   mission.setOut(6.0);
-  ASSERT_TRUE(mission.supervisor.setSpeedMax(0.0));
+  ASSERT_TRUE(mission.supervisor->setSpeedMax(0.0));
   const Orders orders = mission.update(0.1);
   ASSERT_TRUE(orders.plan);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
   (void)mission.refuse(*orders.plan, "none");
   EXPECT_FALSE(mission.update(0.1).plan);
 }

@@ -25,13 +25,13 @@ trajectory::Trajectory aroundIt(const PlanRequest& request) {
 TEST(Supervisor, SailsAndArrives) {
   ScriptedMission mission;
   mission.setOut(5.0);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
-  while (mission.supervisor.phase() == Phase::kSailing && mission.now_s < 200.0) {
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+  while (mission.supervisor->phase() == Phase::kSailing && mission.now_s < 200.0) {
     const Orders orders = mission.update(0.1);
     EXPECT_FALSE(orders.plan || orders.sail || orders.stop);
   }
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kArrived);
-  EXPECT_EQ(mission.supervisor.replans(), 0);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kArrived);
+  EXPECT_EQ(mission.supervisor->replans(), 0);
 }
 
 TEST(Supervisor, KeepsThePlanWhileTheWayIsClear) {
@@ -41,18 +41,18 @@ TEST(Supervisor, KeepsThePlanWhileTheWayIsClear) {
   EXPECT_FALSE(mission.update(0.1).plan);
   mission.put({-35.0, -1.0}, {-34.0, 1.0});  // astern already
   EXPECT_FALSE(mission.update(0.1).plan);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
 }
 
 TEST(Supervisor, ReplansInMotionWhenTheWayIsBlocked) {
   ScriptedMission mission;
   mission.setOut(6.0);
-  const trajectory::TimedTrajectory before = mission.supervisor.sailed();
+  const trajectory::TimedTrajectory before = mission.supervisor->sailed();
   mission.put({5.0, -1.0}, {6.0, 1.0});
   const Orders orders = mission.update(0.1);
   ASSERT_TRUE(orders.plan);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
-  EXPECT_NE(mission.supervisor.reason().find("on the way"), std::string::npos);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kReplanning);
+  EXPECT_NE(mission.supervisor->reason().find("on the way"), std::string::npos);
   const PlanRequest request = *orders.plan;
   const double joint = request.start_time_s - before.start_time_s;
   EXPECT_LT((request.query.start.flat.position - before.trajectory.flat(joint).position).norm(),
@@ -62,8 +62,8 @@ TEST(Supervisor, ReplansInMotionWhenTheWayIsBlocked) {
   mission.now_s += 0.25;
   const Orders answered = mission.answer(request, aroundIt(request));
   ASSERT_TRUE(answered.sail);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
-  EXPECT_EQ(mission.supervisor.replans(), 1);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor->replans(), 1);
   // Up to the joint it is the old way, after it the new one, without a jump.
   const trajectory::TimedTrajectory& sail = *answered.sail;
   for (double t = mission.now_s; t < request.start_time_s; t += 0.01) {
@@ -86,7 +86,7 @@ TEST(Supervisor, MeetsWhatMovesOnTheMissionsClock) {
     ScriptedMission mission;
     mission.layer = disc;
     mission.setOut(6.0);
-    EXPECT_EQ(mission.supervisor.phase() == Phase::kReplanning, disc == &then);
+    EXPECT_EQ(mission.supervisor->phase() == Phase::kReplanning, disc == &then);
   }
 }
 
@@ -103,17 +103,17 @@ TEST(Supervisor, StopsInTimeWithoutAPlanAndGoesOnFromRest) {
   mission.put({5.0, -40.0}, {6.0, 40.0});
   bool stopping = false;
   std::optional<PlanRequest> request;
-  for (int k = 0; k < 400 && mission.supervisor.phase() != Phase::kStopped; ++k) {
+  for (int k = 0; k < 400 && mission.supervisor->phase() != Phase::kStopped; ++k) {
     const Orders orders = mission.update(0.1);
-    stopping = stopping || (orders.sail && mission.supervisor.phase() == Phase::kStopping);
+    stopping = stopping || (orders.sail && mission.supervisor->phase() == Phase::kStopping);
     if (orders.plan) {
       (void)mission.refuse(*orders.plan, "walled in");
     }
     EXPECT_GE(mission.field.clearance(mission.situation().state.head<2>()), 0.8);
   }
   EXPECT_TRUE(stopping);
-  ASSERT_EQ(mission.supervisor.phase(), Phase::kStopped);
-  EXPECT_EQ(mission.supervisor.stops(), 1);
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kStopped);
+  EXPECT_EQ(mission.supervisor->stops(), 1);
   const Orders orders = mission.update(0.1);
   ASSERT_TRUE(orders.plan);
   EXPECT_FALSE(orders.plan->moving);
@@ -121,21 +121,21 @@ TEST(Supervisor, StopsInTimeWithoutAPlanAndGoesOnFromRest) {
   EXPECT_GT(here.x(), -5.0);  // no earlier than needed
   const Orders sailing = mission.answer(*orders.plan, eastward(here, 20.0, 3.0));
   EXPECT_TRUE(sailing.sail);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
 }
 
 TEST(Supervisor, GivesUpSafelyWhenTheGoalIsWalledOff) {
   ScriptedMission mission;
   mission.setOut(6.0);
   mission.put({5.0, -49.9}, {6.0, 49.9});
-  for (int k = 0; k < 1000 && mission.supervisor.phase() != Phase::kFailed; ++k) {
+  for (int k = 0; k < 1000 && mission.supervisor->phase() != Phase::kFailed; ++k) {
     const Orders orders = mission.update(0.1);
     if (orders.plan) {
       (void)mission.refuse(*orders.plan, "walled off");
     }
   }
-  ASSERT_EQ(mission.supervisor.phase(), Phase::kFailed);
-  EXPECT_NE(mission.supervisor.reason().find("walled off"), std::string::npos);
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kFailed);
+  EXPECT_NE(mission.supervisor->reason().find("walled off"), std::string::npos);
   EXPECT_LT(mission.situation().state.tail<3>().norm(), 1e-6);
 }
 
@@ -166,7 +166,7 @@ TEST(Supervisor, GoesBackToSailingWithoutAPlanWhenTheWayClears) {
   mission.grid = clear;
   mission.field = test::fieldOf(clear);
   (void)mission.update(0.1);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
 }
 
 TEST(Supervisor, StopsOnLostOdometryAndTrackerFaults) {
@@ -174,19 +174,19 @@ TEST(Supervisor, StopsOnLostOdometryAndTrackerFaults) {
   mission.setOut(6.0);
   Situation silent = mission.situation();
   mission.now_s += 1.5;
-  Orders orders = mission.supervisor.update(mission.now_s, silent, mission.field);
+  Orders orders = mission.supervisor->update(mission.now_s, silent, mission.field);
   EXPECT_TRUE(orders.stop);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
-  EXPECT_NE(mission.supervisor.reason().find("odometry"), std::string::npos);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kStopping);
+  EXPECT_NE(mission.supervisor->reason().find("odometry"), std::string::npos);
 
   ScriptedMission other;
   other.setOut(6.0);
   Situation fault = other.situation();
   fault.tracker_fault = true;
   fault.tracker_reason = "solver";
-  orders = other.supervisor.update(other.now_s, fault, other.field);
+  orders = other.supervisor->update(other.now_s, fault, other.field);
   EXPECT_TRUE(orders.stop);
-  EXPECT_NE(other.supervisor.reason().find("solver"), std::string::npos);
+  EXPECT_NE(other.supervisor->reason().find("solver"), std::string::npos);
 }
 
 TEST(Supervisor, FarOffTheTrajectoryItPlansFromTheVessel) {
@@ -196,7 +196,7 @@ TEST(Supervisor, FarOffTheTrajectoryItPlansFromTheVessel) {
   astray.state[vessel::kY] += 4.0;
   astray.tracking_error_m = 4.0;
   mission.now_s += 0.1;
-  const Orders orders = mission.supervisor.update(mission.now_s, astray, mission.field);
+  const Orders orders = mission.supervisor->update(mission.now_s, astray, mission.field);
   ASSERT_TRUE(orders.plan);
   EXPECT_NEAR(orders.plan->query.start.flat.position.y(), 4.0, 1e-6);
   EXPECT_NEAR(orders.plan->query.start.flat.velocity.x(), 4.0, 0.1);
@@ -206,13 +206,13 @@ TEST(Supervisor, CancelBrakesAndIsIdleThen) {
   ScriptedMission mission;
   mission.setOut(6.0);
   const Orders orders =
-      mission.supervisor.cancel(mission.now_s, mission.situation(), mission.field);
+      mission.supervisor->cancel(mission.now_s, mission.situation(), mission.field);
   EXPECT_TRUE(orders.sail);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
-  for (int k = 0; k < 400 && mission.supervisor.phase() == Phase::kStopping; ++k) {
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kStopping);
+  for (int k = 0; k < 400 && mission.supervisor->phase() == Phase::kStopping; ++k) {
     (void)mission.update(0.1);
   }
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kIdle);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kIdle);
 }
 
 TEST(Supervisor, PlansAnewWhenItDoesNotSettle) {
@@ -221,9 +221,9 @@ TEST(Supervisor, PlansAnewWhenItDoesNotSettle) {
   mission.now_s += 60.0;
   Situation off = mission.situation();
   off.state[vessel::kPsi] = 1.0;
-  (void)mission.supervisor.update(mission.now_s, off, mission.field);
+  (void)mission.supervisor->update(mission.now_s, off, mission.field);
   off.odometry_stamp_s = mission.now_s;
-  const Orders orders = mission.supervisor.update(mission.now_s, off, mission.field);
+  const Orders orders = mission.supervisor->update(mission.now_s, off, mission.field);
   ASSERT_TRUE(orders.plan);
   EXPECT_FALSE(orders.plan->moving);
   EXPECT_EQ(orders.plan->query.start.psi_rad, 1.0);
@@ -236,7 +236,7 @@ TEST(Supervisor, TakesOnlyImprovementsThatSaveTime) {
   mission.setOut(1.5);
   const Orders orders = mission.update(1.0);
   ASSERT_TRUE(orders.plan);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
   EXPECT_FALSE(mission.answer(*orders.plan, orders.plan->query.warm_start).sail);
   const Orders again = mission.update(2.1);
   ASSERT_TRUE(again.plan);
@@ -281,9 +281,9 @@ TEST(Supervisor, KeepsAStopInAHardBend) {
   ASSERT_TRUE(m.answer(*orders->plan, trajectory::Trajectory(pieces)).sail);
   for (int k = 0; k < 25; ++k) {
     (void)m.update(0.1);
-    ASSERT_EQ(m.supervisor.phase(), Phase::kSailing);
-    const trajectory::TimedTrajectory& sailed = m.supervisor.sailed();
-    const std::optional<trajectory::TimedTrajectory>& stop = m.supervisor.lastStop();
+    ASSERT_EQ(m.supervisor->phase(), Phase::kSailing);
+    const trajectory::TimedTrajectory& sailed = m.supervisor->sailed();
+    const std::optional<trajectory::TimedTrajectory>& stop = m.supervisor->lastStop();
     ASSERT_TRUE(stop);
     const trajectory::Trajectory& path = stop->trajectory;
     EXPECT_LT((path.flat(stop->elapsed(m.now_s)).position -
@@ -305,7 +305,7 @@ TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {
     plan.outcome = planner::Outcome::kSolved;
     plan.trajectory = eastward({-40.0, 0.0}, length_m, 4.0);
     plan.left_m = left_m;
-    return m.supervisor.planFinished(m.now_s, request.id, plan, m.situation(), m.obstacles());
+    return m.supervisor->planFinished(m.now_s, request.id, plan, m.situation(), m.obstacles());
   };
   std::optional<PlanRequest> asked = m.goTo({40.0, 0.0})->plan;
   for (int k = 0; k < 10 && asked && !asked->query.may_end_early; ++k) {
@@ -316,7 +316,7 @@ TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {
   ASSERT_TRUE(asked->query.may_end_early);
   EXPECT_EQ(asked->query.limits.clearance_m, m.clearance(3));
   ASSERT_TRUE(part(*asked, 40.0, 40.0).sail);
-  EXPECT_EQ(m.supervisor.phase(), Phase::kSailing);
+  EXPECT_EQ(m.supervisor->phase(), Phase::kSailing);
   // Improvements are asked for; what leads no further is left.
   std::optional<PlanRequest> better;
   for (int k = 0; k < 40 && !better; ++k) {
@@ -325,14 +325,14 @@ TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {
   ASSERT_TRUE(better);
   EXPECT_TRUE(better->query.warm_start.empty());
   EXPECT_FALSE(part(*better, 40.0, 39.0).sail);
-  for (int k = 0; k < 400 && m.supervisor.phase() != Phase::kStopped; ++k) {
+  for (int k = 0; k < 400 && m.supervisor->phase() != Phase::kStopped; ++k) {
     if (const Orders later = m.update(0.1); later.plan) {
       (void)m.refuse(*later.plan, "none");
     }
   }
-  ASSERT_EQ(m.supervisor.phase(), Phase::kStopped);
-  EXPECT_EQ(m.supervisor.stops(), 0);
-  EXPECT_NE(m.supervisor.reason().find("40 m of the way"), std::string::npos);
+  ASSERT_EQ(m.supervisor->phase(), Phase::kStopped);
+  EXPECT_EQ(m.supervisor->stops(), 0);
+  EXPECT_NE(m.supervisor->reason().find("40 m of the way"), std::string::npos);
   EXPECT_TRUE(m.update(0.1).plan);
 }
 
@@ -345,7 +345,7 @@ TEST(Supervisor, HasAllRoundsAgainAfterAPartOfTheWay) {
   std::optional<PlanRequest> asked = m.goTo({40.0, 0.0})->plan;
   const auto next = [&] {
     asked.reset();
-    for (int k = 0; k < 100 && !asked && m.supervisor.phase() != Phase::kFailed; ++k) {
+    for (int k = 0; k < 100 && !asked && m.supervisor->phase() != Phase::kFailed; ++k) {
       asked = m.update(0.1).plan;
     }
   };
@@ -360,19 +360,19 @@ TEST(Supervisor, HasAllRoundsAgainAfterAPartOfTheWay) {
   plan.trajectory = eastward({-40.0, 0.0}, 40.0, 4.0);
   plan.left_m = 40.0;
   ASSERT_TRUE(
-      m.supervisor.planFinished(m.now_s, asked->id, plan, m.situation(), m.obstacles()).sail);
-  for (int k = 0; k < 400 && m.supervisor.phase() != Phase::kStopped; ++k) {
+      m.supervisor->planFinished(m.now_s, asked->id, plan, m.situation(), m.obstacles()).sail);
+  for (int k = 0; k < 400 && m.supervisor->phase() != Phase::kStopped; ++k) {
     if (const Orders later = m.update(0.1); later.plan) {
       (void)m.refuse(*later.plan, "none");
     }
   }
-  ASSERT_EQ(m.supervisor.phase(), Phase::kStopped);
+  ASSERT_EQ(m.supervisor->phase(), Phase::kStopped);
   for (std::size_t k = 0; k < levels; ++k) {
     next();
     ASSERT_TRUE(asked);
     (void)m.refuse(*asked, "none");
   }
-  EXPECT_NE(m.supervisor.phase(), Phase::kFailed);
+  EXPECT_NE(m.supervisor->phase(), Phase::kFailed);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ Blown blow(ScriptedMission& mission, double duration_s, const Force& force) {
   for (int k = 0; k < static_cast<int>(std::lround(10.0 * duration_s)); ++k) {
     mission.now_s += 0.1;
     mission.disturbance.force_n = force(0.1 * k);
-    Orders orders = mission.supervisor.update(mission.now_s, mission.situation(), mission.field);
+    Orders orders = mission.supervisor->update(mission.now_s, mission.situation(), mission.field);
     if (orders.plan) {
       blown.plans.push_back(*orders.plan);
     }
@@ -94,7 +94,7 @@ TEST(SupervisorInWind, LeavesThrustForWhatWavesTurn) {
   ASSERT_TRUE(otter);
   const auto thrustShare = [&](double sway_mps) {
     ScriptedMission mission(openWater(), knowing());
-    mission.supervisor = Supervisor(mission.options, *otter, 1);
+    mission.supervisor = Supervisor::create(mission.options, *otter, 1);
     for (int k = 0; k < 300; ++k) {
       mission.rest[vessel::kSway] = sway_mps * std::sin(0.25 * k);
       blow(mission, 0.1, [](double) { return Vector2d(-40.0, 0.0); });
@@ -114,7 +114,7 @@ TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
   Situation behind = mission.situation();
   behind.state.x() -= 2.0;
   behind.tracking_error_m = 2.0;
-  const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
+  const Orders orders = mission.supervisor->update(mission.now_s, behind, mission.field);
   ASSERT_TRUE(orders.plan);
   EXPECT_NEAR(orders.plan->thrust_share, mission.options.thrust_share - 0.1, 1e-9);
   // It begins where the vessel is, with no more force than the plan may use.
@@ -132,7 +132,7 @@ TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   EXPECT_TRUE(blow(mission, 2.0, steady).plans.empty());
   const Blown blown = blow(mission, 6.0, [](double) { return Vector2d(-60.0, 0.0); });
   ASSERT_FALSE(blown.plans.empty());
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kReplanning);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kReplanning);
   EXPECT_TRUE(blown.plans.front().moving);
   EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.x(), -10.0);
 }
@@ -152,12 +152,12 @@ TEST(SupervisorInWind, PlansForStillWaterIfAsked) {
 // The estimate begins at nothing and overshoots: the first plan waits for what it comes to.
 TEST(SupervisorInWind, PlansOnceTheWeatherIsKnown) {
   ScriptedMission mission;
-  mission.supervisor = Supervisor(mission.options, vessel::Parameters{}, 1);
+  mission.supervisor = Supervisor::create(mission.options, vessel::Parameters{}, 1);
   const auto orders = mission.goTo({20.0, 0.0});
   ASSERT_TRUE(orders);
   EXPECT_FALSE(orders->plan);
   EXPECT_TRUE(orders->stop);  // held meanwhile
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning);
   const Force transient = [](double t) { return Vector2d(t < 0.5 ? -60.0 : -4.0, 0.0); };
   EXPECT_TRUE(blow(mission, 0.8, transient).plans.empty());
   const Blown blown = blow(mission, 0.6, steady);
@@ -168,7 +168,7 @@ TEST(SupervisorInWind, PlansOnceTheWeatherIsKnown) {
 // More than a light load still rises.
 TEST(SupervisorInWind, WaitsAMomentMoreInAFreshWind) {
   ScriptedMission mission(openWater(), knowing());
-  mission.supervisor = Supervisor(mission.options, vessel::Parameters{}, 1);
+  mission.supervisor = Supervisor::create(mission.options, vessel::Parameters{}, 1);
   mission.rest[vessel::kPsi] = kPi;
   ASSERT_TRUE(mission.goTo({20.0, 0.0}).has_value());
   const Force rising = [](double t) { return Vector2d(std::min(14.0 * t, 42.0), 0.0); };
@@ -220,7 +220,7 @@ std::vector<PlanRequest> refusedAll(ScriptedMission& mission, const Force& force
   while (asked.size() < times) {
     Situation behind = mission.situation();
     behind.tracking_error_m = 2.0;
-    const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
+    const Orders orders = mission.supervisor->update(mission.now_s, behind, mission.field);
     if (!orders.plan) {
       ADD_FAILURE() << "no request after " << asked.size();
       break;
@@ -275,7 +275,7 @@ TEST(SupervisorInWind, StopsWhereItIsSetAsideAndThereIsNoPlan) {
     Situation aside = mission.situation();
     aside.state.y() += 2.0;
     aside.tracking_error_m = 2.0;
-    const Orders orders = mission.supervisor.update(mission.now_s, aside, mission.field);
+    const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
     stopped = orders.stop;
     if (orders.plan) {
       (void)mission.refuse(*orders.plan, "no");
@@ -284,7 +284,7 @@ TEST(SupervisorInWind, StopsWhereItIsSetAsideAndThereIsNoPlan) {
   EXPECT_TRUE(stopped);
   EXPECT_GT(off_s, 1.0);
   EXPECT_LT(off_s, 2.0);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kStopping);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kStopping);
 }
 
 // At once where it is set towards something.
@@ -299,7 +299,7 @@ TEST(SupervisorInWind, StopsWhereItIsSetTowardsSomething) {
     aside.state[vessel::kSway] = set_mps;
     const Vector2d here = aside.state.head<2>();
     mission.put(here + Vector2d(-2.0, 2.5), here + Vector2d(2.0, 4.0));
-    const Orders orders = mission.supervisor.update(mission.now_s, aside, mission.field);
+    const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
     EXPECT_EQ(orders.stop, set_mps > 0.0);
   }
 }
@@ -316,7 +316,7 @@ TEST(SupervisorInWind, MakesRoomOffALeeShoreBeforeItPlans) {
     ASSERT_TRUE(orders && orders->plan);
     (void)mission.refuse(*orders->plan, "no");
     const Orders next = mission.update(0.1);
-    EXPECT_EQ(mission.supervisor.phase(), shore ? Phase::kBackingOff : Phase::kPlanning);
+    EXPECT_EQ(mission.supervisor->phase(), shore ? Phase::kBackingOff : Phase::kPlanning);
     ASSERT_EQ(next.sail.has_value(), shore);
     if (shore) {
       const trajectory::Trajectory& path = next.sail->trajectory;
@@ -342,7 +342,7 @@ TEST(SupervisorInWind, MakesNoRoomWhereSomethingWillPass) {
   ASSERT_TRUE(orders && orders->plan);
   (void)mission.refuse(*orders->plan, "no");
   (void)mission.update(0.1);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning) << mission.supervisor.reason();
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning) << mission.supervisor->reason();
 }
 
 TEST(SupervisorInWind, WaitsAMinuteForLessWind) {
@@ -351,9 +351,9 @@ TEST(SupervisorInWind, WaitsAMinuteForLessWind) {
   blow(mission, 40.0, storm);
   (void)mission.goTo({20.0, 0.0});
   blow(mission, 40.0, storm);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kPlanning) << mission.supervisor.reason();
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning) << mission.supervisor->reason();
   blow(mission, 30.0, storm);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kFailed);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kFailed);
 }
 
 TEST(SupervisorInWind, LaunchesAVesselAgainThatHasHardlyGotUnderWay) {
@@ -363,7 +363,7 @@ TEST(SupervisorInWind, LaunchesAVesselAgainThatHasHardlyGotUnderWay) {
     Situation behind = mission.situation();
     behind.state[vessel::kSurge] = surge;
     behind.tracking_error_m = 2.0;
-    const Orders orders = mission.supervisor.update(mission.now_s, behind, mission.field);
+    const Orders orders = mission.supervisor->update(mission.now_s, behind, mission.field);
     ASSERT_TRUE(orders.plan);
     EXPECT_EQ(trajectory::atRest(orders.plan->query.start), surge < 1.0);
   }
@@ -382,11 +382,12 @@ TEST(SupervisorInWind, ArrivesBowToTheLoadWhereTheGoalsHeadingCannotBeHeld) {
   mission.now_s += 20.0;
   Situation there = mission.situation();
   there.state << 20.3, 0.0, -1.5, 0.0, 0.0, 0.0;
-  (void)mission.supervisor.update(mission.now_s, there, mission.field);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kArrived);
-  EXPECT_NE(mission.supervisor.reason().find("0.30 m from the goal (0.90 m allowed), but 1.50 rad"),
-            std::string::npos)
-      << mission.supervisor.reason();
+  (void)mission.supervisor->update(mission.now_s, there, mission.field);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kArrived);
+  EXPECT_NE(
+      mission.supervisor->reason().find("0.30 m from the goal (0.90 m allowed), but 1.50 rad"),
+      std::string::npos)
+      << mission.supervisor->reason();
 }
 
 TEST(SupervisorInWind, InCalmWaterTheGoalsHeadingCounts) {
@@ -396,8 +397,8 @@ TEST(SupervisorInWind, InCalmWaterTheGoalsHeadingCounts) {
   mission.now_s += 20.0;
   Situation there = mission.situation();
   there.state << 20.3, 0.0, -1.5, 0.0, 0.0, 0.0;
-  (void)mission.supervisor.update(mission.now_s, there, mission.field);
-  EXPECT_NE(mission.supervisor.phase(), Phase::kArrived);
+  (void)mission.supervisor->update(mission.now_s, there, mission.field);
+  EXPECT_NE(mission.supervisor->phase(), Phase::kArrived);
 }
 
 // The plan on the way ends on the goal's heading; then it begins to blow.
@@ -408,7 +409,7 @@ TEST(SupervisorInWind, PlansForAnotherHeadingAtTheGoalOnce) {
   const Blown blown = blow(mission, 8.0, abeam);
   ASSERT_EQ(blown.plans.size(), 1u);
   EXPECT_NEAR(blown.plans.front().query.goal.psi_rad, -0.5 * kPi, 0.1);
-  EXPECT_NE(mission.supervisor.reason().find("heading at the goal"), std::string::npos);
+  EXPECT_NE(mission.supervisor->reason().find("heading at the goal"), std::string::npos);
 }
 
 TEST(SupervisorInWind, AHeadingLostInAGustEndsBowToTheWind) {
@@ -418,9 +419,9 @@ TEST(SupervisorInWind, AHeadingLostInAGustEndsBowToTheWind) {
     Situation lost = mission.situation();
     lost.state[vessel::kPsi] += off_rad;
     lost.tracking_error_m = 2.0;
-    const Orders orders = mission.supervisor.update(mission.now_s, lost, mission.field);
+    const Orders orders = mission.supervisor->update(mission.now_s, lost, mission.field);
     EXPECT_EQ(orders.stop, off_rad > 1.0);
-    EXPECT_EQ(mission.supervisor.phase(), off_rad > 1.0 ? Phase::kStopping : Phase::kReplanning);
+    EXPECT_EQ(mission.supervisor->phase(), off_rad > 1.0 ? Phase::kStopping : Phase::kReplanning);
   }
 }
 
@@ -432,7 +433,7 @@ TEST(SupervisorInWind, SlowsDownForGustsThatTakeTheMoment) {
   windy.manoeuvring.wind_yaw_kg = -0.66;
   for (const double mean_mps : {4.0, 8.0}) {
     ScriptedMission mission;
-    mission.supervisor = Supervisor(mission.options, windy, 1);
+    mission.supervisor = Supervisor::create(mission.options, windy, 1);
     mission.knowWeather();
     mission.setOut(4.0);
     std::optional<PlanRequest> asked;
@@ -444,8 +445,8 @@ TEST(SupervisorInWind, SlowsDownForGustsThatTakeTheMoment) {
     if (asked) {
       EXPECT_TRUE(asked->moving);
       EXPECT_LT(asked->query.limits.speed_max_mps, 2.5);
-      EXPECT_NE(mission.supervisor.reason().find("gusts take"), std::string::npos)
-          << mission.supervisor.reason();
+      EXPECT_NE(mission.supervisor->reason().find("gusts take"), std::string::npos)
+          << mission.supervisor->reason();
     }
   }
 }
@@ -459,7 +460,7 @@ TEST(SupervisorInWind, NoHeadingIsLostWhereThePathWantsNone) {
     Situation turned = mission.situation();
     turned.state[vessel::kPsi] += 1.4;
     turned.tracking_error_m = 1.0;
-    const Orders orders = mission.supervisor.update(mission.now_s, turned, mission.field);
+    const Orders orders = mission.supervisor->update(mission.now_s, turned, mission.field);
     EXPECT_EQ(orders.stop, push_n == 0.0);
   }
 }
@@ -483,7 +484,7 @@ TEST(SupervisorInWind, IsImpatientOffItsTrajectoryWithSomethingNear) {
       const Vector2d here = aside.state.head<2>();
       mission.put(here + Vector2d(-2.0, -3.0), here + Vector2d(2.0, -1.8));
     }
-    const Orders orders = mission.supervisor.update(mission.now_s, aside, mission.field);
+    const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
     EXPECT_EQ(orders.stop, near && away_mps > 0.0);
   }
 }
@@ -497,10 +498,10 @@ TEST(SupervisorInWind, HoldsAndRefusesWhereTheThrustDoesNotSuffice) {
   const Blown first = blow(mission, 10.0, gale);
   EXPECT_TRUE(first.stop || orders->stop);  // the tracker keeps the place
   EXPECT_TRUE(first.plans.empty());
-  EXPECT_NE(mission.supervisor.reason().find("N in gusts"), std::string::npos)
-      << mission.supervisor.reason();
+  EXPECT_NE(mission.supervisor->reason().find("N in gusts"), std::string::npos)
+      << mission.supervisor->reason();
   blow(mission, 60.0, gale);
-  EXPECT_EQ(mission.supervisor.phase(), Phase::kFailed);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kFailed);
 }
 
 }  // namespace

@@ -13,27 +13,28 @@ namespace {
 class TrackerAllocation : public ::testing::Test {
  protected:
   TrackerAllocation()
-      : tracker_(*config::load<Options>(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml"),
-                 vessel::Parameters{}) {
+      : tracker_(Tracker::create(
+            *config::load<Options>(std::string(OTTER_NAV_SOURCE_DIR) + "/config/tracker.yaml"),
+            vessel::Parameters{})) {
     vessel::FlatPoint goal;
     goal.position.x() = 30.0;
-    const auto status = tracker_.setTrajectory(
+    const auto status = tracker_->setTrajectory(
         {trajectory::Trajectory({trajectory::hermitePiece({}, goal, 20.0)}), now_s_});
     EXPECT_TRUE(status) << status.error().message;
     EXPECT_EQ(cycle().mode, Mode::kTracking);
     before_ = test::allocations;
   }
   Command cycle() {
-    tracker_.addOdometry(now_s_, state_);
-    const Command command = tracker_.step(now_s_);
-    tracker_.prepare(now_s_ + 0.01);
+    tracker_->addOdometry(now_s_, state_);
+    const Command command = tracker_->step(now_s_);
+    tracker_->prepare(now_s_ + 0.01);
     now_s_ += 0.01;
     return command;
   }
 
   double now_s_ = 100.0;
   vessel::State state_ = vessel::State::Zero();
-  Tracker tracker_;
+  std::unique_ptr<Tracker> tracker_;
   int before_ = 0;
 };
 
