@@ -92,16 +92,15 @@ void OccupancyMap::Sensed::project(std::size_t index, CellRectangle& changed) {
   }
 }
 
-// Where the vessel is, nothing else is.
+// Where the vessel is, nothing else is. What lies right beside it stays, though no echo of it is
+// taken for more than the hull's own.
 void OccupancyMap::Sensed::clearOwnHull(const vessel::Pose& own, CellRectangle& changed) {
   const GridGeometry& g = chart.geometry;
-  const double reach = vessel::circumscribedRadius(hull) + 2.0 * hull_margin_m;
-  const CellRectangle near = g.around(own.position, reach);
+  const CellRectangle near = g.around(own.position, vessel::circumscribedRadius(hull));
   for (int row = near.row; row < near.row + near.height; ++row) {
     for (int column = near.column; column < near.column + near.width; ++column) {
       const std::size_t index = g.index(column, row);
-      if (layers.occupied(index) &&
-          vessel::covers(hull, own, g.centreOf(column, row), hull_margin_m) &&
+      if (layers.occupied(index) && vessel::covers(hull, own, g.centreOf(column, row), 0.0) &&
           layers.clear(index)) {
         project(index, changed);
       }
@@ -119,15 +118,20 @@ void OccupancyMap::Sensed::insert(const SensorPose& sensor, const vessel::Pose& 
   const GridGeometry& g = chart.geometry;
   const Eigen::Matrix3d rotation = sensor.rotation();
   layers.beginScan();
+  const auto endOf = [&](std::size_t i) {
+    return Eigen::Vector3d(sensor.position +
+                           (scan.ranges_m[i] + kBehindItsFaceM) * (rotation * scan.direction(i)));
+  };
+  const auto isOwn = [&](const Eigen::Vector3d& end) {
+    return vessel::covers(hull, own, end.head<2>(), hull_margin_m);
+  };
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (!scan.metSomething(i)) {
       continue;
     }
-    const Eigen::Vector3d end =
-        sensor.position + (scan.ranges_m[i] + kBehindItsFaceM) * (rotation * scan.direction(i));
+    const Eigen::Vector3d end = endOf(i);
     const int layer = layers.layers().at(end.z());
-    if (layer < 0 || !g.contains(end.head<2>()) ||
-        vessel::covers(hull, own, end.head<2>(), hull_margin_m)) {
+    if (layer < 0 || !g.contains(end.head<2>()) || isOwn(end)) {
       continue;
     }
     const Eigen::Vector2i cell = g.cellAt(end.head<2>());
@@ -137,7 +141,9 @@ void OccupancyMap::Sensed::insert(const SensorPose& sensor, const vessel::Pose& 
     }
   }
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    if (!scan.metNothing(i) && !scan.metSomething(i)) {
+    // An echo beside the hull may be a thing's, and no hit of it keeps its cell: such a beam tells
+    // nothing.
+    if (!scan.metNothing(i) && (!scan.metSomething(i) || isOwn(endOf(i)))) {
       continue;
     }
     walkBeam(g, layers.layers(), sensor.position, rotation * scan.direction(i),

@@ -155,10 +155,27 @@ TEST(OccupancyMap, OnlyTheHullIsMaskedWhereverTheSensorSits) {
   EXPECT_EQ(cellAt(map, 0.01, 1.4), Cell::kOccupied);
   // What drifted under the stern is gone.
   ASSERT_TRUE(
-      map.insertScan(sensorAt(0.0, -4.0, 0.5 * kPi), {{0.0, -4.0}, 0.5 * kPi}, aheadOnly(2.9F)));
-  ASSERT_EQ(cellAt(map, 0.01, -1.1), Cell::kOccupied);
+      map.insertScan(sensorAt(0.0, -4.0, 0.5 * kPi), {{0.0, -4.0}, 0.5 * kPi}, aheadOnly(3.1F)));
+  ASSERT_EQ(cellAt(map, 0.01, -0.9), Cell::kOccupied);
   ASSERT_TRUE(map.insertScan(sensor, own, openWater(1)));
-  EXPECT_EQ(cellAt(map, 0.01, -1.1), Cell::kFree);
+  EXPECT_EQ(cellAt(map, 0.01, -0.9), Cell::kFree);
+}
+
+// It was seen from farther off; right beside the hull its echoes may be the hull's own, but what is
+// known of it stays until a beam has passed there.
+TEST(OccupancyMap, WhatLiesBesideTheHullStays) {
+  OccupancyMap map(coast(), kHull, kOptions);
+  ASSERT_TRUE(insert(map, sensorAt(0.7, -4.0, 0.5 * kPi), aheadOnly(4.1F)));
+  ASSERT_EQ(cellAt(map, 0.7, 0.1), Cell::kOccupied);
+  const auto toStarboard = [](float range) { return Scan{-0.5 * kPi, 0.1, 0.2, 15.0, {range}}; };
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_TRUE(insert(map, sensorAt(0.0, 0.1, 0.5 * kPi), toStarboard(0.6F)));
+    EXPECT_EQ(cellAt(map, 0.7, 0.1), Cell::kOccupied) << k;
+  }
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_TRUE(insert(map, sensorAt(0.0, 0.1, 0.5 * kPi), toStarboard(kInf)));
+  }
+  EXPECT_EQ(cellAt(map, 0.7, 0.1), Cell::kFree);
 }
 
 TEST(OccupancyMap, MalformedScansAreRefusedWithAReason) {
