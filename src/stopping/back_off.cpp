@@ -154,11 +154,21 @@ class BackingOff {
     constexpr double kMostLengths = 4.0;
     constexpr double kMostS = 40.0;
     const double end = piece.duration_s;
-    const double aside_mps =
-        vessel::setAside(vessel_.manoeuvring, disturbance_, piece.spinHeading(end)[0]);
-    if (!outlineKeepsClear(Trajectory({piece}), 0.0, vessel_, obstacles_.startingAt(node.time_s),
-                           keep_m_ + aside_mps * end, true)) {
-      return false;
+    // As it is meant, and as wind and current carry the hull meanwhile: not for long where it is
+    // slow, for then the tracker holds the hull there.
+    constexpr double kHoldsAfterS = 1.0;
+    const double psi = piece.spinHeading(end)[0];
+    const double carries_s =
+        vessel::canLie(vessel_.manoeuvring, disturbance_, psi) ? std::min(end, kHoldsAfterS) : end;
+    Piece carried = piece;
+    carried.position.col(1) += carries_s / end *
+                               vessel::driftAbeam(vessel_.manoeuvring, disturbance_, psi) *
+                               across(unitVector(psi));
+    for (const Piece& way : {piece, carried}) {
+      if (!outlineKeepsClear(Trajectory({way}), 0.0, vessel_, obstacles_.startingAt(node.time_s),
+                             keep_m_, true)) {
+        return false;
+      }
     }
     node.position = piece.flat(end).position;
     node.time_s += end;

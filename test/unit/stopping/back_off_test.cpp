@@ -57,6 +57,17 @@ TEST(BackOff, StaysWhereTheWindWouldSetItAgainstTheWall) {
   EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, abeam));
 }
 
+// What carries it off what lies beside it is no reason to stay.
+TEST(BackOff, GoesWhereTheWindSetsItOffTheWall) {
+  map::OccupancyGrid grid = test::openWater();
+  test::block(grid, {1.3, -10.0}, {2.0, 10.0});
+  test::block(grid, {-1.5, 0.9}, {1.3, 2.0});
+  const vessel::Parameters otter;
+  vessel::Disturbance abeam;
+  abeam.force_n = {0.0, -20.0};
+  EXPECT_TRUE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, abeam));
+}
+
 // A hull twice as long needs more room to turn, and gets it.
 TEST(BackOff, GoesFurtherWithALongerHull) {
   map::OccupancyGrid grid = test::openWater();
