@@ -131,6 +131,22 @@ PlanRequest PlanRequests::onward(double now_s, trajectory::TimedTrajectory lead,
   return request;
 }
 
+bool PlanRequests::mayBeFaster(std::size_t level, double pace_share, const vessel::State& state,
+                               const feasibility::Obstacles& obstacles) {
+  constexpr double kMarkedly = 1.25;
+  if (pace_share >= 1.0) {
+    return false;
+  }
+  safety.inUnknownWater(isUnknownNear(state.head<2>(), obstacles));
+  return paceShare(level) > kMarkedly * pace_share;
+}
+
+double PlanRequests::paceShare(std::size_t level) const {
+  feasibility::SafetyLimits usual = feasibility::SafetyLimits::of(vessel_, 0.0);
+  usual.limitSpeed(safety.speedMax());
+  return safety.paceAt(level, usual.speed_max_mps) / usual.speed_max_mps;
+}
+
 PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
                                      const vessel::Pose& goal,
                                      const feasibility::Obstacles& obstacles) {
@@ -191,6 +207,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   asked_->speed_max_mps = safety.speedMax();
   asked_->slow = safety.slowShare() < 1.0;
   asked_->level = safety.level();
+  asked_->pace_share = paceShare(asked_->level);
   return request;
 }
 

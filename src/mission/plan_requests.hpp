@@ -45,6 +45,7 @@ class PlanRequests {
     double speed_max_mps = 0.0;  // the mission's, when it was asked for
     bool slow = false;           // asked for because there was none at the usual speed
     std::size_t level = 0;       // of the clearances
+    double pace_share = 1.0;     // of the usual speed, where it wanders too much for that
     double left_m = 0.0;         // what the answer leaves of the way to the goal
     // What the plan continues, from the sailed trajectory on; empty: that itself.
     trajectory::TimedTrajectory lead;
@@ -66,6 +67,10 @@ class PlanRequests {
   // When something new can begin on the sailed trajectory.
   [[nodiscard]] std::optional<double> joint(double now_s,
                                             const trajectory::TimedTrajectory& sailed) const;
+  // Whether what is known of the water round the vessel, and of how it wanders, lets plans on a
+  // level be markedly faster than at that share of the usual speed.
+  [[nodiscard]] bool mayBeFaster(std::size_t level, double pace_share, const vessel::State& state,
+                                 const feasibility::Obstacles& obstacles);
   PlanRequest fromVessel(double now_s, const vessel::State& state, const vessel::Pose& goal,
                          const feasibility::Obstacles& obstacles);
 
@@ -86,6 +91,7 @@ class PlanRequests {
   PlanningLatency latency;
 
  private:
+  [[nodiscard]] double paceShare(std::size_t level) const;
   PlanRequest ask(double now_s, PlanRequest request, const vessel::Pose& goal, double thrust_share,
                   From from, const feasibility::Obstacles& obstacles);
 

@@ -84,21 +84,25 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
   limits.disturbance = planDisturbance();
   // What it wanders, as far as the level has room for it; half as much each time there was no plan.
-  const double beside = options_.side_clearances_m[levels_.level()];
-  const double most = std::max(kWanderM, beside);
-  const double wanted = (in_unknown_water_ && beside > kWanderM ? kTimesWander : 1.0) * reach();
-  limits.hull_margin_m =
-      std::max(kPlanMarginM, std::pow(0.5, times_refused_) * std::min(most, wanted));
+  const double most = std::max(kWanderM, options_.side_clearances_m[levels_.level()]);
+  limits.hull_margin_m = std::max(
+      kPlanMarginM, std::pow(0.5, times_refused_) * std::min(most, wandersAt(levels_.level())));
   limits.limitSpeed(options_.speed_max_mps);
-  limits.speed_max_mps *= slowShare();
-  // Where it wanders by most of the room it has, a slower plan leaves thrust to keep it on its way.
-  if (!plansWithWeather() && wanted > kMostOfRoom * beside) {
-    limits.speed_max_mps *= kSlower;
-    if (in_unknown_water_) {
-      limits.speed_max_mps = std::min(limits.speed_max_mps, kCrawlingPerS * vessel_.hull.length_m);
-    }
-  }
+  limits.speed_max_mps = paceAt(levels_.level(), limits.speed_max_mps * slowShare());
   return limits;
+}
+
+double Safety::wandersAt(std::size_t level) const {
+  const bool has_room = options_.side_clearances_m[level] > kWanderM;
+  return (in_unknown_water_ && has_room ? kTimesWander : 1.0) * reach();
+}
+
+double Safety::paceAt(std::size_t level, double usual_mps) const {
+  if (plansWithWeather() || wandersAt(level) <= kMostOfRoom * options_.side_clearances_m[level]) {
+    return usual_mps;
+  }
+  const double slower = kSlower * usual_mps;
+  return in_unknown_water_ ? std::min(slower, kCrawlingPerS * vessel_.hull.length_m) : slower;
 }
 
 double Safety::sailingSpeed(double usual_mps) const {

@@ -84,6 +84,9 @@ class Safety {
   [[nodiscard]] double sailingSpeed(double usual_mps) const;
   // Of the speed that plans may usually have: what can't be planned fast may be planned slow.
   [[nodiscard]] double slowShare() const;
+  // Of `usual_mps`: where the vessel wanders by most of the room that a level has, a slower plan
+  // leaves thrust to keep it on its way.
+  [[nodiscard]] double paceAt(std::size_t level, double usual_mps) const;
 
   void setOptions(const SupervisorOptions& options) { options_ = options; }
   // Of all plans from now on; 0: the vessel's alone.
@@ -124,6 +127,9 @@ class Safety {
   void tryLevel(std::size_t level) { levels_.begin(level); }
 
  private:
+  // What room that takes, m.
+  [[nodiscard]] double wandersAt(std::size_t level) const;
+
   SupervisorOptions options_;
   vessel::Parameters vessel_;
   ClearanceLevels levels_;

@@ -436,6 +436,13 @@ class Decider final : public Supervisor {
     const double period = is_last_resort_ ? last_resort : options_.improve_period_s;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
   }
+  // A plan was made slow while nobody knew the water or how the vessel wanders; now they do.
+  bool isNeedlesslySlow(const Moment& m) {
+    constexpr double kAgainS = 1.0;
+    constexpr double kLeftS = 4.0;
+    return m.now_s - plan_time_s_ >= kAgainS && sailed_.left(m.now_s) > kLeftS &&
+           plans_.mayBeFaster(planned_level_, planned_pace_share_, m.situation.state, m.obstacles);
+  }
 
   // What was free when it set off may not be any more: the water astern is the less known.
   bool isBlocked(const Moment& m) {
@@ -532,11 +539,18 @@ class Decider final : public Supervisor {
     for_clearance_ = false;
     return planFromSailed(m);
   }
+  Orders planFaster(const Moment& m) {
+    safety().tryLevel(planned_level_);
+    return improve(m);
+  }
   Orders planToImprove(const Moment& m) {
-    plan_time_s_ = m.now_s;
     if (is_last_resort_) {
       safety().tryLevel(planned_level_);
     }
+    return improve(m);
+  }
+  Orders improve(const Moment& m) {
+    plan_time_s_ = m.now_s;
     Orders orders = planFromSailed(m);
     safety().tryWidest();
     if (orders.plan) {
@@ -763,6 +777,7 @@ class Decider final : public Supervisor {
       {kUnderWay, &Decider::endsOnAWrongHeading, &Decider::planForGoalHeading},
       {kUnderWay, &Decider::hasNewSpeedMax, &Decider::planForSpeedMax},
       {kReplanning, &Decider::always, &Decider::planFromSailed},
+      {kSailing, &Decider::isNeedlesslySlow, &Decider::planFaster},
       {kSailing, &Decider::mayImprove, &Decider::planToImprove},
 
       {kManoeuvring, &Decider::hasFault, &Decider::stopForFault},
@@ -1020,6 +1035,7 @@ class Decider final : public Supervisor {
     is_last_resort_ =
         asked.slow || asked.left_m > 0.0 || stopping::restsBeforeItsEnd(sailed_.trajectory);
     planned_level_ = asked.level;
+    planned_pace_share_ = asked.pace_share;
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
     planned_limits_ = asked.request.query.limits;
     planned_thrust_share_ = asked.request.thrust_share;
@@ -1168,6 +1184,7 @@ class Decider final : public Supervisor {
   double planned_left_m_ = 0.0;  // of the way, from the sailed trajectory's end to the goal
   double nearest_left_m_ = std::numeric_limits<double>::infinity();  // where a part of it ended
   std::size_t planned_level_ = 0;
+  double planned_pace_share_ = 1.0;           // of the usual speed
   double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;         // and with
   feasibility::SafetyLimits planned_limits_;  // all of it

@@ -268,6 +268,43 @@ TEST(Supervisor, CrawlsNearUnknownWater) {
   EXPECT_NEAR(speedAsked(4.0), 0.8, 1e-9);
 }
 
+// A plan that was made slow because nobody had seen the water is not sailed slowly for all the way:
+// once it is known, a faster one is asked for, and taken, once.
+TEST(Supervisor, WhatWasPlannedSlowInUnknownWaterIsPlannedAnewOnceItIsKnown) {
+  for (const bool is_seen : {false, true}) {
+    ScriptedMission m;
+    map::OccupancyGrid seen = m.grid;
+    test::block(seen, {4.0, -10.0}, {14.0, 10.0});
+    m.known.emplace(test::fieldOf(seen));
+    std::optional<PlanRequest> asked = m.goTo({20.0, 0.0})->plan;
+    for (std::size_t k = 1; k < m.options.side_clearances_m.size() && asked; ++k) {
+      (void)m.refuse(*asked, "none");
+      asked = m.update(0.1).plan;
+    }
+    ASSERT_TRUE(asked);
+    ASSERT_TRUE(m.answer(*asked, test::eastward({0.0, 0.0}, 20.0, 0.7)).sail);
+    if (is_seen) {
+      m.known.reset();
+    }
+    asked.reset();
+    for (int k = 0; k < 40 && !asked; ++k) {
+      asked = m.update(0.1).plan;
+    }
+    EXPECT_EQ(asked.has_value(), is_seen);
+    if (asked) {
+      EXPECT_GT(asked->query.limits.speed_max_mps, 2.0);
+      vessel::FlatPoint end;
+      end.position = {20.0, 0.0};
+      ASSERT_TRUE(m.answer(*asked, trajectory::Trajectory({trajectory::hermitePiece(
+                                       asked->query.start.flat, end, 15.0)}))
+                      .sail);
+      for (int k = 0; k < 60; ++k) {
+        EXPECT_FALSE(m.update(0.1).plan);
+      }
+    }
+  }
+}
+
 // Where none can begin at the moment, as in a bend taken at the limit, one that begins later is
 // kept.
 TEST(Supervisor, KeepsAStopInAHardBend) {
