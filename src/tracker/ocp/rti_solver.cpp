@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracker/qp/active_set.hpp"
+#include "tracker/qp/interior_point.hpp"
+#include "tracker/qp/projected_newton.hpp"
+
 namespace otter_nav::tracker {
 
 RtiSolver::RtiSolver(const OcpOptions& problem, const RtiOptions& options,
                      const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters)
-    : options_(options),
-      problem_(problem),
-      model_(model, thrusters),
-      qp_(problem.stages),
-      active_set_(options.active_set_iterations),
-      projected_newton_(options.projected_newton_iterations),
-      interior_point_(options.interior_point_iterations) {
+    : options_(options), problem_(problem), model_(model, thrusters), qp_(problem.stages) {
+  // A strategy is a class of the folder qp/ and a line here.
+  strategies_.push_back(std::make_unique<qp::ActiveSet>(options.active_set_iterations));
+  strategies_.push_back(std::make_unique<qp::ProjectedNewton>(options.projected_newton_iterations));
+  strategies_.push_back(std::make_unique<qp::InteriorPoint>(options.interior_point_iterations));
   plan_.states.fill(vessel::State::Zero());
   plan_.thrusts.fill(vessel::Thrusts::Zero());
 }
@@ -58,17 +60,15 @@ SolverStatus RtiSolver::prepare(const OcpReference& reference) {
 }
 
 SolverStatus RtiSolver::solve() {
-  qp::Outcome outcome = active_set_.solve(qp_);
-  iterations_ = outcome.iterations;
-  if (outcome.status == SolverStatus::kIterationsExhausted) {
-    outcome = projected_newton_.solve(qp_);
+  SolverStatus status = SolverStatus::kIterationsExhausted;
+  iterations_ = 0;
+  for (std::size_t i = 0; status == SolverStatus::kIterationsExhausted && i < strategies_.size();
+       ++i) {
+    const qp::Outcome outcome = strategies_[i]->solve(qp_);
     iterations_ += outcome.iterations;
+    status = outcome.status;
   }
-  if (outcome.status == SolverStatus::kIterationsExhausted) {
-    outcome = interior_point_.solve(qp_);
-    iterations_ += outcome.iterations;
-  }
-  return outcome.status;
+  return status;
 }
 
 SolverStatus RtiSolver::feedback(const vessel::State& measured) {

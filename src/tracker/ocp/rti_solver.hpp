@@ -8,11 +8,12 @@
 // stall, by the interior point method.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "tracker/ocp/problem.hpp"
 #include "tracker/ocp/shooting.hpp"
-#include "tracker/qp/active_set.hpp"
-#include "tracker/qp/interior_point.hpp"
-#include "tracker/qp/projected_newton.hpp"
+#include "tracker/qp/box_qp.hpp"
 
 namespace otter_nav::tracker {
 
@@ -65,10 +66,8 @@ class RtiSolver {
   ControlProblem problem_;
   StageModel model_;
   Plan plan_;
-  qp::BoxQp qp_;  // in deviations from the plan
-  qp::ActiveSet active_set_;
-  qp::ProjectedNewton projected_newton_;
-  qp::InteriorPoint interior_point_;
+  qp::BoxQp qp_;                                           // in deviations from the plan
+  std::vector<std::unique_ptr<qp::Strategy>> strategies_;  // the first that doesn't give up counts
   SolverStatus prepared_ = SolverStatus::kNotFinite;
   int iterations_ = 0;
   double last_step_ = 0.0;

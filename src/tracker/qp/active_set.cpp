@@ -2,7 +2,7 @@
 
 namespace otter_nav::tracker::qp {
 
-Outcome ActiveSet::solve(BoxQp& qp) const {
+Outcome ActiveSet::solve(BoxQp& qp) {
   Outcome outcome;
   qp.rollOut();
   int changed = qp.reviseHolds();

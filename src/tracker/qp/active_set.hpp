@@ -8,11 +8,11 @@
 
 namespace otter_nav::tracker::qp {
 
-class ActiveSet {
+class ActiveSet final : public Strategy {
  public:
   explicit ActiveSet(int iterations) : iterations_(iterations) {}
   // From the held set that `qp` is factored with. Without iterations left du may be out of bounds.
-  [[nodiscard]] Outcome solve(BoxQp& qp) const;
+  [[nodiscard]] Outcome solve(BoxQp& qp) override;
 
  private:
   int iterations_;

@@ -79,4 +79,11 @@ class BoxQp {
   std::array<Feedback, kMaxStages> feedbacks_;
 };
 
+// One way to solve it.
+class Strategy {
+ public:
+  virtual ~Strategy() = default;
+  [[nodiscard]] virtual Outcome solve(BoxQp& qp) = 0;
+};
+
 }  // namespace otter_nav::tracker::qp

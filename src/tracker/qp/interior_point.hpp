@@ -34,12 +34,12 @@ struct BarrierVariable {
   [[nodiscard]] double gapAfter(double primal_share, double dual_share) const;
 };
 
-class InteriorPoint {
+class InteriorPoint final : public Strategy {
  public:
   explicit InteriorPoint(int iterations) : iterations_(iterations) {}
   // From the du of `qp`, which may be out of bounds, and its last factors (for the multipliers'
   // size). du keeps to the bounds however it ends, dx follows it.
-  [[nodiscard]] Outcome solve(BoxQp& qp);
+  [[nodiscard]] Outcome solve(BoxQp& qp) override;
 
  private:
   template <typename Visit>

@@ -34,12 +34,7 @@ void ProjectedNewton::differentiate(const BoxQp& qp) {
   for (int k = n - 1; k >= 0; --k) {
     const Stage& s = qp.linear[k];
     const double adjoint[6] = {p[0], p[1], q[0], q[1], q[2], q[3]};
-    Pack back = adjoint[0] * s.a[0];
-    Pack input_part = adjoint[0] * s.bc[0];
-    for (int row = 1; row < 6; ++row) {
-      back += adjoint[row] * s.a[row];
-      input_part += adjoint[row] * s.bc[row];
-    }
+    const auto [back, input_part] = throughStage(s, adjoint);
     for (int i = 0; i < 2; ++i) {
       const InputCost& c = qp.input_costs[k];
       gradient_[k][i] = c.weight[i] * qp.du[k][i] + c.gradient[i] + input_part[i];

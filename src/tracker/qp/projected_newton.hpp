@@ -8,12 +8,12 @@
 
 namespace otter_nav::tracker::qp {
 
-class ProjectedNewton {
+class ProjectedNewton final : public Strategy {
  public:
   explicit ProjectedNewton(int iterations) : iterations_(iterations) {}
   // From the better of the feedback that `qp` is factored with, clipped, and du = 0 (within the
   // bounds). du keeps to the bounds however it ends.
-  [[nodiscard]] Outcome solve(BoxQp& qp);
+  [[nodiscard]] Outcome solve(BoxQp& qp) override;
 
  private:
   double start(BoxQp& qp);

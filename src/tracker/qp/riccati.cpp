@@ -160,12 +160,7 @@ void updateGradient(const Stage& s, const StateCost& state, const InputCost& inp
                     const Value& next, Value& value, Feedback& f) {
   const Pack q = next.p_q + f.pc_q;
   const double g[6] = {next.p_p[0] + f.pc_p[0], next.p_p[1] + f.pc_p[1], q[0], q[1], q[2], q[3]};
-  Pack back = g[0] * s.a[0];
-  Pack input_part = g[0] * s.bc[0];
-  for (int row = 1; row < 6; ++row) {
-    back += g[row] * s.a[row];
-    input_part += g[row] * s.bc[row];
-  }
+  const auto [back, input_part] = throughStage(s, g);
   for (int i = 0; i < 2; ++i) {
     f.h[i] = input_part[i] + input.gradient[i];
   }

@@ -57,6 +57,21 @@ struct alignas(32) Feedback {
   double pc_p[2];
 };
 
+// What a slope `g` by the next stage's state is by this one's (psi, u, v, r; x and y keep theirs),
+// and by the columns of bc: A'g and bc'g.
+struct Backward {
+  Pack state;
+  Pack input;
+};
+[[nodiscard]] inline Backward throughStage(const Stage& stage, const double (&g)[6]) {
+  Backward back{g[0] * stage.a[0], g[0] * stage.bc[0]};
+  for (int row = 1; row < 6; ++row) {
+    back.state += g[row] * stage.a[row];
+    back.input += g[row] * stage.bc[row];
+  }
+  return back;
+}
+
 // V(dx) at the end of the horizon.
 void terminalValue(const StateCost& cost, Value& value);
 
