@@ -22,7 +22,6 @@
 
 #include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/base/progress_line.hpp"
-#include "otter_nav/config/section.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
 #include "otter_nav/simulation/monitor.hpp"
 
@@ -146,32 +145,6 @@ bool same(const scenario::MissionLabel& a, const scenario::MissionLabel& b) {
          a.disturbance == b.disturbance && a.seed == b.seed;
 }
 
-// Whether a YAML file is map_server's.
-bool isMap(const fs::path& path) {
-  const auto root = otter_nav::config::loadFile(path.string());
-  return root && (*root)["image"];
-}
-
-// The scenario itself, or all in a folder: YAML files that aren't maps.
-std::vector<std::string> scenarioFiles(const std::string& path) {
-  if (!fs::is_directory(path)) {
-    return {path};
-  }
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    const std::string stem = entry.path().stem().string();
-    const auto endsIn = [&](const std::string& tail) {
-      return stem.size() > tail.size() && stem.substr(stem.size() - tail.size()) == tail;
-    };
-    if (entry.path().extension() == ".yaml" && !endsIn("_chart") && !endsIn("_world") &&
-        !isMap(entry.path())) {
-      files.push_back(entry.path().string());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 // "I/M": of every M missions the I-th, I from 1 on.
 struct Shard {
   int number = 1;
@@ -280,12 +253,13 @@ struct Task {
 Result<std::vector<Task>> tasksOf(const Arguments& arguments) {
   const auto chosen = parseMissions(arguments.missions);
   const auto shard = parseShard(arguments.shard);
-  if (const Status status = firstFailure(chosen, shard); !status) {
+  const auto files = scenario::scenarioFiles(arguments.scenarios);
+  if (const Status status = firstFailure(chosen, shard, files); !status) {
     return failure(status.error().message);
   }
   std::vector<Task> tasks;
   int count = 0;
-  for (const std::string& file : scenarioFiles(arguments.scenarios)) {
+  for (const std::string& file : *files) {
     auto loaded = scenario::loadScenario(file);
     if (!loaded) {
       return failure(loaded.error().message);

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -85,22 +84,13 @@ struct Bench {
   }
 };
 
-bool isScenario(const std::filesystem::path& path) {
-  const std::string stem = path.stem().string();
-  return path.extension() == ".yaml" && stem.find("_chart") == std::string::npos &&
-         stem.find("_world") == std::string::npos;
-}
-
 Status run(Bench& bench, const std::string& folder, bool world) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (isScenario(entry.path())) {
-      files.push_back(entry.path());
-    }
+  const auto files = scenario::scenarioFiles(folder);
+  if (!files) {
+    return failure(files.error().message);
   }
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) {
-    const auto scenario = scenario::loadScenario(file.string());
+  for (const std::string& file : *files) {
+    const auto scenario = scenario::loadScenario(file);
     if (!scenario) {
       return failure(scenario.error().message);
     }

@@ -165,30 +165,8 @@ Result<planner::Options> methodOptions(const planner::Options& shipped, const st
   return options;
 }
 
-Result<std::vector<std::string>> scenarioFiles(const std::string& folder) {
-  std::error_code error;
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() != ".yaml") {
-      continue;
-    }
-    const auto root = config::loadFile(entry.path().string());
-    if (root && root->IsMap() && (*root)["missions"]) {
-      files.push_back(entry.path().string());
-    }
-  }
-  if (error) {
-    return failure("--scenarios " + folder + ": " + error.message());
-  }
-  if (files.empty()) {
-    return failure("--scenarios " + folder + " holds no scenario (a .yaml file with missions)");
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 Result<Outcome> runCases(const Request& request, const std::function<void(int, int)>& progress) {
-  const auto files = scenarioFiles(request.scenarios);
+  const auto files = scenario::scenarioFiles(request.scenarios);
   const auto vessel = vessel::loadParameters(request.vessel);
   if (!files || !vessel) {
     return failure(files ? vessel.error().message : files.error().message);

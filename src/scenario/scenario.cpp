@@ -119,6 +119,12 @@ std::string poseText(const vessel::Pose& pose) {
   return text("[%.2f, %.2f, %.4f]", pose.position.x(), pose.position.y(), pose.psi_rad);
 }
 
+// Whether a YAML file is map_server's.
+bool isMap(const std::string& path) {
+  const Result<YAML::Node> root = config::loadFile(path);
+  return root && root->IsMap() && (*root)["image"];
+}
+
 }  // namespace
 
 Result<Scenario> loadScenario(const std::string& path) {
@@ -164,6 +170,24 @@ Result<Scenario> loadScenario(const std::string& path) {
     }
   }
   return scenario;
+}
+
+Result<std::vector<std::string>> scenarioFiles(const std::string& path) {
+  if (fs::is_regular_file(path)) {
+    return std::vector<std::string>{path};
+  }
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    if (entry.path().extension() == ".yaml" && !isMap(entry.path().string())) {
+      files.push_back(entry.path().string());
+    }
+  }
+  if (error || files.empty()) {
+    return failure(path + ": " + (error ? error.message() : "no scenario (a .yaml file)"));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 Result<Mission> missionOf(const Scenario& scenario, int index) {

@@ -42,6 +42,10 @@ struct Scenario {
 // one id twice is an error that names the file, the mission or vessel, and the key.
 [[nodiscard]] Result<Scenario> loadScenario(const std::string& path);
 
+// The scenario itself, or all in a folder, by name: YAML files that aren't maps. An error if there
+// is none.
+[[nodiscard]] Result<std::vector<std::string>> scenarioFiles(const std::string& path);
+
 // Mission `index`, or an error that says how many there are.
 [[nodiscard]] Result<Mission> missionOf(const Scenario& scenario, int index);
 

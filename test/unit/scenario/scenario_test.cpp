@@ -56,6 +56,14 @@ TEST_F(ScenarioFile, LoadsWhatItSays) {
   EXPECT_TRUE(missionOf(*scenario, 0).has_value());
 }
 
+TEST_F(ScenarioFile, IsFoundInAFolderAmongMaps) {
+  EXPECT_FALSE(scenarioFiles(folder_.string()).has_value());  // only maps
+  EXPECT_FALSE(scenarioFiles((folder_ / "none").string()).has_value());
+  const std::string path = write("missions: broken");
+  EXPECT_EQ(scenarioFiles(folder_.string()).value(), std::vector<std::string>{path});
+  EXPECT_EQ(scenarioFiles(path).value(), std::vector<std::string>{path});
+}
+
 TEST_F(ScenarioFile, NamesWhatIsWrong) {
   const std::string head = kHead;
   expectError("world: c.yaml\n" + std::string(kMission), "'chart'");
