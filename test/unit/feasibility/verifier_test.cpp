@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "otter_nav/optimizer/global_optimizer.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::feasibility {
 namespace {
@@ -113,6 +114,37 @@ TEST_F(VerificationTest, LimitsOfThrustSpeedAndTurning) {
   options = sound;
   options.yaw_rate_max_radps = 0.05;
   expectFault("turns too fast");
+}
+
+// In a bend the outer thruster does more than the inner one.
+TEST_F(VerificationTest, EachThrusterKeepsToItsLimit) {
+  for (const double side : {-1.0, 1.0}) {
+    const Eigen::Vector2d out(std::cos(0.9), side * std::sin(0.9));
+    vessel::FlatPoint from;
+    vessel::FlatPoint to;
+    from.position = {15.0, 30.0 + 10.0 * side};
+    from.velocity = {2.5, 0.0};
+    to.position = from.position + 3.0 * Eigen::Vector2d::UnitX() + 3.0 * out;
+    to.velocity = 2.5 * out;
+    const Trajectory bend({trajectory::hermitePiece(from, to, 2.4)});
+    Eigen::Array2d most = Eigen::Array2d::Zero();
+    for (double t = 0.0; t <= bend.duration(); t += 0.01) {
+      const vessel::Thrusts thrusts = bend.sample(t, vessel).thrusts;
+      for (const int i : {vessel::kLeft, vessel::kRight}) {
+        most[i] = std::max(most[i], vessel::shareOfLimit(thrusts[i], vessel.thrusters));
+      }
+    }
+    const int outer = side > 0.0 ? vessel::kRight : vessel::kLeft;
+    ASSERT_GT(most[outer], most[1 - outer] + 0.05);
+    options.yaw_rate_max_radps = 1e3;
+    options.thrust_share = most[outer] + 0.02;
+    const Verification sound = verify(bend, field, vessel, options);
+    EXPECT_TRUE(sound.ok) << sound.reason;
+    options.thrust_share = most[outer] - 0.02;
+    const Verification v = verify(bend, field, vessel, options);
+    EXPECT_FALSE(v.ok);
+    EXPECT_NE(v.reason.find("thrust"), std::string::npos) << v.reason;
+  }
 }
 
 TEST_F(VerificationTest, EndsNotMet) {

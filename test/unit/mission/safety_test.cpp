@@ -182,6 +182,15 @@ TEST(Safety, ClearancesGrowWithTheBeam) {
 }
 
 // The least of what thrust, the vessel's file and the mission allow.
+TEST(Safety, LeavesTheRestOfTheThrust) {
+  const vessel::Parameters vessel;
+  Safety safety(SupervisorOptions{}, vessel);
+  const double all = feasibility::SafetyLimits::of(vessel).thrust_share;
+  EXPECT_LT(all, 1.0);
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).thrust_share, 0.95 * all, 1e-12);
+  EXPECT_NEAR(safety.limits(0.4, kWideWater).thrust_share, 0.4 * all, 1e-12);
+}
+
 TEST(Safety, LimitsTheSpeed) {
   vessel::Parameters vessel;
   const SupervisorOptions options;
