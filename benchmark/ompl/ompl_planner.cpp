@@ -13,6 +13,8 @@
 #include <memory>
 #include <utility>
 
+#include "otter_nav/base/parts.hpp"
+
 namespace otter_nav::planner {
 namespace {
 
@@ -110,7 +112,7 @@ ob::PlannerStatus OmplPlanner::solve(const ob::PlannerTerminationCondition& stop
 ob::PathPtr OmplPlanner::statePath() const {
   auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
   const double duration = plan_.trajectory.duration();
-  const int steps = static_cast<int>(std::ceil(duration / kPathStepS));
+  const int steps = partsOf(duration, kPathStepS, 0);
   ob::ScopedState<> state(si_);
   for (int i = 0; i <= steps; ++i) {
     adapter_.write(plan_.trajectory.sample(duration * i / steps, vessel_), state.get());
@@ -124,7 +126,7 @@ ob::PathPtr OmplPlanner::controlPath() const {
   auto path = std::make_shared<oc::PathControl>(si_);
   const auto* space = static_cast<const oc::SpaceInformation*>(si_.get());
   const double duration = plan_.trajectory.duration();
-  const int steps = static_cast<int>(std::ceil(duration / kPathStepS));
+  const int steps = partsOf(duration, kPathStepS, 0);
   ob::ScopedState<> state(si_);
   oc::Control* control = space->allocControl();
   for (int i = 0; i < steps; ++i) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/parts.hpp"
+
 namespace otter_nav::benchmark {
 namespace {
 
@@ -78,7 +80,7 @@ void OmplRecorder::measure(const ompl::geometric::PathGeometric& path,
     const Eigen::Vector2d to = adapter.pose(path.getState(i + 1)).position;
     const double length = (to - from).norm();
     run.length_m += length;
-    const int parts = std::max(1, static_cast<int>(std::ceil(length / kSpacingM)));
+    const int parts = partsOf(length, kSpacingM);
     for (int k = 0; k <= parts; ++k) {
       const Eigen::Vector2d p = from + (to - from) * k / parts;
       run.clearance_m = std::min(run.clearance_m, field_.clearance(p));

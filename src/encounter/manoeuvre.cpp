@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/stopping/splice.hpp"
 
@@ -213,7 +214,7 @@ Trajectory slowDown(const Trajectory& sailed, double at_s, double share, double 
         z.jerk * (r[0] * r[0] * r[0]) + z.acceleration * (3.0 * r[0] * r[1]) + z.velocity * r[2];
     return slow;
   };
-  const int knots = std::max(4, static_cast<int>(std::ceil(whole / kKnotS)));
+  const int knots = partsOf(whole, kKnotS, 4);
   const double step = whole / knots;
   std::vector<Piece> pieces;
   FlatPoint before = pointAt(0.0);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::feasibility {
@@ -99,7 +100,7 @@ EdgeFault EdgeCheck::checkTurning(const vessel::FlatPoint& z) const {
 }
 
 EdgeFault EdgeCheck::checkBent(const trajectory::Piece& piece, double start_s) const {
-  const int steps = std::max(2, static_cast<int>(std::ceil(piece.duration_s / kBentStepS)));
+  const int steps = partsOf(piece.duration_s, kBentStepS, 2);
   for (int i = 0; i <= steps; ++i) {
     const double t = piece.duration_s * i / steps;
     const vessel::FlatPoint z = piece.flat(t);

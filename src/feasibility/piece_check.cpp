@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
@@ -146,7 +147,7 @@ double PieceCheck::yawRate(double t_s) const {
 Eigen::Vector2d PieceCheck::bowAt(double t_s) const {
   if (piece_.kind == trajectory::PieceKind::kSpin) {
     const double psi = piece_.spinHeading(t_s)[0];
-    return {std::cos(psi), std::sin(psi)};
+    return unitVector(psi);
   }
   if (straight_) {
     return direction_;
@@ -166,7 +167,7 @@ PieceCheck::Point PieceCheck::inSpin(double t_s) const {
   const Eigen::Vector3d psi = piece_.spinHeading(t_s);
   Point p;
   p.velocity = evaluate<7>(velocity_, t_s);
-  p.bow = {std::cos(psi[0]), std::sin(psi[0])};
+  p.bow = unitVector(psi[0]);
   const vessel::HeldDemand held =
       inverse_.held(p.bow, psi[1], psi[2], p.velocity, evaluate<6>(acceleration_, t_s));
   p.sway_n = held.sway_n;
@@ -219,8 +220,7 @@ void PieceCheck::checkDynamics(const trajectory::MotionAlong& motion, std::size_
 }
 
 void PieceCheck::checkSpin(double start_s, PieceReport& report) const {
-  const int steps =
-      std::max(2, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
+  const int steps = partsOf(piece_.duration_s, tolerances_.step_s, 2);
   Watch watch(*this, report);
   for (int i = 0; i <= steps && report.fault == Fault::kNone; ++i) {
     report.time_s = piece_.duration_s * i / steps;
@@ -239,8 +239,7 @@ void PieceCheck::checkDynamics(double start_s, PieceReport& report) const {
     checkSpin(start_s, report);
     return;
   }
-  const int steps =
-      std::max(4, static_cast<int>(std::ceil(piece_.duration_s / tolerances_.step_s)));
+  const int steps = partsOf(piece_.duration_s, tolerances_.step_s, 4);
   Watch watch(*this, report);
   const double least_force = leastHeadingForce(vessel_, limits_, tolerances_.heading_force_share);
   double branch = 0.0;  // sign of w . v
@@ -282,7 +281,7 @@ void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s, Piec
       return bowAt(t);
     }
     const double psi = motion->psi(start_s + t);
-    return {std::cos(psi), std::sin(psi)};
+    return unitVector(psi);
   };
   const PieceWalk walk(limits, tolerances_.keep_hull_clear);
   const Walked walked =

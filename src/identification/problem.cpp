@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "otter_nav/base/parts.hpp"
+
 namespace otter_nav::identification {
 namespace {
 
@@ -121,7 +123,7 @@ double Problem::evaluateWindow(std::size_t window, const Eigen::VectorXd& variab
 
 void Problem::advance(const Model& model, const Sample& sample, double dt, vessel::State& state,
                       Sensitivity* sensitivity) const {
-  const int steps = std::max(1, static_cast<int>(std::ceil(dt / kMaxStep)));
+  const int steps = partsOf(dt, kMaxStep);
   for (int k = 0; k < steps; ++k) {
     if (sensitivity != nullptr) {
       stepWithSensitivity(model, set_.map, options_.estimate_current, sample.thrusts, dt / steps,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
@@ -23,7 +24,7 @@ std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, doub
   constexpr double kLeastSpeedShare = 0.4;  // of the speed limit, where that is less
   const double least = std::min(kLeastSpeedMps, kLeastSpeedShare * whole.speed_max_mps);
   const trajectory::Trajectory& sailed = whole.trajectory;
-  const int steps = static_cast<int>(std::ceil((sailed.duration() - at_s) / kStepS));
+  const int steps = partsOf(sailed.duration() - at_s, kStepS, 0);
   for (int k = 0; k < steps; ++k) {
     const double t = at_s + k * kStepS;
     const trajectory::Piece& piece = sailed.pieces()[sailed.pieceAt(t)];

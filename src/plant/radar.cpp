@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::plant {
 
 std::vector<Eigen::Vector2d> Radar::scan(const std::vector<OtherVessel>& others,
@@ -21,7 +23,7 @@ std::vector<Eigen::Vector2d> Radar::scan(const std::vector<OtherVessel>& others,
   if (random_.uniform() < RadarOptions::kFalsePerScan) {
     const double range = options_.range_m * std::sqrt(random_.uniform());
     const double bearing = random_.uniform(-kPi, kPi);
-    in_base.emplace_back(range * std::cos(bearing), range * std::sin(bearing));
+    in_base.emplace_back(range * unitVector(bearing));
   }
   return in_base;
 }

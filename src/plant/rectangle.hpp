@@ -20,7 +20,7 @@ struct Rectangle {
 
   Rectangle(const vessel::Hull& hull, const Eigen::Vector2d& position, double psi_rad)
       : centre(position),
-        ahead(std::cos(psi_rad), std::sin(psi_rad)),
+        ahead(unitVector(psi_rad)),
         half(0.5 * hull.length_m, 0.5 * hull.beam_m),
         corners(vessel::outline(hull, position, psi_rad)) {}
 

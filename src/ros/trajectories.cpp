@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/trajectory/joint.hpp"
 
@@ -115,7 +116,7 @@ nav_msgs::Path toPath(const trajectory::Trajectory& trajectory, double start_s, 
   if (trajectory.empty()) {
     return path;
   }
-  const int steps = std::max(1, static_cast<int>(std::ceil(trajectory.duration() / step_s)));
+  const int steps = partsOf(trajectory.duration(), step_s);
   for (int i = 0; i <= steps; ++i) {
     const double t_s = trajectory.duration() * i / steps;
     const vessel::State state = trajectory.sample(t_s, vessel).state;

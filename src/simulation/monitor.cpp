@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/plant/hull_contact.hpp"
@@ -93,7 +94,7 @@ std::string Monitor::fault(const TimedTrajectory& stop, double now_s) const {
   constexpr double kStepS = 0.05;
   const double end = stop.trajectory.duration();
   const double from = std::clamp(stop.elapsed(now_s), 0.0, end);
-  const int steps = static_cast<int>(std::ceil((end - from) / kStepS));
+  const int steps = partsOf(end - from, kStepS, 0);
   for (int k = 0; k <= steps; ++k) {
     const double t = std::min(end, from + k * kStepS);
     const vessel::State x = stop.trajectory.sample(t, vessel_).state;

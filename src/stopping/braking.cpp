@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/splice.hpp"
@@ -53,7 +54,7 @@ FlatPoint slowedPoint(const Trajectory& sailed, double at_s, double t, double du
 }
 
 Trajectory slowed(const Trajectory& sailed, double at_s, double duration_s) {
-  const int knots = std::max(4, static_cast<int>(std::ceil(duration_s / kKnotS)));
+  const int knots = partsOf(duration_s, kKnotS, 4);
   const double step = duration_s / knots;
   std::vector<Piece> pieces;
   FlatPoint previous = slowedPoint(sailed, at_s, 0.0, duration_s);
@@ -68,7 +69,7 @@ Trajectory slowed(const Trajectory& sailed, double at_s, double duration_s) {
 double leastClearance(const Trajectory& trajectory, const feasibility::Obstacles& obstacles) {
   constexpr double kStepS = 0.05;
   double least = std::numeric_limits<double>::infinity();
-  const int steps = static_cast<int>(std::ceil(trajectory.duration() / kStepS));
+  const int steps = partsOf(trajectory.duration(), kStepS, 0);
   for (int k = 0; k <= steps; ++k) {
     const double t = k * kStepS;
     least = std::min(least, obstacles.clearance(trajectory.flat(t).position, t));
@@ -80,7 +81,7 @@ double leastClearance(const Trajectory& trajectory, const feasibility::Obstacles
 bool keepsAsternShare(const Trajectory& trajectory, const vessel::Parameters& vessel) {
   constexpr double kShare = 0.9;
   constexpr double kStepS = 0.05;
-  const int steps = static_cast<int>(std::ceil(trajectory.duration() / kStepS));
+  const int steps = partsOf(trajectory.duration(), kStepS, 0);
   for (int k = 0; k <= steps; ++k) {
     const double least = trajectory.sample(k * kStepS, vessel).thrusts.minCoeff();
     if (least < -kShare * vessel.thrusters.astern_max_n) {

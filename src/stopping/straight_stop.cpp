@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::stopping {
@@ -118,7 +119,7 @@ trajectory::Trajectory straightStop(const FlatPoint& from, const StraightStop& s
   std::vector<trajectory::Piece> pieces;
   FlatPoint previous = from;
   const auto append = [&](double begin_s, double duration_s) {
-    const int knots = static_cast<int>(std::ceil(duration_s / kPieceMostS));
+    const int knots = partsOf(duration_s, kPieceMostS, 0);
     const double step = duration_s / knots;
     for (int k = 1; k <= knots; ++k) {
       const double end = begin_s + k * step;

@@ -1,8 +1,6 @@
 #include "tracker/trajectory_check.hpp"
 
-#include <algorithm>
-#include <cmath>
-
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/trajectory/joint.hpp"
 
@@ -15,9 +13,9 @@ constexpr double kStepS = 0.05;
 
 Status checkSpeed(const trajectory::Piece& p, std::size_t i, double top_speed_mps) {
   const double most = kTooFast * top_speed_mps;
-  const int steps = static_cast<int>(std::ceil(p.duration_s / kStepS));
+  const int steps = partsOf(p.duration_s, kStepS);
   for (int k = 0; k <= steps; ++k) {
-    const double t = p.duration_s * k / std::max(steps, 1);
+    const double t = p.duration_s * k / steps;
     const double speed = p.flat(t).velocity.norm();
     if (speed > most) {
       return failure(text("pieces[%zu]: %g m/s at %g s, the vessel can %g m/s (at most %g)", i,

@@ -24,7 +24,7 @@ double toEnd(double value, const Span& span) {
 template <typename Weigh>
 double sumOverRectangle(const std::vector<Eigen::Vector2d>& points, double direction_rad,
                         Weigh weigh) {
-  const Eigen::Vector2d ahead(std::cos(direction_rad), std::sin(direction_rad));
+  const Eigen::Vector2d ahead = unitVector(direction_rad);
   const Eigen::Vector2d port = across(ahead);
   const Span along = spanOf(points, ahead);
   const Span athwart = spanOf(points, port);

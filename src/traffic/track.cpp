@@ -43,7 +43,7 @@ Outline grown(const Track& track, const Eigen::Vector2d& position, double t_s,
   Outline outline;
   outline.position = position;
   outline.heading_rad = track.heading_rad + turnedBy(track, t_s);
-  const Eigen::Vector2d ahead(std::cos(outline.heading_rad), std::sin(outline.heading_rad));
+  const Eigen::Vector2d ahead = unitVector(outline.heading_rad);
   const Eigen::Vector2d port = across(ahead);
   outline.half_length_m = growth(ahead);
   outline.half_beam_m = growth(port);
@@ -59,7 +59,7 @@ Outline grown(const Track& track, const Eigen::Vector2d& position, double t_s,
 }  // namespace
 
 Outline::Distance Outline::distanceTo(const Eigen::Vector2d& point) const {
-  const Eigen::Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad));
+  const Eigen::Vector2d ahead = unitVector(heading_rad);
   const Eigen::Vector2d port = across(ahead);
   const Eigen::Vector2d off = point - position;
   const Eigen::Vector2d local(ahead.dot(off), port.dot(off));

@@ -23,10 +23,6 @@ constexpr double kCourseSigmas = 2.5;
 constexpr double kBriefTurnS = 5.0;
 constexpr double kSteadyTurnS = 40.0;
 
-Eigen::Vector2d unit(double angle_rad) {
-  return {std::cos(angle_rad), std::sin(angle_rad)};
-}
-
 // A cluster in the axes of a hull: what is seen of it, and from where. A side is seen whole when
 // the line of sight doesn't graze it.
 struct View {
@@ -169,7 +165,7 @@ Track TrackedVessel::track() const {
 }
 
 Eigen::Vector2d TrackedVessel::ahead() const {
-  return unit(*heading_rad);
+  return unitVector(*heading_rad);
 }
 
 double TrackedVessel::halfDepth(const Eigen::Vector2d& along) const {
@@ -186,7 +182,8 @@ Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d
   const bool young = hits < kYoungHits && size == Size::kGuessed;
   const bool headed = heading_rad && !young;
   const Eigen::Vector2d ahead =
-      headed ? unit(*heading_rad) : (cluster.points[cluster.points.size() / 2] - eye).normalized();
+      headed ? unitVector(*heading_rad)
+             : (cluster.points[cluster.points.size() / 2] - eye).normalized();
   const Eigen::Vector2d port = across(ahead);
   const View view(cluster, eye, ahead);
   Middle middle[2];
@@ -231,7 +228,7 @@ void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye
   if (!heading_rad) {
     return;
   }
-  const View view(cluster, eye, unit(*heading_rad));
+  const View view(cluster, eye, unitVector(*heading_rad));
   const bool guessed = size == Size::kGuessed;
   // Both have to be seen before a guess is left; what is cut off is longer than it seems.
   const bool cut = cluster.out_of_range || cluster.first_hidden || cluster.last_hidden;
@@ -263,7 +260,7 @@ Eigen::Vector2d TrackedVessel::middleFromReported() const {
   if (!dimensions || !heading_rad) {
     return Eigen::Vector2d::Zero();
   }
-  const Eigen::Vector2d ahead = unit(*heading_rad);
+  const Eigen::Vector2d ahead = unitVector(*heading_rad);
   return 0.5 * (dimensions->to_bow_m - dimensions->to_stern_m) * ahead +
          0.5 * (dimensions->to_port_m - dimensions->to_starboard_m) * across(ahead);
 }

@@ -337,7 +337,7 @@ class Tracker::Impl {
 
   void begin(const Cluster& cluster, const Eigen::Vector2d& eye, double stamp_s) {
     const double direction = rectangleDirection(cluster.points);
-    const Eigen::Vector2d ahead(std::cos(direction), std::sin(direction));
+    const Eigen::Vector2d ahead = unitVector(direction);
     TrackedVessel vessel(next_id_, positionMeasurement(cluster.points.front(), 1.0), stamp_s,
                          kLidar);
     const Measurement first = vessel.measure(cluster, eye);
@@ -412,7 +412,7 @@ class Tracker::Impl {
     const double course = lies ? 0.0 : radiansFromEast(m.course_deg);
     Measurement measurement;
     measurement.has_velocity = true;
-    measurement.value << middle.x(), middle.y(), speed * std::cos(course), speed * std::sin(course);
+    measurement.value << middle, speed * unitVector(course);
     measurement.covariance.diagonal() << deviation * deviation, deviation * deviation,
         kAisVelocityMps * kAisVelocityMps, kAisVelocityMps * kAisVelocityMps;
     return measurement;

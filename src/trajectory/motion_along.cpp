@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -38,8 +39,7 @@ void MotionAlong::follow(std::optional<double> psi_start_rad) {
   double rate = 0.0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
-    const int steps =
-        std::max(kFewestSteps, static_cast<int>(std::ceil(piece.duration_s / kStepS)));
+    const int steps = partsOf(piece.duration_s, kStepS, kFewestSteps);
     const double h = piece.duration_s / steps;
     first_.push_back(points_.size());
     for (int k = 0; k <= steps; ++k) {

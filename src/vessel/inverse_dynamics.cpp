@@ -93,7 +93,7 @@ Bow InverseDynamics::bowInWind(const Vector2d& w, const Vector2d& ahead, double 
   const double side = bow.firmness_n >= 0.0 ? 1.0 : -1.0;
   double psi = angleOf(bow.ahead);
   for (int i = 0; i <= kBowIterations; ++i) {
-    bow.ahead = {std::cos(psi), std::sin(psi)};
+    bow.ahead = unitVector(psi);
     const Air air = wind(bow.ahead);
     bow.firmness_n = side * std::max(side * (bow.ahead.dot(w) + air.y1), floor_n);
     psi += std::clamp((cross(bow.ahead, w) - air.y) / bow.firmness_n, -kLongestBowStepRad,
@@ -116,7 +116,7 @@ FlatState InverseDynamics::state(const FlatPoint& z, const Vector2d& ahead) cons
   double psi = angleOf(e);
   if (firmness <= singular_n_) {
     psi = angleOf(ahead);
-    s.bow.ahead = {std::cos(psi), std::sin(psi)};
+    s.bow.ahead = unitVector(psi);
     s.yaw_rate_radps = 0.0;
     s.tau = held(e, 0.0, 0.0, z.velocity, z.acceleration).tau;
   }

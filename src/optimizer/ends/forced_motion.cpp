@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/parts.hpp"
+
 namespace otter_nav::optimizer {
 namespace {
 
@@ -50,7 +52,7 @@ vessel::FlatPoint ForcedMotion::pushed(const Motion& motion, double t_s, double 
 
 ForcedMotion::Motion ForcedMotion::integrate(const Motion& motion, double from_s,
                                              double to_s) const {
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to_s - from_s) / kStepS)));
+  const int steps = partsOf(std::abs(to_s - from_s), kStepS);
   const double h = (to_s - from_s) / steps;
   const double within = 0.5 * (from_s + to_s);
   using Eigen::Vector2d;
@@ -96,7 +98,7 @@ std::vector<double> ForcedMotion::joints(double from_s, double to_s) const {
       continue;
     }
     const double start = times.back();
-    const int parts = static_cast<int>(std::ceil(length / kPieceS));
+    const int parts = partsOf(length, kPieceS, 0);
     for (int i = 1; i <= parts; ++i) {
       times.push_back(start + length * i / parts);
     }

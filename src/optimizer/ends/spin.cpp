@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "optimizer/ends/turn_profile.hpp"
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 
@@ -43,7 +44,7 @@ void appendSpin(const Eigen::Vector2d& position, double psi_start_rad, double tu
   const std::vector<double> joints = profile.joints();
   for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
     const double length_s = joints[k + 1] - joints[k];
-    const int count = std::max(1, static_cast<int>(std::ceil(length_s / lag_s)));
+    const int count = partsOf(length_s, lag_s);
     const double step = length_s / count;
     for (int i = 0; i < count && length_s > kShortestS; ++i) {
       const double from = joints[k] + step * i;

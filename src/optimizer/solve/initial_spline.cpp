@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 
@@ -100,7 +101,7 @@ void InitialSpline::cutTime(double part_s) {
   for (std::size_t i = 1; i < n; ++i) {
     time_[i] = time_[i - 1] + 2.0 * spacing / (points[i - 1].speed_mps + points[i].speed_mps);
   }
-  const int parts = std::max(2, static_cast<int>(std::ceil(time_.back() / part_s)));
+  const int parts = partsOf(time_.back(), part_s, 2);
   const double even_s = time_.back() / parts;
   times_ = {0.0, kEndShare * even_s};
   for (int k = 1; k < parts; ++k) {

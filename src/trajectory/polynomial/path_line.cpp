@@ -1,5 +1,6 @@
 #include "otter_nav/trajectory/polynomial/path_line.hpp"
 
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::trajectory {
@@ -23,7 +24,7 @@ Eigen::Vector2d pointAlong(const std::vector<Eigen::Vector2d>& polyline, double 
 void PathLine::resample(const std::vector<Eigen::Vector2d>& polyline, double spacing_m,
                         int least_parts) {
   const double length = lengthOf(polyline);
-  const int parts = std::max(least_parts, static_cast<int>(std::ceil(length / spacing_m)));
+  const int parts = partsOf(length, spacing_m, least_parts);
   spacing_m_ = std::max(length / parts, 1e-6);
   points_.assign(static_cast<std::size_t>(parts) + 1, Point{});
   std::size_t segment = 1;
