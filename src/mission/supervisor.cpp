@@ -251,6 +251,12 @@ class Decider final : public Supervisor {
     conflict_ = hull.found ? hull : conflict_;
     return conflict_.found;
   }
+  // As it truly lies, and not as it was planned.
+  bool isAboutToTouch(const Moment& m) {
+    return !isAtTheEnd(m) &&
+           stopping::isAboutToTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
+                                    alongSailed(m), vessel_, planned_limits_.disturbance);
+  }
   bool isClearAgain(const Moment& m) { return for_clearance_ && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
   bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_); }
@@ -594,6 +600,9 @@ class Decider final : public Supervisor {
     return enter(Phase::kSailing);
   }
 
+  Orders brakeAsItLies(const Moment& m) {
+    return brakeFor(m, "off its attitude, and about to touch something");
+  }
   Orders brakeForSpeed(const Moment& m) {
     return brakeFor(m, text("no plan keeps to %.2f m/s from here", safety().speedMax()));
   }
@@ -765,6 +774,7 @@ class Decider final : public Supervisor {
       {kUnderWay, &Decider::hasLostItsHeading, &Decider::stopHeadingLost},
       {kUnderWay, &Decider::isBeyondThrust, &Decider::stopBeyondThrust},
       {kUnderWay, &Decider::isSetAside, &Decider::stopSetAside},
+      {kUnderWay, &Decider::isAboutToTouch, &Decider::brakeAsItLies},
       {kSailing, &Decider::isNarrow, &Decider::lookForAnother, kGoesOn},
       {kUnderWay, &Decider::hasNoStop, &Decider::takeLastStop},
       {kUnderWay, &Decider::isTooFastForLong, &Decider::brakeForSpeed},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/vessel/hull.hpp"
@@ -106,6 +107,37 @@ Conflict outlineConflict(const Trajectory& trajectory, double from_s, double to_
     }
   }
   return {};
+}
+
+bool isAboutToTouch(const Trajectory& trajectory, double at_s, const vessel::State& state,
+                    const Obstacles& obstacles, const vessel::Parameters& vessel,
+                    const vessel::Disturbance& disturbance) {
+  constexpr double kOffRad = 0.1;  // less is what margins are for
+  constexpr double kAheadS = 1.5;
+  constexpr double kStepS = 0.1;
+  constexpr double kTouchesM = 0.01;
+  const vessel::State wanted = trajectory.sample(at_s, vessel, disturbance).state;
+  const Eigen::Vector2d off = state.head<2>() - wanted.head<2>();
+  const double turned = wrapAngle(state[vessel::kPsi] - wanted[vessel::kPsi]);
+  if (std::abs(turned) < kOffRad) {
+    return false;
+  }
+  const auto left = [&](const Eigen::Vector2d& centre, double psi_rad, double t) {
+    return feasibility::outlineClearance(
+        vessel.hull, centre, psi_rad,
+        [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, t); });
+  };
+  // Where it touches by the map already, what leads away is no worse.
+  const double now = left(state.head<2>(), state[vessel::kPsi], at_s);
+  const double until = std::min(trajectory.duration(), at_s + kAheadS);
+  for (double t = at_s + kStepS; t <= until; t += kStepS) {
+    const vessel::State there = trajectory.sample(t, vessel, disturbance).state;
+    if (left(there.head<2>() + off, there[vessel::kPsi] + turned, t) <
+        std::min(kTouchesM, now - kTouchesM)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool Touch::milderThan(const Touch& other) const {

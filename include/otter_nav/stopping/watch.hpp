@@ -30,6 +30,14 @@ struct Conflict {
                                        bool edge = true,
                                        const vessel::Disturbance& disturbance = {});
 
+// Whether the hull in its true attitude, which may be far from the planned one where wind and waves
+// turn it, is about to touch: within the next moment along the trajectory, off it as it is now.
+[[nodiscard]] bool isAboutToTouch(const trajectory::Trajectory& trajectory, double at_s,
+                                  const vessel::State& state,
+                                  const feasibility::Obstacles& obstacles,
+                                  const vessel::Parameters& vessel,
+                                  const vessel::Disturbance& disturbance = {});
+
 // When a way to rest ends in contact, and how fast the vessel is then: at rest, something comes
 // over her.
 struct Touch {

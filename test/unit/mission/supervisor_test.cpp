@@ -305,6 +305,26 @@ TEST(Supervisor, WhatWasPlannedSlowInUnknownWaterIsPlannedAnewOnceItIsKnown) {
   }
 }
 
+// Wind and waves may turn the hull far from the attitude it was planned in: what counts is how it
+// lies.
+TEST(Supervisor, StopsBeforeItTouchesAsItLies) {
+  for (const bool is_turned : {false, true}) {
+    for (const bool is_narrow : {false, true}) {
+      ScriptedMission m;
+      m.setOut(6.0);
+      Situation s = m.situation();
+      const double ahead = s.state.x() + 1.0;
+      if (is_narrow) {
+        m.put({ahead + 1.0, 0.8}, {ahead + 20.0, 3.0});
+      }
+      s.state[vessel::kPsi] += is_turned ? 0.4 : 0.0;
+      s.odometry_stamp_s = m.now_s;
+      (void)m.supervisor->update(m.now_s, s, m.obstacles());
+      EXPECT_EQ(m.supervisor->phase() == Phase::kStopping, is_turned && is_narrow);
+    }
+  }
+}
+
 // Where none can begin at the moment, as in a bend taken at the limit, one that begins later is
 // kept.
 TEST(Supervisor, KeepsAStopInAHardBend) {
