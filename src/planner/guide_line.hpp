@@ -14,9 +14,9 @@ namespace otter_nav::planner {
 
 struct GuideLineOptions {
   double spacing_m = 1.0;         // of the points the line is held at
-  double speed_mps = 4.0;         // at most
+  double speed_mps = 0.0;         // at most
   double speed_start_mps = 0.0;   // at the line's first point
-  double force_ahead_n = 95.0;    // surge force at most
+  double force_ahead_n = 0.0;     // surge force at most
   double corridor_m = 6.0;        // half width at most
   double half_width_min_m = 0.5;  // and at least
   double ramp_share = 0.6;        // of the thrust free at a speed is used to speed up or slow down

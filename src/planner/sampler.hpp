@@ -16,7 +16,7 @@ struct SamplerOptions {
   double accel_mps2 = 0.3;     // spread of accelerations, normal
   double speed_spread = 0.15;  // of the guide line's speed, normal
   double turn_spread_rad = 0.25;
-  double speed_max_mps = 4.7;
+  double speed_max_mps = 0.0;
 };
 
 class Sampler {

@@ -9,7 +9,6 @@ namespace otter_nav::plant {
 namespace {
 
 // The figures of that simulator's vessel description and plugins.
-constexpr double kGravity = 9.81;
 constexpr double kWaterDensity = 997.8;
 constexpr double kMass = 30.0;
 constexpr double kAddedMass = 5.0;

@@ -10,7 +10,6 @@ namespace otter_nav::plant {
 namespace {
 
 // Main particulars (MSS, otter.m; the maker's data sheet).
-constexpr double kGravity = 9.81;
 constexpr double kWaterDensity = 1025.0;
 constexpr double kLength = 2.0;
 constexpr double kHullMass = 55.0;

@@ -5,11 +5,10 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/plant/plant_model.hpp"
 
 namespace otter_nav::plant {
 namespace {
-
-constexpr double kGravity = 9.81;
 
 // A direction off the mean with density cos^2s(angle / 2), by rejection.
 double spreadAngle(double exponent, Random& random) {

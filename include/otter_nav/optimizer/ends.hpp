@@ -22,9 +22,9 @@ struct Spline;
 struct SplineEnds;
 
 struct SpinLimits {
-  double thrust_share = 0.9;  // of the weaker of ahead and astern, on both sides
-  double yaw_rate_max_radps = 1.8;
-  double ramp_s = 0.12;  // in which the moment goes from one value to the next
+  double thrust_share = 0.9;        // of the weaker of ahead and astern, on both sides
+  double yaw_rate_max_radps = 0.0;  // as the vessel can
+  double ramp_s = 0.12;             // in which the moment goes from one value to the next
 };
 
 // Appends the pieces of a spin by `turn_rad` from rest to rest: full moment up to the yaw rate's
@@ -39,8 +39,8 @@ void appendSpin(const Eigen::Vector2d& position, double psi_start_rad, double tu
                                   const SpinLimits& limits);
 
 struct ManoeuvreLimits {
-  double thrust_share = 0.94;  // of each thruster's limits
-  double yaw_rate_max_radps = 1.8;
+  double thrust_share = 0.94;       // of each thruster's limits
+  double yaw_rate_max_radps = 0.0;  // as the vessel can
   double speed_max_mps = 1e3;
   double ramp_s = 0.12;       // in which the moment goes from one value to the next
   double drift_mps = 0.3;     // speed left when the arrival's turn begins; 0: it turns at rest
@@ -60,8 +60,8 @@ struct Manoeuvre {
 
 struct EndOptions {
   ManoeuvreLimits limits;
-  double arrival_speed_mps = 3.0;      // when full astern begins, at first
-  double arrival_speed_max_mps = 4.2;  // and after it was moved
+  double arrival_speed_mps = 0.0;      // when full astern begins, at first
+  double arrival_speed_max_mps = 0.0;  // and after it was moved
   double turn_least_rad = 0.4;    // turns at the goal narrower than this are made on the way there
   bool careful = false;           // turns at rest, slow arrival
   bool in_load = false;           // firm: bow to it the path begins and ends without a manoeuvre

@@ -11,6 +11,8 @@
 
 namespace otter_nav::plant {
 
+constexpr double kGravity = 9.81;  // m/s^2
+
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 

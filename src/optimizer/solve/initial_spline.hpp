@@ -16,7 +16,7 @@ namespace otter_nav::optimizer {
 struct InitialOptions {
   double piece_length_m = 6.0;
   double force_share = 0.85;  // of both thrusters together, for the first guess of the speed
-  double speed_max_mps = 4.6;
+  double speed_max_mps = 0.0;
   double clearance_m = 1.0;  // by Obstacles::smooth
   double load_n = 0.0;       // that wind and current take of the force, at worst
   double slowest_mps = 0.8;  // where it begins and ends at rest

@@ -66,9 +66,14 @@ TEST(Search, KeepsItsTreesSoundAndItsWaysContinuous) {
     KinoState goal;
     goal.position = {25.0, 0.0};
     search.reset(field, feasibility::SafetyLimits::of(vessel), start, goal);
+    GuideLineOptions guide;
+    guide.speed_mps = 4.0;
+    guide.force_ahead_n = 95.0;
     GuideLine line;
-    line.build({{-25.0, 0.0}, {0.0, 15.0}, {25.0, 0.0}}, field, vessel, GuideLineOptions{});
-    Sampler sampler(SamplerOptions{}, line, field, 5);
+    line.build({{-25.0, 0.0}, {0.0, 15.0}, {25.0, 0.0}}, field, vessel, guide);
+    SamplerOptions drawn;
+    drawn.speed_max_mps = 4.7;
+    Sampler sampler(drawn, line, field, 5);
     double cost = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 200; ++i) {
       search.extend(sampler.next());

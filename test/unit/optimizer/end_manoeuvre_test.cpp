@@ -91,6 +91,7 @@ TEST_P(EndManoeuvreTest, LaunchFollowsTheModelAndTurnsAsFarAsAsked) {
   for (const vessel::Parameters& vessel : {vessel::Parameters(), otterLike()}) {
     for (const bool settle : {false, true}) {
       ManoeuvreLimits limits;
+      limits.yaw_rate_max_radps = 1.8;
       limits.settle = settle;
       const Manoeuvre m = launch(kPlace, kPsi, GetParam(), vessel, limits);
       expectSound(m, vessel, limits);
@@ -116,6 +117,7 @@ TEST_P(EndManoeuvreTest, ArrivalFollowsTheModelToRestAtTheGoal) {
   for (const vessel::Parameters& vessel : {vessel::Parameters(), otterLike()}) {
     for (const double drift : {0.0, 0.3, 1.0}) {
       ManoeuvreLimits limits;
+      limits.yaw_rate_max_radps = 1.8;
       limits.drift_mps = drift;
       const Manoeuvre m = arrival(kPlace, kPsi, GetParam(), 1.8, vessel, limits);
       expectSound(m, vessel, limits);
@@ -138,6 +140,7 @@ TEST_P(EndManoeuvreTest, TurningUnderWayIsQuickerThanTurningAtRest) {
   }
   const vessel::Parameters vessel;
   ManoeuvreLimits limits;
+  limits.yaw_rate_max_radps = 1.8;
   const Manoeuvre loose = launch(kPlace, kPsi, GetParam(), vessel, limits);
   limits.settle = true;
   EXPECT_LT(loose.duration_s, launch(kPlace, kPsi, GetParam(), vessel, limits).duration_s - 0.3);
@@ -197,6 +200,7 @@ TEST_P(EndManoeuvreTest, HoldsForARealHullAndUnderLoad) {
   for (const vessel::Parameters& vessel : {realHull(), paper}) {
     for (const vessel::Disturbance& disturbance : {vessel::Disturbance(), load}) {
       ManoeuvreLimits limits;
+      limits.yaw_rate_max_radps = 1.8;
       limits.drift_mps = 0.0;
       limits.disturbance = disturbance;
       const Manoeuvre out = launch(kPlace, kPsi, GetParam(), vessel, limits);

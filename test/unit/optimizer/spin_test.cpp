@@ -12,7 +12,8 @@ using trajectory::Piece;
 
 TEST(Spin, TurnsFromRestToRestWithinLimits) {
   const vessel::Parameters vessel;
-  const SpinLimits limits;
+  SpinLimits limits;
+  limits.yaw_rate_max_radps = 1.8;
   const double moment = 2.0 * 0.39 * 50.0 * limits.thrust_share;
   for (const double turn : {3.1, -1.2, 0.05, -0.4}) {
     std::vector<Piece> pieces;

@@ -11,6 +11,8 @@
 namespace otter_nav::optimizer {
 namespace {
 
+const SpinLimits kSpin{0.9, 1.8};
+
 constexpr double kWallM = 0.8;  // from which the path's bend stays
 
 trajectory::Boundary berth(double x, double y, double psi_rad) {
@@ -53,7 +55,7 @@ TEST(StopAndSpin, GoesRoundABendWithFewStops) {
   const vessel::Parameters vessel;
   auto limits = feasibility::SafetyLimits::of(vessel);
   limits.clearance_m = kWallM;
-  const StopAndSpin spinning(vessel, SpinLimits(), limits);
+  const StopAndSpin spinning(vessel, kSpin, limits);
   const std::vector<Eigen::Vector2d> stops = spinning.quickestStops(field, path, start, goal);
   EXPECT_LE(stops.size(), 5U);
   EXPECT_EQ(stops.front(), path.front());
@@ -71,7 +73,7 @@ TEST(StopAndSpin, KeepsThePathThatIsNotClear) {
   auto limits = feasibility::SafetyLimits::of(vessel::Parameters{});
   limits.clearance_m = 3.5;
   const vessel::Parameters vessel;
-  EXPECT_EQ(StopAndSpin(vessel, SpinLimits(), limits)
+  EXPECT_EQ(StopAndSpin(vessel, kSpin, limits)
                 .quickestStops(field, path, berth(-6.0, -2.0, 0.0), berth(3.0, 3.0, 0.0)),
             path);
 }
