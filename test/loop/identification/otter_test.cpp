@@ -165,5 +165,18 @@ TEST(ShippedOtter, PredictsUnseenManoeuvres) {
   EXPECT_LT(share(shipped.manoeuvring), 0.1);
 }
 
+// As launches and arrivals do.
+TEST(ShippedOtter, StaysWhereItIsTurningOnTheSpot) {
+  const vessel::Parameters shipped = vesselOf("otter.yaml");
+  const std::vector<ManoeuvreOptions> turns = {
+      manoeuvre(ManoeuvreKind::kCircle, 0.0, 0.35, 6.0, 0, 40.0),
+      manoeuvre(ManoeuvreKind::kCircle, 0.0, -0.45, 6.0, 0, 40.0)};
+  const auto data = assemble(recordOtter(turns, {}), DataOptions(), shipped.thrusters.lag_s);
+  ASSERT_TRUE(data) << data.error().message;
+  const auto error = predictionError(*data, data->stretches,
+                                     {shipped.manoeuvring, shipped.thrusters}, 5.0, 1.0);
+  EXPECT_LT(error.position_m, 0.07);
+}
+
 }  // namespace
 }  // namespace otter_nav::identification
