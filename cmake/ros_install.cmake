@@ -16,6 +16,6 @@ endif()
 install(FILES plugin_description.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 catkin_install_python(PROGRAMS examples/constant_speed_planner.py examples/pursuit_tracker.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-catkin_install_python(PROGRAMS python/programs/animate python/programs/bag_to_tum python/programs/replay_bag
+catkin_install_python(PROGRAMS python/programs/animate python/programs/bag_to_tum python/programs/latency python/programs/replay_bag
   python/programs/report
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
