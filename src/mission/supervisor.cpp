@@ -1143,6 +1143,9 @@ class Decider final : public Supervisor {
       return {};
     }
     const bool more = safety().refused();
+    if (more && asked.from == From::kSailed && phase_ == Phase::kReplanning) {
+      return planFromSailed(m);  // at once: there is less room with each update
+    }
     if (asked.from != From::kRest || more) {
       return {};  // asked again at the next update, as long as there is room
     }

@@ -305,6 +305,22 @@ TEST(Supervisor, WhatWasPlannedSlowInUnknownWaterIsPlannedAnewOnceItIsKnown) {
   }
 }
 
+// Under way towards something, the next clearance is tried at once and not a decision later.
+TEST(Supervisor, UnderWayTheNextClearanceIsTriedAtOnce) {
+  ScriptedMission m;
+  m.setOut(6.0);
+  m.put({10.0, -3.0}, {12.0, 3.0});
+  std::optional<PlanRequest> asked = m.update(0.1).plan;
+  ASSERT_TRUE(asked);
+  for (std::size_t k = 1; k < m.options.side_clearances_m.size(); ++k) {
+    const double before = asked->query.limits.clearance_m;
+    asked = m.refuse(*asked, "none").plan;
+    ASSERT_TRUE(asked) << k;
+    EXPECT_LT(asked->query.limits.clearance_m, before);
+  }
+  EXPECT_FALSE(m.refuse(*asked, "none").plan);
+}
+
 // Wind and waves may turn the hull far from the attitude it was planned in: what counts is how it
 // lies.
 TEST(Supervisor, StopsBeforeItTouchesAsItLies) {
