@@ -173,8 +173,8 @@ TEST(ShippedOtter, StaysWhereItIsTurningOnTheSpot) {
       manoeuvre(ManoeuvreKind::kCircle, 0.0, -0.45, 6.0, 0, 40.0)};
   const auto data = assemble(recordOtter(turns, {}), DataOptions(), shipped.thrusters.lag_s);
   ASSERT_TRUE(data) << data.error().message;
-  const auto error = predictionError(*data, data->stretches,
-                                     {shipped.manoeuvring, shipped.thrusters}, 5.0, 1.0);
+  const auto error =
+      predictionError(*data, data->stretches, {shipped.manoeuvring, shipped.thrusters}, 5.0, 1.0);
   EXPECT_LT(error.position_m, 0.07);
 }
 
