@@ -164,11 +164,11 @@ class BackingOff {
     carried.position.col(1) += carries_s / end *
                                vessel::driftAbeam(vessel_.manoeuvring, disturbance_, psi) *
                                across(unitVector(psi));
-    for (const Piece& way : {piece, carried}) {
-      if (!outlineKeepsClear(Trajectory({way}), 0.0, vessel_, obstacles_.startingAt(node.time_s),
-                             keep_m_, true)) {
-        return false;
-      }
+    const Obstacles obstacles = obstacles_.startingAt(node.time_s);
+    if (!outlineKeepsClear(Trajectory({piece}), 0.0, vessel_, obstacles, keep_m_, true) ||
+        !outlineKeepsClear(Trajectory({carried}), 0.0, vessel_, obstacles,
+                           std::min(keep_m_, kTightM), true)) {
+      return false;
     }
     node.position = piece.flat(end).position;
     node.time_s += end;

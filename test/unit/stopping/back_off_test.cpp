@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../mission/waters.hpp"
+#include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -66,6 +67,25 @@ TEST(BackOff, GoesWhereTheWindSetsItOffTheWall) {
   vessel::Disturbance abeam;
   abeam.force_n = {0.0, -20.0};
   EXPECT_TRUE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, abeam));
+}
+
+// On a heading that can be held the tracker holds it: a slow drift towards what lies beside it is
+// not counted for all the time a leg takes, nor on top of what it wanders.
+TEST(BackOff, GoesWhereASlowDriftIsHeld) {
+  map::OccupancyGrid grid = test::openWater();
+  test::block(grid, {1.3, -10.0}, {2.0, 10.0});
+  test::block(grid, {-1.5, 0.88}, {1.3, 2.0});
+  const vessel::Parameters otter;
+  vessel::Disturbance abeam;
+  while (vessel::setAside(otter.manoeuvring, abeam, 0.0) < 0.15) {
+    abeam.force_n.y() += 0.1;
+  }
+  constexpr double kReachM = 0.13;
+  EXPECT_TRUE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, abeam, kReachM));
+  while (vessel::canLie(otter.manoeuvring, abeam, 0.0)) {
+    abeam.force_n.y() += 0.1;
+  }
+  EXPECT_FALSE(backOff(restAt(0.0, 0.0, 0.0), test::fieldOf(grid), otter, abeam, kReachM));
 }
 
 // A hull twice as long needs more room to turn, and gets it.
