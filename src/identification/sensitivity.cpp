@@ -64,11 +64,9 @@ RateJacobian rateJacobian(const Law& law, const vessel::Tau& tau, const State& x
   const auto current_x = variable<kByCurrentX>(law.model.current_mps.x());
   const auto current_y = variable<kByCurrentY>(law.model.current_mps.y());
   const auto position = vessel::positionRate(psi.cosine, psi.sine, u, v);
-  const auto acceleration =
-      vessel::bodyAcceleration(law.coefficients, law.mobility, vessel::Body{0.0, 0.0, 0.0},
-                               vessel::aheadPart(psi.cosine, psi.sine, current_x, current_y),
-                               vessel::portPart(psi.cosine, psi.sine, current_x, current_y), u, v,
-                               r, tau.surge_n, tau.yaw_nm);
+  const auto acceleration = vessel::bodyAcceleration(
+      law.coefficients, law.mobility, psi.cosine, psi.sine, vessel::Body{0.0, 0.0, 0.0}, current_x,
+      current_y, u, v, r, tau.surge_n, tau.yaw_nm);
   rate << position.x.value, position.y.value, x[kYawRate], acceleration.surge.value,
       acceleration.sway.value, acceleration.yaw.value;
   RateJacobian j;

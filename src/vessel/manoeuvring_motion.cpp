@@ -48,20 +48,19 @@ void push(const ManoeuvringModel& model, const Disturbance& disturbance, const S
   const Vector2d& current = disturbance.current_mps;
   const double u = e.dot(motion.velocity);
   const double v = n.dot(motion.velocity);
-  const auto now = bodyAcceleration(model, mobility, outsideForce(e.x(), e.y(), model, disturbance),
-                                    e.dot(current), n.dot(current), u, v, r, surge_n, 0.0);
+  const auto now = bodyAcceleration(model, mobility, e.x(), e.y(),
+                                    outsideForce(e.x(), e.y(), model, disturbance), current.x(),
+                                    current.y(), u, v, r, surge_n, 0.0);
   // Earth-fixed acceleration seen from the hull, and its rate.
   const double ahead = now.surge - r * v;
   const double port = now.sway + r * u;
   motion.acceleration = ahead * e + port * n;
   const auto cosine = changing(e.x(), -r * e.y());
   const auto sine = changing(e.y(), r * e.x());
-  const auto later =
-      bodyAcceleration(model, mobility, outsideForce(cosine, sine, model, disturbance),
-                       aheadPart(cosine, sine, current.x(), current.y()),
-                       portPart(cosine, sine, current.x(), current.y()), changing(u, now.surge),
-                       changing(v, now.sway), changing(r, r1), changing(surge_n, surge_rate_nps),
-                       changing(0.0, 0.0));
+  const auto later = bodyAcceleration(
+      model, mobility, cosine, sine, outsideForce(cosine, sine, model, disturbance), current.x(),
+      current.y(), changing(u, now.surge), changing(v, now.sway), changing(r, r1),
+      changing(surge_n, surge_rate_nps), changing(0.0, 0.0));
   const double ahead_rate = slope<0>(later.surge) - r1 * v - r * now.sway;
   const double port_rate = slope<0>(later.sway) + r1 * u + r * now.surge;
   motion.jerk = (ahead_rate - r * port) * e + (port_rate + r * ahead) * n;

@@ -45,10 +45,9 @@ State stateDerivative(const State& x, const Thrusts& thrusts, const ManoeuvringM
   const double s = std::sin(x[kPsi]);
   const Eigen::Vector2d& current = disturbance.current_mps;
   return stateOf(positionRate(c, s, x[kSurge], x[kSway]), x[kYawRate],
-                 bodyAcceleration(model, Mobility(model), outsideForce(c, s, model, disturbance),
-                                  aheadPart(c, s, current.x(), current.y()),
-                                  portPart(c, s, current.x(), current.y()), x[kSurge], x[kSway],
-                                  x[kYawRate], tau.surge_n, tau.yaw_nm));
+                 bodyAcceleration(model, Mobility(model), c, s,
+                                  outsideForce(c, s, model, disturbance), current.x(), current.y(),
+                                  x[kSurge], x[kSway], x[kYawRate], tau.surge_n, tau.yaw_nm));
 }
 
 Linearization linearize(const State& x, const Thrusts& thrusts, const ManoeuvringModel& model,
@@ -63,9 +62,8 @@ Linearization linearize(const State& x, const Thrusts& thrusts, const Manoeuvrin
   const Mobility mobility(model);
   const auto position = positionRate(psi.cosine, psi.sine, u, v);
   const auto acceleration = bodyAcceleration(
-      model, mobility, outsideForce(psi.cosine, psi.sine, model, disturbance),
-      aheadPart(psi.cosine, psi.sine, current_x, current_y),
-      portPart(psi.cosine, psi.sine, current_x, current_y), u, v, r, tau.surge_n, tau.yaw_nm);
+      model, mobility, psi.cosine, psi.sine, outsideForce(psi.cosine, psi.sine, model, disturbance),
+      current_x, current_y, u, v, r, tau.surge_n, tau.yaw_nm);
   Linearization l;
   l.derivative = stateOf(position, x[kYawRate], acceleration);
   l.state_jacobian.setZero();

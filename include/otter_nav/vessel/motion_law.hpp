@@ -105,15 +105,17 @@ struct Mobility {
         yaw(inverse(m.yaw_inertia_kgm2)) {}
 };
 
-// u', v', r' over ground: body velocities over ground, the current's components, what pushes from
+// u', v', r' over ground: on a heading, body velocities over ground, the current, what pushes from
 // outside and the thrusters' surge force and yaw moment.
-template <typename Number, typename Outside, typename CurrentU, typename CurrentV, typename Surge,
-          typename Sway, typename Yaw, typename Thrust>
+template <typename Number, typename Cosine, typename Sine, typename Outside, typename CurrentX,
+          typename CurrentY, typename Surge, typename Sway, typename Yaw, typename Thrust>
 [[nodiscard]] OTTER_NAV_INLINE auto bodyAcceleration(
     const BasicManoeuvringModel<Number>& model, const Mobility<Number>& mobility,
-    const Outside& outside, const CurrentU& current_u, const CurrentV& current_v,
-    const Surge& u_ground, const Sway& v_ground, const Yaw& r, const Thrust& surge_n,
-    const Thrust& yaw_nm) {
+    const Cosine& cosine, const Sine& sine, const Outside& outside, const CurrentX& current_x,
+    const CurrentY& current_y, const Surge& u_ground, const Sway& v_ground, const Yaw& r,
+    const Thrust& surge_n, const Thrust& yaw_nm) {
+  const auto current_u = aheadPart(cosine, sine, current_x, current_y);
+  const auto current_v = portPart(cosine, sine, current_x, current_y);
   const auto water = waterForce(model, u_ground - current_u, v_ground - current_v, r);
   return Body{(water.surge + outside.surge + surge_n) * mobility.surge + r * current_v,
               (water.sway + outside.sway) * mobility.sway - r * current_u,

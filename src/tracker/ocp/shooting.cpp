@@ -36,10 +36,10 @@ void StageModel::differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, De
   const auto r = variable<kRowR>(q[kRowR]);
   const Eigen::Vector2d& current = disturbance_.current_mps;
   const auto position = vessel::positionRate(psi.cosine, psi.sine, u, v);
-  const auto acceleration = vessel::bodyAcceleration(
-      model_, mobility_, vessel::outsideForce(psi.cosine, psi.sine, model_, disturbance_),
-      vessel::aheadPart(psi.cosine, psi.sine, current.x(), current.y()),
-      vessel::portPart(psi.cosine, psi.sine, current.x(), current.y()), u, v, r, surge_n, yaw_nm);
+  const auto acceleration =
+      vessel::bodyAcceleration(model_, mobility_, psi.cosine, psi.sine,
+                               vessel::outsideForce(psi.cosine, psi.sine, model_, disturbance_),
+                               current.x(), current.y(), u, v, r, surge_n, yaw_nm);
   d.rate[0] = position.x.value;
   d.rate[1] = position.y.value;
   d.rate[2] = q[kRowR];
