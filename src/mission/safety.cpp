@@ -136,9 +136,7 @@ double Safety::freeThrustShare() const {
   const double mean = found ? 0.0 : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
   // With less than most of the thrust the hull runs before the wind so slowly that it is carried.
   constexpr double kMostForWaves = 0.3;
-  // A plan that knows the load uses the rest well; of others two deviations of the sway are kept,
-  // or they fall behind at full thrust.
-  const double waves = std::min(kMostForWaves, (found ? 1.0 : 2.0) * weather_.waveShare());
+  const double waves = std::min(kMostForWaves, weather_.waveShare());
   return planThrustShare(options_.thrust_share, std::max(weather_.gustShare() + mean, waves),
                          times_left_behind_);
 }

@@ -39,9 +39,7 @@ constexpr double kDragRatio = 1.25;  // abeam to ahead or the reverse, that tell
 constexpr double kWindWalkM2ps2 = 10.0;
 constexpr double kWindSigmaM2ps2 = 30.0;
 constexpr double kWindMostMps = 20.0;
-// The middle of the waves' band and their relative damping.
-constexpr double kWaveRadps = 2.0;
-constexpr double kWaveDamping = 0.2;
+constexpr double kWaveDamping = 0.1;  // of the waves' oscillators, relative
 // Hull's lengths a second, at which waves begin to be steered against, and are altogether.
 constexpr double kCrawlingPerS = 0.4;
 constexpr double kSailingPerS = 0.6;
@@ -89,12 +87,8 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
       kWindWalkM2ps2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
   walk_variance_ = walk_variance_.cwiseAbs2().eval();
   least_walk_variance_ = walk_variance_.segment<3>(kSurge);
-  // A driven oscillator's velocity has the variance intensity / (4 damping frequency).
-  const double drive = std::sqrt(4.0 * kWaveDamping * kWaveRadps);
-  walk_variance_.segment<3>(kWaveRate) << o.wave_velocity_mps, o.wave_velocity_mps,
-      o.wave_yaw_rate_radps;
-  walk_variance_.segment<3>(kWaveRate) *= drive;
-  walk_variance_.segment<3>(kWaveRate) = walk_variance_.segment<3>(kWaveRate).cwiseAbs2().eval();
+  wave_rate_variance_ =
+      Eigen::Vector3d(o.wave_velocity_mps, o.wave_velocity_mps, o.wave_yaw_rate_radps).cwiseAbs2();
   if (o.enabled) {
     covariance_.diagonal().segment<7>(kForce) << kForceSigmaNpm2 * area_m2,
         kForceSigmaNpm2 * area_m2, kMomentSigmaNpm2 * area_moment_m3, current_sigma, current_sigma,
@@ -119,10 +113,14 @@ void Estimator::reset(const vessel::State& measured) {
   correction_.setZero();
   wave_.setZero();
   wave_rate_.setZero();
-  const Eigen::Vector3d sigma(options_.wave_velocity_mps, options_.wave_velocity_mps,
-                              options_.wave_yaw_rate_radps);
-  covariance_.diagonal().segment<3>(kWaveRate) = sigma.cwiseAbs2();
-  covariance_.diagonal().segment<3>(kWave) = (sigma / kWaveRadps).cwiseAbs2();
+  const double w = wave_frequency_.radps();
+  covariance_.diagonal().segment<3>(kWaveRate) = wave_rate_variance_;
+  covariance_.diagonal().segment<3>(kWave) = wave_rate_variance_ / (w * w);
+}
+
+// A driven oscillator's velocity has the variance intensity / (4 damping frequency).
+Eigen::Vector3d Estimator::waveDrive() const {
+  return 4.0 * kWaveDamping * wave_frequency_.radps() * wave_rate_variance_;
 }
 
 Eigen::Matrix<double, 6, Estimator::kSize> Estimator::measurement() const {
@@ -212,7 +210,7 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   f.block<3, 2>(kSurge, kWind) = dt_s * fromWind();
   f.block<2, 2>(kForce, kForce).diagonal().array() -= dt_s * force_fade_per_s_;
   f.block<2, 2>(kCurrent, kCurrent).diagonal().array() -= dt_s * current_fade_per_s_;
-  const double w = kWaveRadps;
+  const double w = wave_frequency_.radps();
   f.block<3, 3>(kWave, kWaveRate).diagonal().setConstant(dt_s);
   f.block<3, 3>(kWaveRate, kWave).diagonal().setConstant(-dt_s * w * w);
   f.block<3, 3>(kWaveRate, kWaveRate).diagonal().array() -= 2.0 * dt_s * kWaveDamping * w;
@@ -227,12 +225,11 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   covariance_.diagonal() += dt_s * walk_variance_;
   // At speed nothing is taken for waves: told apart from the vessel's own motion they would only
   // come late to what is steered against.
-  covariance_.diagonal().segment<3>(kWaveRate) -=
-      dt_s * sailingShare() * walk_variance_.segment<3>(kWaveRate);
+  covariance_.diagonal().segment<3>(kWaveRate) += dt_s * (1.0 - sailingShare()) * waveDrive();
   disturbance_.force_n *= 1.0 - dt_s * force_fade_per_s_;
   disturbance_.current_mps *= 1.0 - dt_s * current_fade_per_s_;
   // Semi-implicit, so that the oscillator keeps its energy.
-  const double w = kWaveRadps;
+  const double w = wave_frequency_.radps();
   wave_rate_ -= dt_s * (w * w * wave_ + 2.0 * kWaveDamping * w * wave_rate_);
   wave_ += dt_s * wave_rate_;
   state_ = rk4Step(
@@ -243,6 +240,7 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
 }
 
 void Estimator::update(const vessel::State& measured) {
+  wave_frequency_.add(measured[kSway], state_[kYawRate], 1.0 - sailingShare(), predicted_s_);
   const Eigen::Matrix<double, 6, kSize> h = measurement();
   const Eigen::Matrix<double, 6, kSize> seen = h * covariance_;
   Eigen::Matrix<double, 6, 6> innovation_covariance = seen * h.transpose();

@@ -13,6 +13,7 @@
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "tracker/wave_frequency.hpp"
 
 namespace otter_nav::tracker {
 
@@ -55,6 +56,8 @@ class Estimator {
   [[nodiscard]] Eigen::Matrix<double, 3, 2> fromWind() const;
   // From 0 at crawling pace to 1 at speed.
   [[nodiscard]] double sailingShare() const;
+  // What drives the waves' oscillators, per second, at the frequency known now.
+  [[nodiscard]] Eigen::Vector3d waveDrive() const;
   // Of surge, sway and yaw rate, by what an update changed them by.
   void learnWalk(const Eigen::Vector3d& step);
   void limit();
@@ -68,6 +71,8 @@ class Estimator {
   Eigen::Vector2d wind_pressure_ = Eigen::Vector2d::Zero();  // q, m^2/s^2
   Eigen::Vector3d wave_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d wave_rate_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d wave_rate_variance_;
+  WaveFrequency wave_frequency_;
   Covariance covariance_ = Covariance::Zero();
   vessel::State measurement_variance_;
   double force_most_n_;

@@ -222,5 +222,29 @@ TEST(Estimator, IsSteeredAgainstWavesAtSpeedAlone) {
   EXPECT_LT(worstPositionOff(90.0, steered), 0.03);
 }
 
+// The waves' frequency is learned: a swell is left aside as well as a lake's short waves.
+TEST(Estimator, LeavesSwellAside) {
+  for (const double radps : {1.26, 2.0}) {
+    Sea sea;
+    sea.push_n = 5.0;
+    sea.turn_n = 0.0;
+    sea.x[kPsi] = 1.5;
+    sea.wave_m = 0.1;
+    sea.wave_radps = radps;
+    Estimator estimator(shipped(), sea.vessel);
+    estimator.reset(sea.measured());
+    double worst = 0.0;
+    for (int i = 0; i < 9000; ++i) {
+      sea.advance();
+      estimator.predict(sea.thrusts(), kStepS);
+      estimator.update(sea.measured());
+      if (i > 7000) {
+        worst = std::max(worst, (estimator.steered() - sea.x).head<2>().norm());
+      }
+    }
+    EXPECT_LT(worst, 0.04) << radps << " rad/s";
+  }
+}
+
 }  // namespace
 }  // namespace otter_nav::tracker

@@ -1,0 +1,27 @@
+// The frequency of the waves that a hull moves with, from its sway: at crawling pace on a steady
+// heading waves alone move it abeam to and fro. In a narrow band the mean square of the speed is
+// the displacement's times the frequency squared (Fossen 2021, section 10.2: spectral moments).
+#pragma once
+
+namespace otter_nav::tracker {
+
+class WaveFrequency {
+ public:
+  WaveFrequency();
+  // The sway measured now, over ground, `dt_s` after the last; `crawling` from 1 at crawling pace
+  // to 0 at speed.
+  void add(double sway_mps, double yaw_rate_radps, double crawling, double dt_s);
+  // Of the waves' middle; that of a small lake's as long as nothing is known.
+  [[nodiscard]] double radps() const { return radps_; }
+
+ private:
+  double smooth_mps_ = 0.0;
+  double steady_mps_ = 0.0;
+  double aside_m_ = 0.0;  // from a position that follows slowly
+  double crawled_s_ = 0.0;
+  double mean_square_mps_;
+  double mean_square_m_;
+  double radps_;
+};
+
+}  // namespace otter_nav::tracker

@@ -1,0 +1,59 @@
+#include "tracker/wave_frequency.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace otter_nav::tracker {
+namespace {
+
+constexpr double kStepS = 0.01;
+constexpr double kUsualRadps = 2.0;
+
+struct Swell {
+  double radps = kUsualRadps;
+  double amplitude_m = 0.0;
+  double drift_mps = 0.0;
+  double yaw_rate_radps = 0.0;
+  double crawling = 1.0;
+  double noise_mps = 0.0;
+};
+
+// What is found after a minute and a half.
+double found(const Swell& swell) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise;
+  WaveFrequency frequency;
+  for (double t = 0.0; t < 90.0; t += kStepS) {
+    const double sway = swell.drift_mps +
+                        swell.amplitude_m * swell.radps * std::cos(swell.radps * t) +
+                        swell.noise_mps * noise(random);
+    frequency.add(sway, swell.yaw_rate_radps, swell.crawling, kStepS);
+  }
+  return frequency.radps();
+}
+
+TEST(WaveFrequency, IsFoundFromTheSway) {
+  for (const double radps : {1.1, 1.26, 1.6, 2.5, 2.9}) {
+    Swell swell{radps, 0.09};
+    EXPECT_NEAR(found(swell), radps, 0.1 * radps);
+    swell.drift_mps = 0.3;
+    swell.noise_mps = 0.02;
+    EXPECT_NEAR(found(swell), radps, 0.1 * radps) << "in a current, with noise";
+  }
+}
+
+TEST(WaveFrequency, StaysTheUsualWhereNoWavesAreFelt) {
+  EXPECT_NEAR(found({1.26, 0.0, 0.2, 0.0, 1.0, 0.02}), kUsualRadps, 0.1);
+  EXPECT_EQ(found({1.26, 0.09, 0.0, 0.0, 0.0}), kUsualRadps) << "at speed";
+  EXPECT_EQ(found({1.26, 0.09, 0.0, 0.2, 1.0}), kUsualRadps) << "in a turn";
+}
+
+// What is slower than waves is none, however much it moves the hull.
+TEST(WaveFrequency, IsNoSlowerThanWavesAre) {
+  EXPECT_GE(found({0.3, 1.0}), 1.0);
+}
+
+}  // namespace
+}  // namespace otter_nav::tracker
