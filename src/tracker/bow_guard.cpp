@@ -7,8 +7,8 @@ namespace otter_nav::tracker {
 namespace {
 
 // Of where the bow will be: from the first on less is pushed ahead, from the second nothing, beyond
-// it astern. A hull on even keel doesn't get there: the Otter's bow comes up by 0.15 rad at most in
-// the strongest sea that is shipped.
+// it astern; of a bow that goes down the reverse. A hull on even keel doesn't get there: the
+// Otter's bow comes up by 0.15 rad at most in the strongest sea that is shipped.
 constexpr double kFreeRad = 0.3;
 constexpr double kMostRad = 0.6;
 // The hull's answer to less push takes about this long.
@@ -17,6 +17,12 @@ constexpr double kLeadS = 0.3;
 constexpr double kRateFilterS = 0.05;
 // After a gap, or a step back in time, the rate isn't known.
 constexpr double kGapS = 0.1;
+
+// Of each thruster at most, one way, N, where that will have pitched the hull by `soon_rad`.
+double mostPush(double soon_rad, double this_way_n, double other_way_n) {
+  const double share = std::clamp((kMostRad - soon_rad) / (kMostRad - kFreeRad), -1.0, 1.0);
+  return share * (share > 0.0 ? this_way_n : other_way_n);
+}
 
 }  // namespace
 
@@ -39,11 +45,14 @@ void BowGuard::add(double stamp_s, double bow_up_rad) {
 vessel::Thrusts BowGuard::cut(const vessel::Thrusts& wanted,
                               const vessel::Thrusters& thrusters) const {
   const double soon_rad = bow_up_rad_ + kLeadS * rate_radps_;
-  const double share = std::clamp((kMostRad - soon_rad) / (kMostRad - kFreeRad), -1.0, 1.0);
-  const double most_n = share * (share > 0.0 ? thrusters.ahead_max_n : thrusters.astern_max_n);
-  const double over_n = std::min(0.5 * wanted.sum() - most_n,  // as far as the turn is kept
-                                 wanted.minCoeff() + thrusters.astern_max_n);
-  return over_n > 0.0 ? vessel::Thrusts(wanted.array() - over_n) : wanted;
+  const vessel::Thrusters& t = thrusters;
+  const double mean_n = 0.5 * wanted.sum();
+  // As far as the turn is kept.
+  const double over_n = std::min(mean_n - mostPush(soon_rad, t.ahead_max_n, t.astern_max_n),
+                                 wanted.minCoeff() + t.astern_max_n);
+  const double under_n = std::min(-mostPush(-soon_rad, t.astern_max_n, t.ahead_max_n) - mean_n,
+                                  t.ahead_max_n - wanted.maxCoeff());
+  return wanted + (std::max(0.0, under_n) - std::max(0.0, over_n)) * vessel::Thrusts::Ones();
 }
 
 }  // namespace otter_nav::tracker

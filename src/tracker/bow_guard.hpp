@@ -1,5 +1,6 @@
 // Keeps a small hull upright in a steep sea: thrust acts below the centre of gravity, so what is
-// pushed ahead lifts the bow. Where it comes up too far less is pushed, at last astern.
+// pushed ahead lifts the bow, and astern presses it down. Where it goes too far less is pushed that
+// way, at last the other.
 #pragma once
 
 #include "otter_nav/vessel/thrusters.hpp"

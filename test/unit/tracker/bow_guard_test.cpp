@@ -46,6 +46,21 @@ TEST(BowGuard, CutsThePushAndKeepsTheTurn) {
   EXPECT_NEAR(astern[1], -60.0, 1e-6);
 }
 
+// The reverse: what is pushed astern presses the bow down.
+TEST(BowGuard, CutsThePushAsternOfABowThatGoesDown) {
+  const vessel::Thrusts astern{-50.0, -10.0};
+  EXPECT_EQ(risen(-0.25, 0.0).cut(astern, thrusters()), astern);
+  const vessel::Thrusts harder{-50.0, -40.0};
+  EXPECT_EQ(risen(0.8, 0.0).cut(harder, thrusters()), harder);
+  const vessel::Thrusts none = risen(-0.6, 0.0).cut(astern, thrusters());
+  EXPECT_NEAR(none.sum(), 0.0, 1e-6);
+  EXPECT_NEAR(none[1] - none[0], 40.0, 1e-6);
+  const vessel::Thrusts ahead = risen(-0.95, 0.0).cut(astern, thrusters());
+  EXPECT_NEAR(ahead[0], 60.0, 1e-6);
+  EXPECT_NEAR(ahead[1], 100.0, 1e-6);
+  EXPECT_NEAR(risen(-0.15, -1.0).cut({-60.0, -60.0}, thrusters()).sum(), -60.0, 1e-3);
+}
+
 // What rises is cut before it is high, what comes down is not any more.
 TEST(BowGuard, SeesWhereTheBowWillBe) {
   EXPECT_NEAR(risen(0.15, 1.0).cut(kWanted, thrusters()).sum(), 100.0, 1e-3);
