@@ -410,9 +410,10 @@ class Tracker::Impl {
     }
     const double speed = lies ? 0.0 : m.speed_knots * ais::kKnotMps;
     const double course = lies ? 0.0 : radiansFromEast(m.course_deg);
+    const Eigen::Vector2d velocity = speed * unitVector(course);
     Measurement measurement;
     measurement.has_velocity = true;
-    measurement.value << middle, speed * unitVector(course);
+    measurement.value << middle.x(), middle.y(), velocity.x(), velocity.y();
     measurement.covariance.diagonal() << deviation * deviation, deviation * deviation,
         kAisVelocityMps * kAisVelocityMps, kAisVelocityMps * kAisVelocityMps;
     return measurement;
