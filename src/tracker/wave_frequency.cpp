@@ -13,7 +13,8 @@ constexpr double kMostRadps = 4.0;   // faster waves are shorter than the hull, 
 constexpr double kSmoothS = 0.5;
 constexpr double kSteadyS = 3.0;
 constexpr double kMemoryS = 20.0;
-constexpr double kSettlesS = 6.0;  // that the way lost is no sway
+// Of crawling, before it counts: a launch in gusts sways as slowly as a swell.
+constexpr double kSettlesS = 15.0;
 // Faster turns make sway of their own.
 constexpr double kTurnsRadps = 0.1;
 constexpr double kLittleMps = 0.02;  // moves the usual frequency half way

@@ -50,6 +50,16 @@ TEST(WaveFrequency, StaysTheUsualWhereNoWavesAreFelt) {
   EXPECT_EQ(found({1.26, 0.09, 0.0, 0.2, 1.0}), kUsualRadps) << "in a turn";
 }
 
+// What sways a hull that is launched in gusts is no swell.
+TEST(WaveFrequency, IsNotLearnedFromALaunch) {
+  WaveFrequency frequency;
+  for (double t = 0.0; t < 120.0; t += kStepS) {
+    const bool launch = std::fmod(t, 30.0) < 12.0;
+    frequency.add(0.2 * std::cos(0.8 * t), 0.0, launch ? 1.0 : 0.0, kStepS);
+  }
+  EXPECT_EQ(frequency.radps(), kUsualRadps);
+}
+
 // What is slower than waves is none, however much it moves the hull.
 TEST(WaveFrequency, IsNoSlowerThanWavesAre) {
   EXPECT_GE(found({0.3, 1.0}), 1.0);
