@@ -8,7 +8,7 @@
 namespace otter_nav::tracker {
 namespace {
 
-constexpr double kStepS = 0.01;
+constexpr double kSampleS = 0.01;
 constexpr double kUsualRadps = 2.0;
 
 struct Swell {
@@ -25,11 +25,11 @@ double found(const Swell& swell) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise;
   WaveFrequency frequency;
-  for (double t = 0.0; t < 90.0; t += kStepS) {
+  for (double t = 0.0; t < 90.0; t += kSampleS) {
     const double sway = swell.drift_mps +
                         swell.amplitude_m * swell.radps * std::cos(swell.radps * t) +
                         swell.noise_mps * noise(random);
-    frequency.add(sway, swell.yaw_rate_radps, swell.crawling, kStepS);
+    frequency.add(sway, swell.yaw_rate_radps, swell.crawling, kSampleS);
   }
   return frequency.radps();
 }
@@ -53,9 +53,9 @@ TEST(WaveFrequency, StaysTheUsualWhereNoWavesAreFelt) {
 // What sways a hull that is launched in gusts is no swell.
 TEST(WaveFrequency, IsNotLearnedFromALaunch) {
   WaveFrequency frequency;
-  for (double t = 0.0; t < 120.0; t += kStepS) {
+  for (double t = 0.0; t < 120.0; t += kSampleS) {
     const bool launch = std::fmod(t, 30.0) < 12.0;
-    frequency.add(0.2 * std::cos(0.8 * t), 0.0, launch ? 1.0 : 0.0, kStepS);
+    frequency.add(0.2 * std::cos(0.8 * t), 0.0, launch ? 1.0 : 0.0, kSampleS);
   }
   EXPECT_EQ(frequency.radps(), kUsualRadps);
 }
