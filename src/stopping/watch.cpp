@@ -113,9 +113,9 @@ bool isAboutToTouch(const Trajectory& trajectory, double at_s, const vessel::Sta
                     const Obstacles& obstacles, const vessel::Parameters& vessel,
                     const vessel::Disturbance& disturbance) {
   constexpr double kOffRad = 0.1;  // less is what margins are for
-  constexpr double kAheadS = 1.5;
-  constexpr double kStepS = 0.1;
-  constexpr double kTouchesM = 0.01;
+  constexpr double kSoonS = 1.5;
+  constexpr double kEachS = 0.1;
+  constexpr double kContactM = 0.01;
   const vessel::State wanted = trajectory.sample(at_s, vessel, disturbance).state;
   const Eigen::Vector2d off = state.head<2>() - wanted.head<2>();
   const double turned = wrapAngle(state[vessel::kPsi] - wanted[vessel::kPsi]);
@@ -129,11 +129,11 @@ bool isAboutToTouch(const Trajectory& trajectory, double at_s, const vessel::Sta
   };
   // Where it touches by the map already, what leads away is no worse.
   const double now = left(state.head<2>(), state[vessel::kPsi], at_s);
-  const double until = std::min(trajectory.duration(), at_s + kAheadS);
-  for (double t = at_s + kStepS; t <= until; t += kStepS) {
+  const double until = std::min(trajectory.duration(), at_s + kSoonS);
+  for (double t = at_s + kEachS; t <= until; t += kEachS) {
     const vessel::State there = trajectory.sample(t, vessel, disturbance).state;
     if (left(there.head<2>() + off, there[vessel::kPsi] + turned, t) <
-        std::min(kTouchesM, now - kTouchesM)) {
+        std::min(kContactM, now - kContactM)) {
       return true;
     }
   }
