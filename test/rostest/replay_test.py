@@ -186,11 +186,13 @@ class Replay(unittest.TestCase):
         start, order = max(((s, o) for s, o in orders if s <= t + 1e-9), key=lambda one: (one[0], one[1].id))
         if not order.pieces:
             return None
-        left = t - start
-        for piece in order.pieces:
+        left = min(t - start, sum(piece.duration for piece in order.pieces))
+        for piece in order.pieces[:-1]:
             if left <= piece.duration:
                 break
             left -= piece.duration
+        else:
+            piece = order.pieces[-1]
         left = min(max(left, 0.0), piece.duration)
         return [sum(c * left**k for k, c in enumerate(axis)) for axis in (piece.x, piece.y)]
 
