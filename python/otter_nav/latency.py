@@ -14,7 +14,7 @@ from .bag import open_bag
 from .errors import RecordingError
 
 _TOPICS = ("map_updates", "planner_status", "trajectory", "tracker_cycle")
-_CONFLICT = "only "  # how the planner's reason begins then
+_CONFLICT = "only "  # how the planner's reason begins then (test/unit/mission)
 _PARTS = (("scan to decision", "scan", "decision"), ("decision to answer", "decision", "answer"),
           ("answer to command", "answer", "command"), ("scan to command", "scan", "command"))
 

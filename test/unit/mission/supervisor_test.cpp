@@ -53,6 +53,8 @@ TEST(Supervisor, ReplansInMotionWhenTheWayIsBlocked) {
   ASSERT_TRUE(orders.plan);
   EXPECT_EQ(mission.supervisor->phase(), Phase::kReplanning);
   EXPECT_NE(mission.supervisor->reason().find("on the way"), std::string::npos);
+  // By which rosrun otter_nav latency knows conflicts in a recording.
+  EXPECT_EQ(mission.supervisor->reason().rfind("only ", 0), 0U) << mission.supervisor->reason();
   const PlanRequest request = *orders.plan;
   const double joint = request.start_time_s - before.start_time_s;
   EXPECT_LT((request.query.start.flat.position - before.trajectory.flat(joint).position).norm(),
