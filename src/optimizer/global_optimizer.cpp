@@ -19,7 +19,7 @@ namespace otter_nav::optimizer {
 namespace {
 
 // An attempt that after so many rounds still exceeds a limit by this share is given up.
-constexpr int kPatience = 2;
+constexpr int kPatience = 3;
 constexpr double kHopeless = 0.5;
 // Under a load thrusts spike where the force along the hull nearly vanishes: that takes longer.
 constexpr int kPatienceUnderLoad = 4;
@@ -39,6 +39,9 @@ constexpr double kSlower = 0.97;       // wanted, where a speed failed
 // reserve of thrust mends nothing.
 constexpr double kFirmerHeading = 2.5;
 constexpr double kSpike = 0.1;
+// Asks for so much more than a thruster has only while the bow goes round the wrong way.
+constexpr double kBowGoesRound = 1.0;
+constexpr double kCornerSlower = 2.0;
 // A trajectory that asks for this share too much of a thruster is slowed down to suit.
 constexpr double kDilationMax = 0.06;
 // After the first feasible result.
@@ -173,6 +176,7 @@ class GlobalOptimizer::Solver {
         return false;
       }
       tighten();
+      slowWhereTheBowGoesRound();
     }
     return false;
   }
@@ -270,7 +274,8 @@ class GlobalOptimizer::Solver {
     const Spline shape = spline_;
     for (int i = 0; i <= kTries; ++i) {
       result_.trajectory = assembled();
-      excess_ = worstExcess(result_.trajectory, vessel_, limits_, start_->psi_rad);
+      excesses_ = excesses(result_.trajectory, vessel_, limits_, start_->psi_rad);
+      excess_ = *std::max_element(excesses_.begin(), excesses_.end());
       if (excess_ <= 0.0 || excess_ > dilation_max) {
         break;
       }
@@ -312,6 +317,21 @@ class GlobalOptimizer::Solver {
       problem_.targets.weights.clearance *= kWeightGrowth;
       problem_.targets.weights.dynamics *= kWeightGrowth;
     }
+  }
+
+  // Braking hard into a corner, w can pass its zero on the wrong side: the bow has to go round the
+  // other way, at any rate, and no small step mends that. Slowly enough w points along the velocity;
+  // from there the corner gets faster again with w on the right side.
+  void slowWhereTheBowGoesRound() {
+    if (!vessel::paperHolds(vessel_)) {
+      return;
+    }
+    std::vector<bool> spans(spline_.spans.size(), false);
+    const std::size_t first = chosen_.start.manoeuvre.pieces.size();
+    for (std::size_t i = 1; i + 1 < spans.size(); ++i) {
+      spans[i] = excesses_[first + i] > kBowGoesRound;
+    }
+    slowDown(spans, kCornerSlower, spline_);
   }
 
   // The objective's thrusts are the paper's model's. Where the manoeuvring model asks for more, as
@@ -435,7 +455,8 @@ class GlobalOptimizer::Solver {
   EndChooser chooser_{vessel_, limits_, end_options_};
   ChosenEnds chosen_;
   Optimized result_;
-  double excess_ = 0.0;  // the worst of result_'s, as a share of the limit
+  std::vector<double> excesses_;  // of result_'s pieces, as shares of the limit
+  double excess_ = 0.0;           // the worst of them
   feasibility::SafetyLimits limits_;
   const feasibility::Obstacles* obstacles_ = nullptr;
   const trajectory::Boundary* start_ = nullptr;

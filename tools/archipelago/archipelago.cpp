@@ -146,6 +146,10 @@ OccupancyGrid drawChart(const ArchipelagoOptions& options, Random& random) {
   grid.geometry.resolution_m = options.resolution_m;
   grid.geometry.origin.setConstant(-0.5 * options.size_m);
   grid.cells.assign(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells), Cell::kFree);
+  if (options.walls != Walls::kNone) {
+    drawWalls(options.walls, random, grid);
+    return grid;
+  }
   for (int k = 0; k < scaled(options.islands, options); ++k) {
     drawIsland(grid, random);
   }
@@ -159,6 +163,9 @@ OccupancyGrid drawChart(const ArchipelagoOptions& options, Random& random) {
 }
 
 void drawUncharted(const ArchipelagoOptions& options, Random& random, OccupancyGrid& world) {
+  if (options.walls != Walls::kNone) {
+    return;
+  }
   for (int k = 0; k < scaled(options.uncharted, options); ++k) {
     drawFloating(world, random);
   }

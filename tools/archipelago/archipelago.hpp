@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "archipelago/walls.hpp"
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
@@ -16,6 +17,7 @@ namespace otter_nav::scenario {
 struct ArchipelagoOptions {
   double size_m = 300.0;       // of the square
   double resolution_m = 0.25;  // of a cell
+  Walls walls = Walls::kNone;  // others: these instead of all that the counts say
   double islands = 18.0;       // per 300 m by 300 m, as all the counts here
   double breakwaters = 8.0;    // walls 1 m wide
   double charted = 110.0;      // buoys and pontoons in the chart
@@ -45,7 +47,8 @@ struct Archipelago {
 [[nodiscard]] Result<Archipelago> generateArchipelago(const ArchipelagoOptions& options,
                                                       std::uint64_t seed);
 
-// What it is made of: draws islands, breakwaters and charted things, centred on the map's origin.
+// What it is made of: draws islands, breakwaters and charted things, or walls, centred on the map's
+// origin.
 [[nodiscard]] map::OccupancyGrid drawChart(const ArchipelagoOptions& options, Random& random);
 // Adds what floats about uncharted.
 void drawUncharted(const ArchipelagoOptions& options, Random& random, map::OccupancyGrid& world);

@@ -1,4 +1,4 @@
-// Writes a seeded archipelago, a narrow field of uncharted cylinders, or encounters in open water,
+// Writes a seeded archipelago, waters between walls, a narrow field of uncharted cylinders, or encounters in open water,
 // with chart, world and missions: --help says how.
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -70,6 +70,12 @@ Result<std::size_t> writeEncounters(const std::string& set, const std::string& f
   return count;
 }
 
+constexpr double kClearBetweenWallsM = 3.0;  // at start and goal
+const std::map<std::string, otter_nav::scenario::Walls> kWalls = {
+    {"streets", otter_nav::scenario::Walls::kStreets},
+    {"halls", otter_nav::scenario::Walls::kHalls},
+    {"harbour", otter_nav::scenario::Walls::kHarbour}};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -99,9 +105,14 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--vessels", options.vessels, "others that sail there on bent routes")
       ->capture_default_str();
+  std::string walls;
+  CLI::Option* walled =
+      app.add_option("--walls", walls, "streets, halls or harbour: instead of what the counts say")
+          ->check(CLI::IsMember(kWalls));
   otter_nav::scenario::CylinderFieldOptions narrow;
   CLI::Option* cylinders = app.add_flag(
       "--cylinders", "instead: a field of cylinders 13 m by 20 m that the chart doesn't show");
+  cylinders->excludes(walled);
   app.add_option("--best-min", narrow.best_min_m, "of its best way's clearance, m")
       ->capture_default_str()
       ->needs(cylinders);
@@ -113,7 +124,8 @@ int main(int argc, char** argv) {
                  "instead: SET_01.yaml and so on, other vessels in open water: 'imazu', his 22 "
                  "cases; 'captains' who never give way; 'moving', squares that go round on circles")
       ->check(CLI::IsMember(kEncounters))
-      ->excludes(cylinders);
+      ->excludes(cylinders)
+      ->excludes(walled);
   CLI11_PARSE(app, argc, argv);
 
   if (!encounters.empty()) {
@@ -134,6 +146,10 @@ int main(int argc, char** argv) {
     }
     std::cout << folder << '/' << name << ".yaml: " << *written << '\n';
     return 0;
+  }
+  if (!walls.empty()) {
+    options.walls = kWalls.at(walls);
+    options.clear_m = kClearBetweenWallsM;
   }
   const auto archipelago = otter_nav::scenario::generateArchipelago(options, seed);
   if (!archipelago) {

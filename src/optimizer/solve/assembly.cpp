@@ -37,8 +37,23 @@ trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline) {
   return trajectory::Trajectory(std::move(pieces));
 }
 
-double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Parameters& vessel,
-                   const feasibility::SafetyLimits& safety, double psi_start_rad) {
+std::vector<double> excesses(const trajectory::Trajectory& trajectory,
+                             const vessel::Parameters& vessel,
+                             const feasibility::SafetyLimits& safety, double psi_start_rad) {
+  const std::size_t pieces = trajectory.pieces().size();
+  std::vector<double> excess(pieces, -1.0);
+  if (!vessel::paperHolds(vessel)) {
+    const trajectory::MotionAlong motion(trajectory, vessel, safety.disturbance, psi_start_rad);
+    for (std::size_t i = 0; i < pieces; ++i) {
+      for (std::size_t k = motion.firstOf(i); k < motion.firstOf(i + 1); ++k) {
+        const trajectory::MotionAlong::Point& p = motion.points()[k];
+        const double thrust = vessel::shareOfLimit(p.thrusts, vessel.thrusters);
+        excess[i] = std::max({excess[i], thrust / safety.thrust_share - 1.0,
+                              p.speed_mps / safety.speedMaxAt(p.t_s) - 1.0});
+      }
+    }
+    return excess;
+  }
   constexpr double kOpen = 1e3;
   feasibility::SafetyLimits open = safety;
   open.thrust_share *= kOpen;
@@ -47,24 +62,30 @@ double worstExcess(const trajectory::Trajectory& trajectory, const vessel::Param
   open.yaw_rate_max_radps *= kOpen;
   feasibility::Tolerances tolerances;
   tolerances.heading_force_share = 0.0;
-  feasibility::PieceReport worst;
-  if (!vessel::paperHolds(vessel)) {
-    const trajectory::MotionAlong motion(trajectory, vessel, safety.disturbance, psi_start_rad);
-    for (const trajectory::MotionAlong::Point& p : motion.points()) {
-      worst.thrust_share =
-          std::max(worst.thrust_share, vessel::shareOfLimit(p.thrusts, vessel.thrusters));
-      worst.speed_share = std::max(worst.speed_share, p.speed_mps / safety.speedMaxAt(p.t_s));
-    }
-    return std::max(worst.thrust_share / safety.thrust_share, worst.speed_share) - 1.0;
-  }
-  for (std::size_t i = 0; i < trajectory.pieces().size(); ++i) {
+  for (std::size_t i = 0; i < pieces; ++i) {
     feasibility::PieceReport report;
     feasibility::PieceCheck(trajectory.pieces()[i], vessel, open, tolerances)
         .checkDynamics(trajectory.startOf(i), report);
-    worst.thrust_share = std::max(worst.thrust_share, report.thrust_share);
-    worst.speed_share = std::max(worst.speed_share, report.speed_share);
+    excess[i] =
+        std::max(report.thrust_share / safety.thrust_share, kOpen * report.speed_share) - 1.0;
   }
-  return std::max(worst.thrust_share / safety.thrust_share, kOpen * worst.speed_share) - 1.0;
+  return excess;
+}
+
+void slowDown(const std::vector<bool>& spans, double factor, Spline& spline) {
+  const auto marked = [&](std::size_t i) { return i < spans.size() && spans[i]; };
+  for (std::size_t i = 0; i < spline.spans.size(); ++i) {
+    const bool beside = marked(i + 1) || (i > 0 && marked(i - 1));
+    spline.spans[i].duration_s *= marked(i) ? factor : beside ? std::sqrt(factor) : 1.0;
+    if (i == 0 || !(marked(i - 1) || marked(i))) {
+      continue;
+    }
+    double scale = 1.0;
+    for (int m = 1; m < 4; ++m) {
+      scale /= factor;
+      spline.knots[i].state.col(m) *= scale;
+    }
+  }
 }
 
 void stretch(double factor, Spline& spline) {

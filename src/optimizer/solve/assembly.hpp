@@ -14,11 +14,12 @@ namespace otter_nav::optimizer {
 
 [[nodiscard]] trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline);
 
-// The largest share by which a limit of thrust or speed is exceeded anywhere; negative: none is.
+// The largest share by which a limit of thrust or speed is exceeded in each piece; negative: none is.
 // `psi_start_rad`: the heading at its start.
-[[nodiscard]] double worstExcess(const trajectory::Trajectory& trajectory,
-                                 const vessel::Parameters& vessel,
-                                 const feasibility::SafetyLimits& safety, double psi_start_rad);
+[[nodiscard]] std::vector<double> excesses(const trajectory::Trajectory& trajectory,
+                                           const vessel::Parameters& vessel,
+                                           const feasibility::SafetyLimits& safety,
+                                           double psi_start_rad);
 
 // At each quadrature point of each span, N: how much more than its share a thruster is asked for up
 // to the next points, by the manoeuvring model.
@@ -30,6 +31,10 @@ using AtPoints = std::vector<std::array<double, trajectory::kLobattoPoints>>;
 // Lets time run slower by a factor, which leaves the shape as it is but for the second and last but
 // one pieces: the outermost stay, as their ends are the manoeuvres'.
 void dilate(double factor, Spline& spline);
+
+// Lets time run slower by a factor in the spans marked, and less so in their neighbours; both ends of
+// the spline stay.
+void slowDown(const std::vector<bool>& spans, double factor, Spline& spline);
 
 // The same shape with its time, and its ends' families, stretched by a factor.
 void stretch(double factor, Spline& spline);

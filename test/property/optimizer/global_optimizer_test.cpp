@@ -176,5 +176,46 @@ TEST(GlobalOptimizer, StopsAtTheSharpestCornerAloneWhereNothingLeadsRoundIt) {
       << "last resort: " << result->last_resort;
 }
 
+// Rooms in a row with a door in each wall: at the doors the vessel brakes into sharp turns.
+TEST(GlobalOptimizer, TurnsSharplyThroughManyDoors) {
+  constexpr int kWalls = 12;
+  constexpr double kRoomM = 18.0;
+  constexpr double kDoorM = 5.0;
+  const vessel::Parameters vessel;
+  GlobalOptimizer optimizer(GlobalOptions(), vessel);
+  Random random(11);
+  int sailed = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    map::OccupancyGrid grid;
+    grid.geometry = {4 * static_cast<int>(kRoomM * (kWalls + 1)), 200, 0.25, {0.0, -25.0}};
+    grid.cells.assign(static_cast<std::size_t>(grid.geometry.width) * 200, map::Cell::kFree);
+    std::vector<Eigen::Vector2d> way = {{0.5 * kRoomM, 0.0}};
+    for (int wall = 1; wall <= kWalls; ++wall) {
+      const double y = random.uniform(14.0, 20.0) * (wall % 2 == 0 ? 1.0 : -1.0);
+      for (int row = 0; row < 200; ++row) {
+        const int column = static_cast<int>(4.0 * kRoomM * wall);
+        if (std::abs(grid.geometry.centreOf(column, row).y() - y) > 0.5 * kDoorM) {
+          for (int thick = 0; thick < 3; ++thick) {
+            grid.cells[grid.geometry.index(column + thick, row)] = map::Cell::kOccupied;
+          }
+        }
+      }
+      // By the near side of the door, as guide paths go.
+      const double near_y = y - std::copysign(0.5 * kDoorM - 1.2, y);
+      way.emplace_back(kRoomM * wall - 1.0, near_y);
+      way.emplace_back(kRoomM * wall + 1.8, near_y);
+    }
+    way.emplace_back(kRoomM * (kWalls + 0.5), 0.0);
+    const map::DistanceField field(grid, {});
+    const auto result = optimizer.optimize(
+        field, way, berth(way.front().x(), 0.0, -1.0), berth(way.back().x(), 0.0, -1.0), Budget(),
+        feasibility::SafetyLimits::of(vessel));
+    ASSERT_TRUE(result.has_value()) << trial << ": " << result.error().message;
+    EXPECT_TRUE(result->verification.ok);
+    sailed += result->last_resort ? 0 : 1;
+  }
+  EXPECT_GE(sailed, 34);
+}
+
 }  // namespace
 }  // namespace otter_nav::optimizer

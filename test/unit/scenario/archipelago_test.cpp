@@ -46,6 +46,27 @@ bool connected(const map::DistanceField& field, const Eigen::Vector2d& from,
   return seen[g.index(end.x(), end.y())] != 0;
 }
 
+TEST(Archipelago, WallsLeaveWaysThrough) {
+  for (const Walls walls : {Walls::kStreets, Walls::kHalls, Walls::kHarbour}) {
+    ArchipelagoOptions options;
+    options.walls = walls;
+    options.clear_m = 3.0;
+    for (const std::uint64_t seed : {1U, 2U}) {
+      const auto water = generateArchipelago(options, seed);
+      ASSERT_TRUE(water.has_value()) << water.error().message;
+      EXPECT_EQ(water->chart.cells, water->world.cells);
+      const map::GridGeometry& g = water->world.geometry;
+      EXPECT_EQ(water->world.cells[g.index(0, g.height / 2)], map::Cell::kOccupied);
+      const map::DistanceField world(water->world, {10.0, false});
+      ASSERT_EQ(water->missions.size(), 14U);
+      for (const Mission& mission : water->missions) {
+        EXPECT_TRUE(connected(world, mission.start.position, mission.goal.position,
+                              options.passage_clearance_m));
+      }
+    }
+  }
+}
+
 TEST(Archipelago, MissionsCanBeSailedButNotStraight) {
   const ArchipelagoOptions options = small();
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
