@@ -1,5 +1,5 @@
-// Writes a seeded archipelago, waters between walls, a narrow field of uncharted cylinders, or encounters in open water,
-// with chart, world and missions: --help says how.
+// Writes a seeded archipelago, waters between walls, a narrow field of uncharted cylinders, or
+// encounters in open water, with chart, world and missions: --help says how.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>

@@ -142,8 +142,8 @@ class Drawing {
   void pierFromNorthOrSouth(double x, double width, double side) {
     const double length = random_.uniform(0.08, 0.29) * 2.0 * half_m_;
     const double quay = side * half_m_;
-    draw({x, std::min(quay, quay - side * length), x + width,
-          std::max(quay, quay - side * length)});
+    draw(
+        {x, std::min(quay, quay - side * length), x + width, std::max(quay, quay - side * length)});
     if (random_.uniform() < 0.3) {
       return;
     }

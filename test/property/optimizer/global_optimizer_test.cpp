@@ -207,9 +207,9 @@ TEST(GlobalOptimizer, TurnsSharplyThroughManyDoors) {
     }
     way.emplace_back(kRoomM * (kWalls + 0.5), 0.0);
     const map::DistanceField field(grid, {});
-    const auto result = optimizer.optimize(
-        field, way, berth(way.front().x(), 0.0, -1.0), berth(way.back().x(), 0.0, -1.0), Budget(),
-        feasibility::SafetyLimits::of(vessel));
+    const auto result = optimizer.optimize(field, way, berth(way.front().x(), 0.0, -1.0),
+                                           berth(way.back().x(), 0.0, -1.0), Budget(),
+                                           feasibility::SafetyLimits::of(vessel));
     ASSERT_TRUE(result.has_value()) << trial << ": " << result.error().message;
     EXPECT_TRUE(result->verification.ok);
     sailed += result->last_resort ? 0 : 1;
