@@ -14,8 +14,8 @@ namespace otter_nav::optimizer {
 
 [[nodiscard]] trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline);
 
-// The largest share by which a limit of thrust or speed is exceeded in each piece; negative: none is.
-// `psi_start_rad`: the heading at its start.
+// The largest share by which a limit of thrust or speed is exceeded in each piece; negative: none
+// is. `psi_start_rad`: the heading at its start.
 [[nodiscard]] std::vector<double> excesses(const trajectory::Trajectory& trajectory,
                                            const vessel::Parameters& vessel,
                                            const feasibility::SafetyLimits& safety,
@@ -32,8 +32,8 @@ using AtPoints = std::vector<std::array<double, trajectory::kLobattoPoints>>;
 // one pieces: the outermost stay, as their ends are the manoeuvres'.
 void dilate(double factor, Spline& spline);
 
-// Lets time run slower by a factor in the spans marked, and less so in their neighbours; both ends of
-// the spline stay.
+// Lets time run slower by a factor in the spans marked, and less so in their neighbours; both ends
+// of the spline stay.
 void slowDown(const std::vector<bool>& spans, double factor, Spline& spline);
 
 // The same shape with its time, and its ends' families, stretched by a factor.
