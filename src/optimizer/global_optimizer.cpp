@@ -320,8 +320,8 @@ class GlobalOptimizer::Solver {
   }
 
   // Braking hard into a corner, w can pass its zero on the wrong side: the bow has to go round the
-  // other way, at any rate, and no small step mends that. Slowly enough w points along the velocity;
-  // from there the corner gets faster again with w on the right side.
+  // other way, at any rate, and no small step mends that. Slowly enough w points along the
+  // velocity; from there the corner gets faster again with w on the right side.
   void slowWhereTheBowGoesRound() {
     if (!vessel::paperHolds(vessel_)) {
       return;
