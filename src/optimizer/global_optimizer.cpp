@@ -272,6 +272,10 @@ class GlobalOptimizer::Solver {
   void verifyDilated(double dilation_max) {
     constexpr int kTries = 6;
     const Spline shape = spline_;
+    std::vector<bool> inside(shape.knots.size(), false);
+    for (std::size_t k = 2; k + 2 < inside.size(); ++k) {
+      inside[k] = true;
+    }
     for (int i = 0; i <= kTries; ++i) {
       result_.trajectory = assembled();
       excesses_ = excesses(result_.trajectory, vessel_, limits_, start_->psi_rad);
@@ -279,7 +283,7 @@ class GlobalOptimizer::Solver {
       if (excess_ <= 0.0 || excess_ > dilation_max) {
         break;
       }
-      dilate(1.0 + 0.7 * excess_ + 0.001, spline_);
+      slowDown(inside, 1.0 + 0.7 * excess_ + 0.001, spline_);
     }
     result_.verification =
         feasibility::verify(result_.trajectory, *obstacles_, vessel_, *start_, *goal_, limits_);
@@ -326,12 +330,14 @@ class GlobalOptimizer::Solver {
     if (!vessel::paperHolds(vessel_)) {
       return;
     }
-    std::vector<bool> spans(spline_.spans.size(), false);
+    std::vector<bool> knots(spline_.knots.size(), false);
     const std::size_t first = chosen_.start.manoeuvre.pieces.size();
-    for (std::size_t i = 1; i + 1 < spans.size(); ++i) {
-      spans[i] = excesses_[first + i] > kBowGoesRound;
+    for (std::size_t i = 1; i + 2 < knots.size(); ++i) {
+      if (excesses_[first + i] > kBowGoesRound) {
+        knots[i] = knots[i + 1] = true;
+      }
     }
-    slowDown(spans, kCornerSlower, spline_);
+    slowDown(knots, kCornerSlower, spline_);
   }
 
   // The objective's thrusts are the paper's model's. Where the manoeuvring model asks for more, as

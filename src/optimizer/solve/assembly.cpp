@@ -72,22 +72,6 @@ std::vector<double> excesses(const trajectory::Trajectory& trajectory,
   return excess;
 }
 
-void slowDown(const std::vector<bool>& spans, double factor, Spline& spline) {
-  const auto marked = [&](std::size_t i) { return i < spans.size() && spans[i]; };
-  for (std::size_t i = 0; i < spline.spans.size(); ++i) {
-    const bool beside = marked(i + 1) || (i > 0 && marked(i - 1));
-    spline.spans[i].duration_s *= marked(i) ? factor : beside ? std::sqrt(factor) : 1.0;
-    if (i == 0 || !(marked(i - 1) || marked(i))) {
-      continue;
-    }
-    double scale = 1.0;
-    for (int m = 1; m < 4; ++m) {
-      scale /= factor;
-      spline.knots[i].state.col(m) *= scale;
-    }
-  }
-}
-
 void stretch(double factor, Spline& spline) {
   for (Span& span : spline.spans) {
     span.duration_s *= factor;
@@ -146,18 +130,18 @@ AtPoints excessAlong(const trajectory::Trajectory& trajectory, std::size_t first
   return excess_n;
 }
 
-void dilate(double factor, Spline& spline) {
-  const std::size_t last = spline.knots.size() - 1;
-  const auto slows = [&](std::size_t k) { return k > 1 && k + 1 < last; };
-  for (std::size_t k = 0; k < last; ++k) {
-    const int slow = (slows(k) ? 1 : 0) + (slows(k + 1) ? 1 : 0);
+void slowDown(const std::vector<bool>& knots, double factor, Spline& spline) {
+  for (std::size_t k = 0; k < spline.spans.size(); ++k) {
+    const int slow = (knots[k] ? 1 : 0) + (knots[k + 1] ? 1 : 0);
     spline.spans[k].duration_s *= slow == 2 ? factor : slow == 1 ? std::sqrt(factor) : 1.0;
   }
   double scale = 1.0;
   for (int m = 1; m < 4; ++m) {
     scale /= factor;
-    for (std::size_t k = 2; k + 1 < last; ++k) {
-      spline.knots[k].state.col(m) *= scale;
+    for (std::size_t k = 0; k < knots.size(); ++k) {
+      if (knots[k]) {
+        spline.knots[k].state.col(m) *= scale;
+      }
     }
   }
 }

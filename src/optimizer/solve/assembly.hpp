@@ -28,13 +28,9 @@ using AtPoints = std::vector<std::array<double, trajectory::kLobattoPoints>>;
                                    std::size_t spans, const vessel::Parameters& vessel,
                                    const feasibility::SafetyLimits& safety, double psi_start_rad);
 
-// Lets time run slower by a factor, which leaves the shape as it is but for the second and last but
-// one pieces: the outermost stay, as their ends are the manoeuvres'.
-void dilate(double factor, Spline& spline);
-
-// Lets time run slower by a factor in the spans marked, and less so in their neighbours; both ends
-// of the spline stay.
-void slowDown(const std::vector<bool>& spans, double factor, Spline& spline);
+// Lets time run slower by a factor at the knots marked, and so between them; the ends' motion is
+// their manoeuvres'.
+void slowDown(const std::vector<bool>& knots, double factor, Spline& spline);
 
 // The same shape with its time, and its ends' families, stretched by a factor.
 void stretch(double factor, Spline& spline);
