@@ -192,13 +192,12 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
                                  roomAround(vessel_.hull, request.query.goal, field));
   double& margin = request.query.limits.hull_margin_m;
   margin = std::clamp(around - 2.0 * feasibility::kLeastSlackM, 0.0, margin);
-  // Thrust beyond what gusts leave is for holding headings, not for going faster; but the start is
-  // as fast as it is.
-  constexpr double kSlowsDown = 1.05;
-  const double speed = request.query.start.flat.velocity.norm();
-  request.query.limits.speed_max_mps = std::min(
-      request.query.limits.speed_max_mps,
-      std::max(safety.limits(safety.freeThrustShare(), room).speed_max_mps, kSlowsDown * speed));
+  // Thrust beyond what gusts and waves leave is for holding headings and making good what they
+  // took, not for going faster.
+  const double catch_up_mps = safety.limits(safety.calmThrustShare(), room).speed_max_mps;
+  request.query.limits.speed_max_mps =
+      std::min(request.query.limits.speed_max_mps,
+               safety.limits(safety.freeThrustShare(), room).speed_max_mps);
   request.thrust_share = thrust_share;
   request.moving = from != From::kRest;
   asked_ = Asked{};
@@ -206,6 +205,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   asked_->from = from;
   asked_->since_s = now_s;
   asked_->speed_max_mps = safety.speedMax();
+  asked_->catch_up_mps = std::max(catch_up_mps, request.query.limits.speed_max_mps);
   asked_->slow = safety.slowShare() < 1.0;
   asked_->level = safety.level();
   asked_->pace_share = paceShare(asked_->level);

@@ -40,9 +40,11 @@ class PlanRequests {
   struct Asked {
     PlanRequest request;
     From from = From::kRest;
-    bool improves = false;  // asked for only to be faster
+    bool improves = false;  // asked for only to be better than what is sailed: faster,
+    bool slower = false;    // or within what the waves leave
     double since_s = 0.0;
     double speed_max_mps = 0.0;  // the mission's, when it was asked for
+    double catch_up_mps = 0.0;   // what a vessel that fell behind may go
     bool slow = false;           // asked for because there was none at the usual speed
     std::size_t level = 0;       // of the clearances
     double pace_share = 1.0;     // of the usual speed, where it wanders too much for that
@@ -80,6 +82,7 @@ class PlanRequests {
     return asked_ && now_s - asked_->since_s > kPatienceS;
   }
   void markAsImprovement() { asked_->improves = true; }
+  void markAsSlower() { asked_->slower = true; }
   void drop() { asked_.reset(); }
   [[nodiscard]] Asked take() { return *std::exchange(asked_, std::nullopt); }
   // Nothing if the answer is to a request that was replaced.

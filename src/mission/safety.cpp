@@ -134,11 +134,19 @@ double Safety::freeThrustShare() const {
   constexpr double kMostForMean = 0.1;
   const bool found = plansWithWeather() && !plansBlind();  // by the plan itself
   const double mean = found ? 0.0 : std::clamp(weather_.meanShare() - kLittle, 0.0, kMostForMean);
-  // With less than most of the thrust the hull runs before the wind so slowly that it is carried.
-  constexpr double kMostForWaves = 0.3;
-  const double waves = std::min(kMostForWaves, weather_.waveShare());
-  return planThrustShare(options_.thrust_share, std::max(weather_.gustShare() + mean, waves),
+  return planThrustShare(options_.thrust_share, std::max(weather_.gustShare() + mean, waveShare()),
                          times_left_behind_);
+}
+
+double Safety::waveShare() const {
+  // With less than most of the thrust the hull runs before the wind so slowly that it is carried.
+  constexpr double kMost = 0.3;
+  return std::min(kMost, weather_.waveShare());
+}
+
+double Safety::speedInWaves() const {
+  const double share = planThrustShare(options_.thrust_share, waveShare(), 0);
+  return feasibility::SafetyLimits::of(vessel_, 0.0, share).speed_max_mps;
 }
 
 double Safety::nextThrustShare() const {

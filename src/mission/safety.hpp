@@ -73,6 +73,10 @@ class Safety {
   [[nodiscard]] vessel::Disturbance planDisturbance() const;
   // What wind and current and the vessel's troubles leave for plans.
   [[nodiscard]] double freeThrustShare() const;
+  // The speed through the water, m/s, that waves leave the thrust for.
+  [[nodiscard]] double speedInWaves() const;
+  // The share that calm water leaves.
+  [[nodiscard]] double calmThrustShare() const { return options_.thrust_share; }
   // For the next plan: where there was none with that, one with more rather than none.
   [[nodiscard]] double nextThrustShare() const;
   // Where there is none that knows of wind and current even so, one that leaves thrust for them
@@ -127,6 +131,8 @@ class Safety {
   void tryLevel(std::size_t level) { levels_.begin(level); }
 
  private:
+  // Of the thrust, what waves take from plans.
+  [[nodiscard]] double waveShare() const;
   // What room that takes, m.
   [[nodiscard]] double wandersAt(std::size_t level) const;
 

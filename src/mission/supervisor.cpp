@@ -409,6 +409,16 @@ class Decider final : public Supervisor {
     return mayReplanForWeather(m) && sailed_.left(m.now_s) > kLeftS &&
            safety().sailingSpeed(planned_mps) < kWorthShare * planned_mps;
   }
+  // The way left is faster than the thrust allows that waves leave, by what is known by now: behind
+  // such a plan the vessel falls.
+  bool isTooFastForWaves(const Moment& m) {
+    constexpr double kAgainS = 2.0;
+    constexpr double kWorthShare = 0.93;  // of the speed: slowing down for less isn't worth it
+    constexpr double kLeftS = 4.0;
+    return weather().knowsWaves() && m.now_s - slower_asked_s_ >= kAgainS &&
+           sailed_.left(m.now_s) > kLeftS &&
+           safety().speedInWaves() < kWorthShare * fastestAhead(m.now_s);
+  }
   // The plan ends on a heading that can't be held there, or not on the goal's though it can.
   bool endsOnAWrongHeading(const Moment& m) {
     constexpr double kWrongRad = 0.7;
@@ -506,8 +516,9 @@ class Decider final : public Supervisor {
     plans_.drop();
     ++replans_;
     planned_left_m_ = 0.0;
+    const double catch_up_mps = sailed_.speed_max_mps;
     sailed_ = stopping::splice(sailed_, m.now_s, path);
-    sailed_.speed_max_mps = planned_limits_.speed_max_mps;
+    sailed_.speed_max_mps = catch_up_mps;
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
   }
@@ -548,6 +559,15 @@ class Decider final : public Supervisor {
   Orders planFaster(const Moment& m) {
     safety().tryLevel(planned_level_);
     return improve(m);
+  }
+  Orders planSlower(const Moment& m) {
+    slower_asked_s_ = m.now_s;
+    safety().tryLevel(planned_level_);
+    Orders orders = improve(m);
+    if (orders.plan) {
+      plans_.markAsSlower();
+    }
+    return orders;
   }
   Orders planToImprove(const Moment& m) {
     if (is_last_resort_) {
@@ -787,6 +807,7 @@ class Decider final : public Supervisor {
       {kUnderWay, &Decider::endsOnAWrongHeading, &Decider::planForGoalHeading},
       {kUnderWay, &Decider::hasNewSpeedMax, &Decider::planForSpeedMax},
       {kReplanning, &Decider::always, &Decider::planFromSailed},
+      {kSailing, &Decider::isTooFastForWaves, &Decider::planSlower},
       {kSailing, &Decider::isNeedlesslySlow, &Decider::planFaster},
       {kSailing, &Decider::mayImprove, &Decider::planToImprove},
 
@@ -846,6 +867,18 @@ class Decider final : public Supervisor {
   bool mayReplanForWeather(const Moment& m) {
     constexpr double kAgainS = 10.0;
     return weather().isKnown() && (!planned_in_known_weather_ || m.now_s - plan_time_s_ >= kAgainS);
+  }
+  // The highest speed on the way left, m/s, from where a slower plan could have an effect.
+  double fastestAhead(double now_s) {
+    constexpr double kStepS = 0.5;
+    constexpr double kAheadS = 20.0;
+    const double from = sailed_.elapsed(now_s) + 1.0;
+    const double to = std::min(sailed_.trajectory.duration(), from + kAheadS);
+    double fastest = 0.0;
+    for (double t = from; t < to; t += kStepS) {
+      fastest = std::max(fastest, sailed_.trajectory.flat(t).velocity.norm());
+    }
+    return fastest;
   }
   // For how long, s, the way left asks for more than the thrusters have.
   double overtaxed(double now_s, const vessel::Disturbance& disturbance) {
@@ -1051,7 +1084,7 @@ class Decider final : public Supervisor {
     planned_thrust_share_ = asked.request.thrust_share;
     planned_for_mps_ = asked.speed_max_mps;
     too_fast_since_s_ = m.now_s;
-    sailed_.speed_max_mps = asked.request.query.limits.speed_max_mps;
+    sailed_.speed_max_mps = asked.catch_up_mps;
     planned_goal_psi_rad_ = asked.request.query.goal.psi_rad;
     planned_disturbance_ = weather().mean();
     planned_in_known_weather_ = weather().isKnown();
@@ -1129,7 +1162,8 @@ class Decider final : public Supervisor {
         late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.left(m.now_s);
     const bool leads_on = asked.left_m < planned_left_m_ - kFurtherM ||
                           (asked.left_m == 0.0 && planned_left_m_ > 0.0);
-    if (asked.improves && !leads_on && (asked.left_m > planned_left_m_ || !saves_time)) {
+    const bool is_better = saves_time || asked.slower;
+    if (asked.improves && !leads_on && (asked.left_m > planned_left_m_ || !is_better)) {
       return {};
     }
     plans_.latency.onTime();
@@ -1217,8 +1251,10 @@ class Decider final : public Supervisor {
   std::optional<double> calm_by_s_;  // or the mission fails
   double planned_for_mps_ = 0.0;     // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
-  stopping::Conflict conflict_;     // what the last condition found on the way
-  double plan_time_s_ = 0.0;        // when the plan was taken, or an improvement asked for
+  stopping::Conflict conflict_;  // what the last condition found on the way
+  double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
+  // When a plan was asked for that leaves the waves what they take.
+  double slower_asked_s_ = -std::numeric_limits<double>::infinity();
   double sailed_since_s_ = 0.0;     // when a plan was taken last, or the goal
   double stop_time_s_ = 0.0;        // when the vessel began to come to rest
   bool cancelled_ = false;          // the mission ends with the stop

@@ -167,6 +167,11 @@ double Weather::waveShare() const {
   return each_n / (t.ahead_max_n + each_n);
 }
 
+bool Weather::knowsWaves() const {
+  constexpr double kWaveS = 6.0;
+  return sway_felt_s_ >= kWaveS;
+}
+
 double Weather::turningShare(const Eigen::Vector2d& velocity, const Disturbance& hard) const {
   const vessel::Thrusters& t = vessel_.thrusters;
   double least = kNotHeld;

@@ -39,6 +39,8 @@ class Weather {
   // Munk, which goes with that and with the speed, at the speed that the rest of the thrust gives.
   // In [0, 1).
   [[nodiscard]] double waveShare() const;
+  // The sway has been felt for more than a wave.
+  [[nodiscard]] bool knowsWaves() const;
   // The speed over ground, m/s, to sail at: `usual_mps` where the gust leaves moment enough to hold
   // the headings of all courses, else the fastest that does, or the one that leaves most
   // (docs/weather.md).

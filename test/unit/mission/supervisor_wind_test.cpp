@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "../feasibility/moving_disc.hpp"
@@ -106,6 +108,55 @@ TEST(SupervisorInWind, LeavesThrustForWhatWavesTurn) {
   };
   EXPECT_GT(thrustShare(0.0), 0.9);
   EXPECT_LT(thrustShare(0.4), 0.75);
+}
+
+// Planned at 2.8 m/s, of 3.1 at full thrust, before waves were felt that sway it by `sway_mps`.
+struct Swayed {
+  std::optional<PlanRequest> plan;
+  double after_s = 0.0;
+  double speed_mps = 0.0;  // of what is sailed when it is asked for
+};
+Swayed sailInWaves(ScriptedMission& mission, double sway_mps) {
+  const auto otter =
+      vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+  mission.supervisor = Supervisor::create(mission.options, *otter, 1);
+  mission.knowWeather();
+  mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({40.0, 0.0});
+  (void)mission.answer(*orders->plan, test::eastward({-40.0, 0.0}, 80.0, 2.8));
+  Swayed found;
+  for (int k = 0; k < 200 && !found.plan; ++k) {
+    mission.now_s += 0.1;
+    Situation situation = mission.situation();
+    situation.state[vessel::kSway] += sway_mps * std::sin(0.25 * k);
+    found.plan = mission.supervisor->update(mission.now_s, situation, mission.obstacles()).plan;
+    found.after_s = 0.1 * k;
+    found.speed_mps = situation.state[vessel::kSurge];
+  }
+  return found;
+}
+
+// What the waves take is known a while after it set out: the plan is replaced by a slower one, at
+// speed; the vessel may go as fast as before to make good what it lost.
+TEST(SupervisorInWind, PlansSlowerOnceItKnowsWhatWavesTake) {
+  ScriptedMission calm(openWater(), knowing());
+  EXPECT_FALSE(sailInWaves(calm, 0.02).plan.has_value());
+
+  ScriptedMission mission(openWater(), knowing());
+  const Swayed found = sailInWaves(mission, 0.25);
+  ASSERT_TRUE(found.plan.has_value());
+  EXPECT_GT(found.after_s, 4.0);
+  EXPECT_LT(found.after_s, 12.0);
+  EXPECT_TRUE(found.plan->moving);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);  // on what it has, meanwhile
+  EXPECT_GT(found.speed_mps, 2.7);
+  EXPECT_LT(found.plan->query.limits.speed_max_mps, 2.6);
+  const trajectory::TimedTrajectory& sailed = mission.supervisor->sailed();
+  const Vector2d from =
+      sailed.trajectory.flat(found.plan->start_time_s - sailed.start_time_s).position;
+  const Orders taken = mission.answer(*found.plan, test::eastward(from, 40.0 - from.x(), 2.0));
+  ASSERT_TRUE(taken.sail);
+  EXPECT_GT(taken.sail->speed_max_mps, 2.7);
 }
 
 TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
