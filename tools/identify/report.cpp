@@ -50,7 +50,7 @@ std::string errorTable(const Identification& r) {
 
 void appendErrors(std::ostringstream& out, const Fit& fit) {
   for (const Estimate& e : fit.estimates) {
-    out << "#   " << e.name << ": " << formatted("%.3g", e.standard_error)
+    out << "#   " << e.name << ": " << formatted("%.5g", e.standard_error)
         << (e.at_bound ? " (held at its bound)" : "") << "\n";
   }
 }
