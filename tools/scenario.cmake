@@ -1,5 +1,5 @@
-# Seeded archipelagos (drawing, missions, other vessels' routes), waters between walls, narrow fields of cylinders, and
-# encounters in open water.
+# Seeded archipelagos (drawing, missions, other vessels' routes), waters between walls, narrow
+# fields of cylinders, and encounters in open water.
 otter_nav_room(archipelago
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/archipelago/archipelago.cpp
     ${CMAKE_CURRENT_LIST_DIR}/archipelago/cylinder_field.cpp

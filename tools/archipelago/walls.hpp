@@ -10,7 +10,7 @@ namespace otter_nav::scenario {
 enum class Walls {
   kNone,
   kStreets,  // blocks 18 to 45 m apart with 5 to 10 m between, one street in five walled off
-  kHalls,    // rooms of 13 to 40 m, a door of 4 to 7 m in each wall, and pillars
+  kHalls,    // rooms of 12 to 40 m, a door of 4 to 7 m in each wall, and pillars
   kHarbour   // piers with fingers 9 to 13 m apart, two moles with an entrance of 10 m each, buoys
 };
 
