@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+
 namespace otter_nav::tracker {
 namespace {
 
@@ -15,6 +18,8 @@ constexpr double kFarLengths = 0.25;    // position errors beyond weigh in propo
 // that the iteration diverges.
 constexpr double kStepShare = 0.5;
 constexpr double kHeadingStepRad = 0.5;
+// A change of course by which a hull's quickness in turning is told.
+constexpr double kTurnRad = 0.2;
 
 // Of the plain method, tuned on its own: its headings and sway are wrong by nature.
 Weights plainWeights() {
@@ -25,9 +30,19 @@ Weights plainWeights() {
   return w;
 }
 
-OcpWeights weightsOf(const Weights& w, double step_s) {
+// The share of the heading's weight that a hull is due. A vessel off its path by e heads back by
+// e sqrt(position / heading); what asks for headings quicker than the hull can take them only
+// swings it, so that root, in metres, grows with the way made while its full moment turns it a
+// little.
+double headingShare(const vessel::Parameters& vessel) {
+  const double turn_s =
+      vessel::turnLaw(vessel, vessel::greatestMoment(vessel.thrusters)).timeTo(kTurnRad);
+  return turn_s * turn_s;
+}
+
+OcpWeights weightsOf(const Weights& w, double heading_share, double step_s) {
   vessel::State q;
-  q << w.position, w.position, w.heading, w.surge, w.sway, w.yaw_rate;
+  q << w.position, w.position, w.heading * heading_share, w.surge, w.sway, w.yaw_rate;
   OcpWeights weights;
   weights.state = q * step_s;
   weights.terminal = q * kTerminalGainS;
@@ -39,7 +54,9 @@ OcpOptions problemOf(const Options& o, const vessel::Parameters& vessel) {
   OcpOptions ocp;
   ocp.stages = o.stages;
   ocp.step_s = o.horizon_s / o.stages;
-  ocp.weights = weightsOf(o.method == Method::kPlain ? plainWeights() : o.flatness, ocp.step_s);
+  ocp.weights = o.method == Method::kPlain
+                    ? weightsOf(plainWeights(), 1.0, ocp.step_s)
+                    : weightsOf(o.flatness, headingShare(vessel), ocp.step_s);
   ocp.lower_n.setConstant(-vessel.thrusters.astern_max_n);
   ocp.upper_n.setConstant(vessel.thrusters.ahead_max_n);
   ocp.far_m = kFarLengths * vessel.hull.length_m;
@@ -61,13 +78,14 @@ PredictiveController::PredictiveController(const Options& options, const vessel:
       period_s_(options.period_s),
       thrust_rate_nps_(options.thrust_rate_nps),
       lag_s_(vessel.thrusters.lag_s),
+      heading_share_(headingShare(vessel)),
       solver_(problemOf(options, vessel), iterationOf(), vessel.manoeuvring, vessel.thrusters) {
   prediction_.step_s = options.horizon_s / options.stages;
 }
 
 void PredictiveController::setWeights(const Weights& weights) {
   if (flatness_) {
-    solver_.setWeights(weightsOf(weights, prediction_.step_s));
+    solver_.setWeights(weightsOf(weights, heading_share_, prediction_.step_s));
     prepared_ = false;
   }
 }

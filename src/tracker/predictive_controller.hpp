@@ -42,6 +42,7 @@ class PredictiveController {
   double period_s_;
   double thrust_rate_nps_;
   double lag_s_;
+  double heading_share_;
   RtiSolver solver_;
   OcpReference reference_;
   Prediction prediction_;  // the last good plan

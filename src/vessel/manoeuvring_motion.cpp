@@ -16,6 +16,7 @@ using Eigen::Vector2d;
 // that.
 constexpr double kReachedShare = 0.97;
 constexpr double kFullShare = 1.02;
+constexpr int kNewtonSteps = 20;
 constexpr int kHalvings = 40;
 // Of the thrust ahead, at least, with which a path leads on: a hull that is hardly pushed has a
 // heading that its path does not decide.
@@ -84,6 +85,17 @@ FlatPoint pathFromState(const State& state, double force_max_n, const Parameters
                 force_max_n),
        0.0, z);
   return z;
+}
+
+double TurnLaw::timeTo(double angle_rad) const {
+  // Turned by t: r_full (t - lag (1 - exp(-t / lag))), convex. From beyond, where the rate is
+  // r_full all the while but for one lag, Newton's steps come down to it.
+  double time_s = angle_rad / r_full + lag_s;
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const double up = 1.0 - std::exp(-time_s / lag_s);
+    time_s -= (time_s - lag_s * up - angle_rad / r_full) / up;
+  }
+  return time_s;
 }
 
 TurnLaw turnLaw(const Parameters& vessel, double moment_nm) {

@@ -11,7 +11,7 @@ namespace otter_nav::tracker {
 // units, thrusts in N. The last state weighs as one second.
 struct Weights {
   double position = 100.0;
-  double heading = 200.0;
+  double heading = 300.0;
   double surge = 1.0;
   double sway = 1.0;
   double yaw_rate = 0.1;
@@ -26,7 +26,9 @@ struct Weights {
   static void describe(Self& o, Fields& fields) {
     constexpr config::Range kWeight{0.0, 1e9};
     fields("position", o.position, kWeight, "per m^2");
-    fields("heading", o.heading, kWeight, "per rad^2");
+    fields(
+        "heading", o.heading, kWeight,
+        "per rad^2, of a hull that its moment turns by 0.2 rad in 1 s; by the square of that time");
     fields("surge", o.surge, kWeight, "per (m/s)^2");
     fields("sway", o.sway, kWeight, "per (m/s)^2");
     fields("yaw_rate", o.yaw_rate, kWeight, "per (rad/s)^2");

@@ -42,6 +42,9 @@ void push(const ManoeuvringModel& model, const Disturbance& disturbance, const S
 struct TurnLaw {
   double lag_s;   // m2 / d3
   double r_full;  // the moment over d3, rad/s
+
+  // Until the heading is `angle_rad` from where it was at rest, s.
+  [[nodiscard]] double timeTo(double angle_rad) const;
 };
 [[nodiscard]] TurnLaw turnLaw(const Parameters& vessel, double moment_nm);
 

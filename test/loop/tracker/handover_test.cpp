@@ -37,6 +37,27 @@ TEST(Handover, OffsetIsJoinedAlongACurve) {
   EXPECT_LT(overshoot, 0.3);
 }
 
+// 0.3 m abeam of a path at 1.5 m/s. What a heading's error weighs goes with how quickly the hull
+// turns: one that turns quickly is soon on the path, one that turns slowly does not cross it.
+TEST(Handover, ASmallOffsetIsMadeGoodAsQuicklyAsTheHullTurns) {
+  for (const char* name : {"otter_gazebo", "otter"}) {
+    VesselAtSea sea("none", 0.0, name);
+    ASSERT_TRUE(sea.tracker().setTrajectory({VesselAtSea::eastward(0.0, 1.5, 60.0), sea.now()}));
+    sea.sail(20.0);
+    const double north_m = sea.truth()[1] + 0.3;
+    ASSERT_TRUE(sea.tracker().setTrajectory(
+        {VesselAtSea::eastward(1.5 * sea.now(), 1.5, 40.0, north_m), sea.now()}));
+    sea.sail(2.5);
+    EXPECT_NEAR(sea.truth()[1], north_m, name == std::string("otter") ? 0.08 : 0.05) << name;
+    double beyond_m = 0.0;
+    for (int i = 0; i < 50; ++i) {
+      sea.sail(0.1);
+      beyond_m = std::max(beyond_m, sea.truth()[1] - north_m);
+    }
+    EXPECT_LT(beyond_m, name == std::string("otter") ? 0.002 : 0.01) << name;
+  }
+}
+
 // The second trajectory is the rest of the first, given anew from a later instant.
 TEST(Handover, ATakeoverOnTheSameWayIsSeamless) {
   VesselAtSea sea("paper");

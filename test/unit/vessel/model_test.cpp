@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "otter_nav/base/random.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::vessel {
@@ -148,6 +149,26 @@ TEST(Thrusters, TauRoundTripAndMargin) {
   EXPECT_DOUBLE_EQ(thrustMargin(f, t), 5.0);
   EXPECT_LT(thrustMargin({-31.0, 0.0}, t), 0.0);
   EXPECT_DOUBLE_EQ(clampThrusts({-100.0, 100.0}, t)[kLeft], -30.0);
+}
+
+// Beside m2 r' = M - d3 r integrated in steps of 0.1 ms.
+TEST(TurnLaw, TellsWhenAHeadingIsReached) {
+  for (const double lag_s : {0.05, 0.5, 5.0}) {
+    for (const double angle_rad : {0.01, 0.2, 3.0}) {
+      const TurnLaw law{lag_s, 0.8};
+      constexpr double kStepS = 1e-4;
+      double psi = 0.0;
+      double r = 0.0;
+      double time_s = 0.0;
+      while (psi < angle_rad) {
+        r += (law.r_full - r) / lag_s * kStepS;
+        psi += r * kStepS;
+        time_s += kStepS;
+      }
+      EXPECT_NEAR(law.timeTo(angle_rad), time_s, 3.0 * kStepS + 1e-3 * time_s)
+          << lag_s << " " << angle_rad;
+    }
+  }
 }
 
 }  // namespace
