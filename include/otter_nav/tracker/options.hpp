@@ -11,7 +11,7 @@ namespace otter_nav::tracker {
 // units, thrusts in N. The last state weighs as one second.
 struct Weights {
   double position = 100.0;
-  double heading = 300.0;
+  double heading = 250.0;
   double surge = 1.0;
   double sway = 1.0;
   double yaw_rate = 0.1;
