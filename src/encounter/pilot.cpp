@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include "encounter/candidates.hpp"
 #include "encounter/manoeuvre.hpp"
@@ -14,6 +15,7 @@
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::encounter {
 namespace {
@@ -118,6 +120,7 @@ struct Memory {
   Motion motion;  // now
   Record record;
   double began_s = 0.0;
+  double followed_s = 0.0;
   double aspect_rad = 0.0;
   double seen_s = 0.0;
   SteadyLine line;
@@ -514,6 +517,7 @@ class Pilot::Impl {
         record.kept_velocity = now.own.velocity;
         record.bearing_rad = bearing(now.own, she);
         memory.began_s = now.time_s;
+        memory.followed_s = now.time_s;
         memory.aspect_rad = aspect(now.own, she);
       }
       return;
@@ -526,6 +530,7 @@ class Pilot::Impl {
       record = Record();
       return;
     }
+    const double dt = std::max(0.0, now.time_s - std::exchange(memory.followed_s, now.time_s));
     if (!now.under_way || approach.time_s < 0.0) {
       return;
     }
@@ -537,6 +542,12 @@ class Pilot::Impl {
                             : 0.0;
     const bool turns = std::abs(turn) > kActionRad;
     const bool acts = turns || std::abs(share - 1.0) > kActionShare;
+    // What was kept is known the better the longer it has been: a way just begun winds a little.
+    constexpr double kKnownS = 10.0;
+    const double age = now.time_s - memory.began_s;
+    if (standsOn(record.role) && !acts && !record.acted && age < kKnownS) {
+      record.kept_velocity += dt / (kCourseS + age) * (now.own.velocity - record.kept_velocity);
+    }
     memory.acts_since_s = !acts                           ? kNever
                           : memory.acts_since_s == kNever ? now.time_s
                                                           : memory.acts_since_s;
@@ -664,9 +675,14 @@ class Pilot::Impl {
       feasibility::SafetyLimits limits = outset.limits;
       limits.clearance_m =
           std::min(limits.clearance_m, outset.obstacles.field().clearance(start.position) - 0.1);
-      // What is sailed may be at the limit of speed: its acceleration dies out beyond it.
-      constexpr double kSpeedTolerance = 1.015;
-      limits.speed_max_mps *= kSpeedTolerance;
+      // What is sailed may be at its limits, whose acceleration dies out beyond them, and those of
+      // what it leads to may be lower.
+      constexpr double kTolerance = 1.015;
+      const vessel::Thrusts sailed_n = sailed.sample(at, vessel_, limits.disturbance).thrusts;
+      limits.speed_max_mps = kTolerance * std::max(limits.speed_max_mps, start.velocity.norm());
+      limits.thrust_share =
+          std::max(limits.thrust_share,
+                   std::min(1.0, kTolerance * vessel::shareOfLimit(sailed_n, vessel_.thrusters)));
       const feasibility::Verification verification = feasibility::verify(
           manoeuvre.path.trajectory, outset.obstacles.startingAt(outset.joint_s), vessel_, limits);
       if (!verification.ok) {

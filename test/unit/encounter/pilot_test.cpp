@@ -90,6 +90,26 @@ TEST_F(PilotTest, TheWayContinuesWhatIsSailedAndIsVerified) {
   EXPECT_TRUE(verification.ok) << verification.reason;
 }
 
+// What it leads to was planned slower and with less thrust, for the weather, than what is sailed
+// until then: making way goes on from what is sailed.
+TEST_F(PilotTest, MakesWayFromAWayThatIsFasterThanItsLimits) {
+  limits_.speed_max_mps = 1.9;
+  EXPECT_FALSE(feasibility::verify(sailed_.trajectory, water_, vessel_, limits_).ok);
+  EXPECT_TRUE(decideAt(10.0, 270.0, 2.0));
+}
+
+TEST_F(PilotTest, MakesWayFromAWayThatAsksForMoreThrustThanItsLimits) {
+  vessel::FlatPoint start;
+  start.position = {0.0, -200.0};
+  start.velocity = {0.0, 2.0};
+  start.acceleration = {0.0, 1.0};
+  sailed_ = {steer(start, {}, 200.0), 10.3};
+  limits_.speed_max_mps = 3.0;
+  limits_.thrust_share = 0.7;
+  EXPECT_FALSE(feasibility::verify(sailed_.trajectory, water_, vessel_, limits_).ok);
+  EXPECT_TRUE(decideAt(10.0, 270.0, 2.0));
+}
+
 TEST_F(PilotTest, StandsOnUntilSheHasNotActed) {
   EXPECT_FALSE(decideAt(10.0, 67.5, 2.0));
   ASSERT_EQ(pilot_.encounters().size(), 1U);
@@ -213,6 +233,21 @@ TEST_F(PilotTest, SwingingAboutWhatIsSteeredIsNoAction) {
     ASSERT_EQ(pilot_.encounters().size(), 1U);
     EXPECT_EQ(pilot_.encounters()[0].acted, steers);
   }
+}
+
+// A way just begun winds a little: who stands on keeps the course of the first ten seconds, not
+// that of one moment.
+TEST_F(PilotTest, ACourseKeptIsKnownTheBetterTheLongerItIsKept) {
+  Eigen::Vector2d position(0.0, -180.0);
+  for (double t = 10.0; t <= 45.0; t += 0.1) {
+    const double to_port_deg = t < 12.5 ? 4.0 : t < 24.0 ? 0.0 : -1.5;
+    const Eigen::Vector2d velocity = 2.0 * unitVector(0.5 * kPi + to_port_deg * kDegree);
+    pilot_.observe(t, {position, velocity}, position, {trackAt(67.5, 2.0, t)}, {0.0, 200.0}, 1.98);
+    position += 0.1 * velocity;
+  }
+  ASSERT_EQ(pilot_.encounters().size(), 1U);
+  EXPECT_EQ(pilot_.encounters()[0].role, Role::kStandOn);
+  EXPECT_FALSE(pilot_.encounters()[0].acted);
 }
 
 // In waves slowing down shows a turn to either side before one is meant.
