@@ -18,6 +18,7 @@ constexpr double kFarLengths = 0.25;    // position errors beyond weigh in propo
 // that the iteration diverges.
 constexpr double kStepShare = 0.5;
 constexpr double kHeadingStepRad = 0.5;
+constexpr double kFiniteTurnRad = 0.3;
 // A change of course by which a hull's quickness in turning is told.
 constexpr double kTurnRad = 0.2;
 
@@ -67,6 +68,7 @@ RtiOptions iterationOf() {
   RtiOptions rti;
   rti.heading_step_rad = kHeadingStepRad;
   rti.step_share = kStepShare;
+  rti.finite_turn_rad = kFiniteTurnRad;
   return rti;
 }
 

@@ -28,6 +28,7 @@ constexpr double kRoundingMps = 1e-9;  // of D over the sway inertia
 constexpr int kSwayIterations = 3;
 // After a step of less the heading is exact to its square.
 constexpr double kSmallSwayStepRad = 1e-4;
+constexpr double kFarSwayStepRad = 0.1;  // in wind, whose load bends the balance
 constexpr int kBowIterations = 6;
 constexpr double kLongestBowStepRad = 0.5;
 
@@ -224,6 +225,54 @@ FlatPoint InverseDynamics::fromState(const State& x, double force_least_n,
   return z;
 }
 
+namespace {
+
+// Where the sway force that a motion lacks falls through nothing, and how steeply about there.
+struct FirmHeading {
+  double psi_rad = 0.0;
+  double slope_n = 0.0;  // per radian; 0: nowhere
+};
+
+// The nearest to `psi_near_rad`, over a finite angle: a wind's load abeam goes with the square of
+// what comes from there, so near bow to it nothing is firm to the first order.
+FirmHeading firmHeading(const ManoeuvringModel& model, const Disturbance& disturbance,
+                        const Vector2d& velocity, const Vector2d& acceleration,
+                        double psi_near_rad) {
+  constexpr double kStepRad = 0.1;
+  constexpr int kSteps = 15;
+  constexpr int kHalvings = 12;
+  constexpr double kAboutRad = 0.2;
+  const auto lacks = [&](double psi) {
+    return thrustDemand(model, disturbance, std::cos(psi), std::sin(psi), 0.0, 0.0, velocity,
+                        acceleration)
+        .sway;
+  };
+  double port = lacks(psi_near_rad);
+  double starboard = port;
+  for (int k = 1; k <= kSteps; ++k) {
+    const double from = (k - 1) * kStepRad;
+    const double next_port = lacks(psi_near_rad + from + kStepRad);
+    const double next_starboard = lacks(psi_near_rad - from - kStepRad);
+    const bool to_port = port >= 0.0 && next_port < 0.0;
+    const bool to_starboard = starboard < 0.0 && next_starboard >= 0.0;
+    if (to_port || to_starboard) {
+      double low = to_port ? psi_near_rad + from : psi_near_rad - from - kStepRad;
+      double high = low + kStepRad;
+      for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        (lacks(middle) >= 0.0 ? low : high) = middle;
+      }
+      const double psi = 0.5 * (low + high);
+      return {psi, (lacks(psi - kAboutRad) - lacks(psi + kAboutRad)) / (2.0 * kAboutRad)};
+    }
+    port = next_port;
+    starboard = next_starboard;
+  }
+  return {};
+}
+
+}  // namespace
+
 SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance,
                         const Vector2d& velocity, const Vector2d& acceleration,
                         double psi_before_rad, double psi_path_rad, double dt_s) {
@@ -235,6 +284,7 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
   double psi = unwrapNear(psi_before_rad, psi_path_rad);
   const double before = psi;
   double slope_n = 0.0;
+  const bool windy = m.feelsWind() && !disturbance.wind_mps.isZero(0.0);
   for (int i = 0; i < kSwayIterations; ++i) {
     const Turned<kByPsi, double> turned(std::cos(psi), std::sin(psi));
     const auto lacking = thrustDemand(m, disturbance, turned.cosine, turned.sine,
@@ -242,11 +292,20 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
                              .sway;
     slope_n = -slope<kByPsi>(lacking);
     const double turns = slope<kByYawRate>(lacking);
-    if (slope_n < least_slope_n || turns > kRoundingMps * m.sway_inertia_kg) {
+    const bool vague = slope_n < least_slope_n || turns > kRoundingMps * m.sway_inertia_kg;
+    const double step =
+        vague ? 0.0 : (turns * (psi - before) / dt_s + lacking.value) / (turns / dt_s - slope_n);
+    if (windy && (vague || std::abs(step) > kFarSwayStepRad)) {
+      const FirmHeading firm = firmHeading(m, disturbance, velocity, acceleration, before);
+      const bool holds = firm.slope_n >= least_slope_n;
+      psi = holds ? firm.psi_rad : psi_path_rad;
+      slope_n = holds ? firm.slope_n : 0.0;
+      break;
+    }
+    if (vague) {
       psi = psi_path_rad;
       break;
     }
-    const double step = (turns * (psi - before) / dt_s + lacking.value) / (turns / dt_s - slope_n);
     psi -= step;
     if (std::abs(step) < kSmallSwayStepRad) {
       break;

@@ -11,7 +11,10 @@ namespace otter_nav::tracker {
 
 RtiSolver::RtiSolver(const OcpOptions& problem, const RtiOptions& options,
                      const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters)
-    : options_(options), problem_(problem), model_(model, thrusters), qp_(problem.stages) {
+    : options_(options),
+      problem_(problem),
+      model_(model, thrusters, options.finite_turn_rad),
+      qp_(problem.stages) {
   // A strategy is a class of the folder qp/ and a line here.
   strategies_.push_back(std::make_unique<qp::ActiveSet>(options.active_set_iterations));
   strategies_.push_back(std::make_unique<qp::ProjectedNewton>(options.projected_newton_iterations));

@@ -23,6 +23,7 @@ struct RtiOptions {
   // The share of each step that the plan takes at most. Whole steps may go to and fro between two
   // plans when thrust is spent.
   double step_share = 1.0;
+  double finite_turn_rad = 0.0;  // of StageModel
   int active_set_iterations = 7;
   int projected_newton_iterations = 25;
   int interior_point_iterations = 30;

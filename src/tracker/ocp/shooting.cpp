@@ -57,6 +57,21 @@ void StageModel::differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, De
   setRow(acceleration.surge, d.u);
   setRow(acceleration.sway, d.v);
   setRow(acceleration.yaw, d.r);
+  if (finite_turn_rad_ > 0.0 && model_.wind_sway_kgpm != 0.0) {
+    d.v[kRowPsi] += bowInWind(d.cosine, d.sine);
+  }
+}
+
+// What a turn adds to the sway's rate, per radian, beyond the slope. A load that goes with the
+// square of what comes from abeam has none there, and the plan would see no way of getting abeam
+// by turning.
+Pack StageModel::bowInWind(const Pack& cosine, const Pack& sine) const {
+  const Eigen::Vector2d& wind = disturbance_.wind_mps;
+  const Pack ahead = vessel::aheadPart(cosine, sine, wind.x(), wind.y());
+  const Pack twice = 2.0 * abs(vessel::portPart(cosine, sine, wind.x(), wind.y()));
+  const Pack finite = broadcast(finite_turn_rad_ * wind.norm());
+  return twice < finite ? -mobility_.sway * model_.wind_sway_kgpm * (finite - twice) * ahead
+                        : Pack{};
 }
 
 void StageModel::propagate(const Derivative& d, const Sensitivity& s, Sensitivity& rate) const {

@@ -12,8 +12,14 @@ namespace otter_nav::tracker {
 // The manoeuvring model with thrust levers and disturbance.
 class StageModel {
  public:
-  StageModel(const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters)
-      : model_(model), mobility_(model), lever_m_(thrusters.lever_arm_m) {}
+  // Bow to the wind, what its load abeam changes by with the heading counts as over a turn of
+  // `finite_turn_rad`; 0: exact.
+  StageModel(const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters,
+             double finite_turn_rad)
+      : model_(model),
+        mobility_(model),
+        lever_m_(thrusters.lever_arm_m),
+        finite_turn_rad_(finite_turn_rad) {}
   void setDisturbance(const vessel::Disturbance& disturbance) { disturbance_ = disturbance; }
 
   // Stages 0 to `count` - 1 from `states` (count + 1) and `thrusts` (count); step in s. `stages`
@@ -25,11 +31,13 @@ class StageModel {
   struct Derivative;
   struct Sensitivity;
   void differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, Derivative& d) const;
+  [[nodiscard]] Pack bowInWind(const Pack& cosine, const Pack& sine) const;
   void propagate(const Derivative& d, const Sensitivity& s, Sensitivity& rate) const;
 
   vessel::ManoeuvringModel model_;
   vessel::Mobility<double> mobility_;
   double lever_m_;
+  double finite_turn_rad_;
   vessel::Disturbance disturbance_;
 };
 

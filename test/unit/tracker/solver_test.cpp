@@ -96,6 +96,36 @@ TEST(RtiSolver, HalfStepsSettleWhereWholeOnesSwing) {
   EXPECT_LT(lastStep(0.5), 1e-9);
 }
 
+// Bow to a wind whose load abeam goes with the square of what comes from there, no turn seems to
+// lead aside to the first order; the spot to be held is 1 m abeam.
+TEST(RtiSolver, BowToTheWindItFindsTheWayAside) {
+  Problem p = circle(40, 0.0);
+  p.options.step_s = 0.15;
+  p.options.far_m = 0.5;
+  p.rti.heading_step_rad = 0.5;
+  p.rti.step_share = 0.5;
+  p.options.weights.state << 15.0, 15.0, 0.0, 0.0, 0.0, 0.1;
+  p.options.weights.terminal = p.options.weights.state;
+  p.vessel.manoeuvring.munk_kg = 0.0;
+  p.vessel.manoeuvring.wind_yaw_kg = -0.66;
+  p.disturbance = {};
+  p.disturbance.wind_mps = {-8.0, 0.0};
+  p.measured.setZero();
+  for (int k = 0; k <= p.options.stages; ++k) {
+    p.reference->states[k] << 0.0, 1.0, 0.0, 0.0, 0.0, 0.0;
+    if (k < p.options.stages) {
+      p.reference->thrusts[k].setConstant(16.0);  // what the wind pushes with
+    }
+  }
+  const auto leftAtTheEnd = [&](double finite_turn_rad) {
+    p.rti.finite_turn_rad = finite_turn_rad;
+    int bounds_met = 0;
+    return 1.0 - converge(p, bounds_met)->states()[40][vessel::kY];
+  };
+  EXPECT_GT(leftAtTheEnd(0.0), 0.4);
+  EXPECT_LT(leftAtTheEnd(0.3), 0.05);
+}
+
 // What the first second's tube leaves is the same problem with narrower bounds.
 TEST(RtiSolver, KeepsWhatTheThrustRateCanReach) {
   const Problem p = circle(20, 2.0);

@@ -274,6 +274,33 @@ TEST(SwayHeading, NeedsNoForceFromTheSideAlongACircle) {
   }
 }
 
+// Slow across a wind whose load abeam goes with the square of what comes from there: the bow stays
+// near the wind, from whichever side it comes, though right in it nothing is firm to the first
+// order.
+TEST(SwayHeading, StaysNearTheWindThroughItsEye) {
+  Parameters vessel;
+  vessel.manoeuvring = ManoeuvringModel::fromPaper(vessel.paper);
+  vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  Disturbance weather;
+  weather.wind_mps = {-8.0, 0.0};
+  for (const double speed : {0.3, 0.6}) {
+    for (const double side : {1.0, -1.0}) {
+      const Vector2d velocity(0.0, side * speed);
+      for (double before = -0.6; before <= 0.6; before += 0.05) {
+        const SwayHeading heading = swayHeading(vessel, weather, velocity, Vector2d::Zero(), before,
+                                                side * M_PI / 2.0, 0.1);
+        EXPECT_GT(side * heading.psi_rad, 0.1) << before;
+        EXPECT_LT(side * heading.psi_rad, 0.7) << before;
+        EXPECT_GT(heading.trust, 0.0) << before;
+        const Demand demand = demandOf(vessel.manoeuvring, weather, heading.psi_rad, 0.0, 0.0,
+                                       velocity, Vector2d::Zero());
+        EXPECT_LT(std::abs(demand.sway_n), 2.0) << before;
+      }
+    }
+  }
+}
+
 TEST(Thrusters, ShareOfTheLimitAheadOrAstern) {
   Thrusters t;
   t.astern_max_n = 20.0;
