@@ -213,23 +213,30 @@ double Weather::sailingSpeed(double usual_mps) const {
     }
     return share;
   };
-  double least = worst(usual_mps, false);
-  if (least <= kEnough) {
+  const double usually = worst(usual_mps, false);
+  if (usually <= kEnough) {
     return usual_mps;
   }
-  double best = usual_mps;
-  for (double at = kFastest; at >= kSlowest - 1e-9; at -= kStep) {
-    const double speed = at * vessel_.top_speed_mps;
-    const double share = speed < usual_mps ? worst(speed, true) : kNotHeld;
-    if (share <= kEnough) {
-      return speed;
+  // Where the mean leaves no thrust for some course at any speed, the heading still counts.
+  for (const bool with_thrust : {true, false}) {
+    double least = usually;
+    double best = usual_mps;
+    for (double at = kFastest; at >= kSlowest - 1e-9; at -= kStep) {
+      const double speed = at * vessel_.top_speed_mps;
+      const double share = speed < usual_mps ? worst(speed, with_thrust) : kNotHeld;
+      if (share <= kEnough) {
+        return speed;
+      }
+      if (share < least - kWorth) {
+        least = share;
+        best = speed;
+      }
     }
-    if (share < least - kWorth) {
-      least = share;
-      best = speed;
+    if (best < usual_mps) {
+      return best;
     }
   }
-  return best;
+  return usual_mps;
 }
 
 // The gust's force beside the mean's comes all at once and lasts. The hull answers by turning

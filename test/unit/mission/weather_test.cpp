@@ -98,6 +98,18 @@ TEST(Weather, SailsSlowlyWhereGustsTakeTheMomentThatHoldsTheHeadings) {
   EXPECT_LT(worstMoment(vessel, strong.gust(), speed), 0.8);
 }
 
+// At more than 9 m/s some courses take more than the thrusters have at any speed; the others still
+// want to be held.
+TEST(Weather, SailsSlowlyWhereNotEveryCourseCanBeHeld) {
+  const vessel::Parameters vessel = windy();
+  const Weather weather =
+      felt(vessel, 60.0, [](double t) { return 9.4 * (1.0 + 0.15 * std::sin(t)); });
+  const double speed = weather.sailingSpeed(2.0);
+  EXPECT_LT(speed, 1.0);
+  EXPECT_LT(worstMoment(vessel, weather.gust(), speed),
+            worstMoment(vessel, weather.gust(), 2.0) - 0.1);
+}
+
 // Seven metres a second seen for three seconds may be the lull of a wind that gusts to ten.
 TEST(Weather, SailsSlowlyUntilGustsAreKnown) {
   const auto steady = [](double) { return 7.0; };
