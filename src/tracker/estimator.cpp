@@ -34,6 +34,9 @@ constexpr double kCurrentMostMps = 1.5;
 // On a steady course the two aren't told apart: both fade, or they would walk away from each other.
 constexpr double kForceFadesS = 100.0;
 constexpr double kCurrentFadesS = 200.0;
+// A hull that lies still on its heading doesn't tell a moment from one of the wind, whose loads
+// also say what turning will bring: what lasts is the wind's.
+constexpr double kMomentFadesInWindS = 3.0;
 constexpr double kDragRatio = 1.25;  // abeam to ahead or the reverse, that tells current from force
 // Of q = |w| w, for vessels whose model knows wind loads.
 constexpr double kWindWalkM2ps2 = 10.0;
@@ -76,6 +79,9 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   const double force_walk = kForceWalkNpm2 * area_m2;
   const double moment_walk =
       (model_.feelsWind() ? kMomentWalkInWindNpm2 : kMomentWalkNpm2) * area_moment_m3;
+  if (model_.feelsWind()) {
+    moment_fade_per_s_ = 1.0 / kMomentFadesInWindS;
+  }
   const double current_walk = tellsCurrent(model_) ? o.current_walk_mps : 0.0;
   const double current_sigma = current_walk > 0.0 ? kCurrentSigmaMps : 0.0;
   if (current_walk > 0.0) {
@@ -209,6 +215,7 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   f.block<3, 2>(kSurge, kCurrent) = dt_s * l.current_jacobian;
   f.block<3, 2>(kSurge, kWind) = dt_s * fromWind();
   f.block<2, 2>(kForce, kForce).diagonal().array() -= dt_s * force_fade_per_s_;
+  f(kMoment, kMoment) -= dt_s * moment_fade_per_s_;
   f.block<2, 2>(kCurrent, kCurrent).diagonal().array() -= dt_s * current_fade_per_s_;
   const double w = wave_frequency_.radps();
   f.block<3, 3>(kWave, kWaveRate).diagonal().setConstant(dt_s);
@@ -227,6 +234,7 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   // come late to what is steered against.
   covariance_.diagonal().segment<3>(kWaveRate) += dt_s * (1.0 - sailingShare()) * waveDrive();
   disturbance_.force_n *= 1.0 - dt_s * force_fade_per_s_;
+  disturbance_.moment_nm *= 1.0 - dt_s * moment_fade_per_s_;
   disturbance_.current_mps *= 1.0 - dt_s * current_fade_per_s_;
   // Semi-implicit, so that the oscillator keeps its energy.
   const double w = wave_frequency_.radps();

@@ -76,6 +76,7 @@ class Estimator {
   Covariance covariance_ = Covariance::Zero();
   vessel::State measurement_variance_;
   double force_most_n_;
+  double moment_fade_per_s_ = 0.0;
   double force_fade_per_s_ = 0.0;
   double current_fade_per_s_ = 0.0;
   double moment_most_nm_;

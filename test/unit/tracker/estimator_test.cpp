@@ -96,6 +96,29 @@ TEST(Estimator, FindsTheWindOfAVesselThatKnowsItsLoads) {
   EXPECT_EQ(told.covariance(Estimate::kCurrent, Estimate::kCurrent), 0.0);  // one drag: a force
 }
 
+// A hull that lies still on its heading doesn't tell a moment of its own from one of the wind: it
+// is the wind's, which comes from another side then.
+TEST(Estimator, PutsALastingMomentDownToTheWind) {
+  Sea sea;
+  sea.vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  sea.vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  sea.vessel.manoeuvring.wind_yaw_kg = -0.66;
+  Estimator estimator(shipped(), sea.vessel);
+  estimator.reset(sea.measured());
+  for (int i = 0; i < 6000; ++i) {
+    const double from_rad = i < 3000 ? 0.0 : 0.2;
+    sea.disturbance.wind_mps = {-9.0 * std::cos(from_rad), -9.0 * std::sin(from_rad)};
+    sea.push_n = 20.0 - 20.0 * sea.x[kSurge] - 5.0 * sea.x[0];
+    sea.turn_n = -80.0 * sea.x[kPsi] - 60.0 * sea.x[vessel::kYawRate];
+    sea.advance();
+    estimator.predict(sea.thrusts(), kStepS);
+    estimator.update(sea.measured());
+  }
+  EXPECT_LT(std::abs(estimator.disturbance().moment_nm), 1.5);
+  const Eigen::Vector2d wind = -estimator.disturbance().wind_mps;
+  EXPECT_NEAR(std::atan2(wind.y(), wind.x()), 0.2, 0.05);
+}
+
 vessel::Parameters otter() {
   return *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
 }
