@@ -119,7 +119,7 @@ std::optional<double> PlanRequests::joint(double now_s,
 }
 
 PlanRequest PlanRequests::onward(double now_s, trajectory::TimedTrajectory lead,
-                                 double thrust_share, const vessel::Pose& goal,
+                                 double thrust_share, double sailed_mps, const vessel::Pose& goal,
                                  const feasibility::Obstacles& obstacles) {
   const trajectory::Sample sample =
       trajectory::MotionAlong(lead.trajectory, vessel_, {}).sample(lead.trajectory.duration());
@@ -128,6 +128,12 @@ PlanRequest PlanRequests::onward(double now_s, trajectory::TimedTrajectory lead,
   request.query.start.psi_rad = sample.state[vessel::kPsi];
   request.start_time_s = lead.start_time_s + lead.trajectory.duration();
   request = ask(now_s, std::move(request), goal, thrust_share, From::kSailed, obstacles);
+  // Others are no reason to sail slower than went well so far.
+  double& speed_max_mps = request.query.limits.speed_max_mps;
+  speed_max_mps =
+      std::max(speed_max_mps, std::min({sailed_mps, asked_->catch_up_mps, safety.speedInWaves(),
+                                        safety.sailingSpeed(sailed_mps)}));
+  asked_->request = request;
   asked_->lead = std::move(lead);
   return request;
 }

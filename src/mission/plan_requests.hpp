@@ -63,9 +63,10 @@ class PlanRequests {
   std::optional<PlanRequest> fromSailed(double now_s, const trajectory::TimedTrajectory& sailed,
                                         double thrust_share, const vessel::Pose& goal,
                                         const feasibility::Obstacles& obstacles);
-  // From the end of a way that itself begins on the sailed one.
+  // From the end of a way that itself begins on the sailed one, planned for `sailed_mps` at most.
   PlanRequest onward(double now_s, trajectory::TimedTrajectory lead, double thrust_share,
-                     const vessel::Pose& goal, const feasibility::Obstacles& obstacles);
+                     double sailed_mps, const vessel::Pose& goal,
+                     const feasibility::Obstacles& obstacles);
   // When something new can begin on the sailed trajectory.
   [[nodiscard]] std::optional<double> joint(double now_s,
                                             const trajectory::TimedTrajectory& sailed) const;

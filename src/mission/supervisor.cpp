@@ -509,7 +509,8 @@ class Decider final : public Supervisor {
   Orders makeWay(const Moment& m) {
     TimedTrajectory path = std::move(way_made_->path);
     if (!way_made_->to_the_goal) {
-      return {plans_.onward(m.now_s, std::move(path), planned_thrust_share_, goal_, m.obstacles),
+      return {plans_.onward(m.now_s, std::move(path), planned_thrust_share_,
+                            planned_limits_.speed_max_mps, goal_, m.obstacles),
               {},
               false};
     }

@@ -89,6 +89,42 @@ TEST(SupervisorInWind, LeavesThrustAndDistanceToASteadyPush) {
   EXPECT_NEAR(others->plan->thrust_share, 0.875, 0.026);
 }
 
+// A load that swings has set in since the plan in force was made: the next would be slower. That
+// somebody else is to be made way for is no reason to be.
+TEST(SupervisorInWind, MakesWayAtTheSpeedThatIsSailed) {
+  ScriptedMission mission(openWater(400.0), knowing());
+  mission.rest << -150.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({150.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  const double sailed_mps = orders->plan->query.limits.speed_max_mps;
+  (void)mission.answer(*orders->plan, test::eastward({-150.0, 0.0}, 300.0, 0.9 * sailed_mps));
+  std::optional<PlanRequest> onward;
+  for (int k = 0; k < 400 && !onward; ++k) {
+    mission.disturbance.force_n = {0.0, k % 2 == 0 ? 12.0 : -12.0};
+    traffic::Track track;
+    track.id = 1;
+    track.stamp_s = mission.now_s + 0.1;
+    track.velocity = {-2.0, 0.0};
+    track.position = {120.0 - 2.0 * (0.1 * k), 0.0};
+    track.heading_rad = kPi;
+    track.length_m = 6.0;
+    track.beam_m = 2.0;
+    mission.tracks = {track};
+    onward = mission.update(0.1).plan;
+  }
+  ASSERT_TRUE(onward);
+  EXPECT_LT(onward->thrust_share, 1.0);
+  EXPECT_NEAR(onward->query.limits.speed_max_mps, sailed_mps, 1e-9);
+  ScriptedMission other(openWater(400.0), knowing());
+  for (int k = 0; k < 100; ++k) {
+    other.disturbance.force_n = {0.0, k % 2 == 0 ? 12.0 : -12.0};
+    (void)other.update(0.1);
+  }
+  const auto slower = other.goTo({150.0, 0.0});
+  ASSERT_TRUE(slower && slower->plan);
+  EXPECT_LT(slower->plan->query.limits.speed_max_mps, 0.9 * sailed_mps);
+}
+
 // Waves move the hull abeam: some thrust is left to hold the heading with.
 TEST(SupervisorInWind, LeavesThrustForWhatWavesTurn) {
   const auto otter =
