@@ -629,6 +629,21 @@ class Pilot::Impl {
     return others;
   }
 
+  // What a manoeuvre from there keeps to. What is sailed may be at its limits, whose acceleration
+  // dies out beyond them, and those of what it leads to may be lower.
+  feasibility::SafetyLimits limitsFrom(const Outset& outset, const vessel::FlatPoint& start,
+                                       const trajectory::Trajectory& sailed, double at_s) const {
+    constexpr double kTolerance = 1.015;
+    feasibility::SafetyLimits limits = outset.limits;
+    limits.clearance_m =
+        std::min(limits.clearance_m, outset.obstacles.field().clearance(start.position) - 0.1);
+    limits.speed_max_mps = kTolerance * std::max(limits.speed_max_mps, start.velocity.norm());
+    const vessel::Thrusts sailed_n = sailed.sample(at_s, vessel_, limits.disturbance).thrusts;
+    const double sailed_share = vessel::shareOfLimit(sailed_n, vessel_.thrusters);
+    limits.thrust_share = std::max(limits.thrust_share, std::min(1.0, kTolerance * sailed_share));
+    return limits;
+  }
+
   // The choice as a trajectory that the hull can follow; nothing if it can't, or if that is not as
   // good as it looked.
   std::optional<Manoeuvre> realise(const Outset& outset, const Water& water, const Choice& choice,
@@ -637,6 +652,7 @@ class Pilot::Impl {
     const double at = outset.sailed.elapsed(outset.joint_s);
     const Handling handling(vessel_, water.cruise_mps);
     const vessel::FlatPoint start = sailed.flat(at);
+    const feasibility::SafetyLimits limits = limitsFrom(outset, start, sailed, at);
     Manoeuvre manoeuvre;
     for (const double slower : {1.0, 1.4, 2.0}) {
       Course course;
@@ -672,17 +688,6 @@ class Pilot::Impl {
       if (manoeuvre.path.trajectory.empty()) {
         return std::nullopt;
       }
-      feasibility::SafetyLimits limits = outset.limits;
-      limits.clearance_m =
-          std::min(limits.clearance_m, outset.obstacles.field().clearance(start.position) - 0.1);
-      // What is sailed may be at its limits, whose acceleration dies out beyond them, and those of
-      // what it leads to may be lower.
-      constexpr double kTolerance = 1.015;
-      const vessel::Thrusts sailed_n = sailed.sample(at, vessel_, limits.disturbance).thrusts;
-      limits.speed_max_mps = kTolerance * std::max(limits.speed_max_mps, start.velocity.norm());
-      limits.thrust_share =
-          std::max(limits.thrust_share,
-                   std::min(1.0, kTolerance * vessel::shareOfLimit(sailed_n, vessel_.thrusters)));
       const feasibility::Verification verification = feasibility::verify(
           manoeuvre.path.trajectory, outset.obstacles.startingAt(outset.joint_s), vessel_, limits);
       if (!verification.ok) {

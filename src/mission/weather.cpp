@@ -203,40 +203,51 @@ double Weather::sailingSpeed(double usual_mps) const {
   // Too slow at first costs seconds, too fast the heading.
   constexpr double kPriorForSpeed = 0.45;
   const Disturbance hard = gust(kPriorForSpeed);
-  const auto worst = [&](double speed, bool with_thrust) {
+  const auto velocityOn = [](int course, double speed) {
+    return Eigen::Vector2d(speed * unitVector(course * 2.0 * kPi / kCourses));
+  };
+  const auto worst = [&](double speed) {
     double share = 0.0;
     for (int k = 0; k < kCourses; ++k) {
-      const double course = k * 2.0 * kPi / kCourses;
-      const Eigen::Vector2d velocity = speed * unitVector(course);
-      share = std::max(
-          share, with_thrust && !hasThrustFor(velocity) ? kNotHeld : turningShare(velocity, hard));
+      share = std::max(share, turningShare(velocityOn(k, speed), hard));
     }
     return share;
   };
-  const double usually = worst(usual_mps, false);
+  const auto hasThrust = [&](double speed) {
+    for (int k = 0; k < kCourses; ++k) {
+      if (!hasThrustFor(velocityOn(k, speed))) {
+        return false;
+      }
+    }
+    return true;
+  };
+  const double usually = worst(usual_mps);
   if (usually <= kEnough) {
     return usual_mps;
   }
-  // Where the mean leaves no thrust for some course at any speed, the heading still counts.
-  for (const bool with_thrust : {true, false}) {
-    double least = usually;
-    double best = usual_mps;
-    for (double at = kFastest; at >= kSlowest - 1e-9; at -= kStep) {
-      const double speed = at * vessel_.top_speed_mps;
-      const double share = speed < usual_mps ? worst(speed, with_thrust) : kNotHeld;
-      if (share <= kEnough) {
-        return speed;
-      }
-      if (share < least - kWorth) {
-        least = share;
-        best = speed;
+  // The fastest that leaves enough, else the one that leaves most.
+  struct Choice {
+    double share, speed;
+    void consider(double other_share, double other_speed) {
+      if (share > kEnough && (other_share <= kEnough || other_share < share - kWorth)) {
+        *this = {other_share, other_speed};
       }
     }
-    if (best < usual_mps) {
-      return best;
+  };
+  // Where the mean leaves no thrust for some course at any speed, the headings alone count.
+  Choice held{usually, usual_mps};
+  Choice any = held;
+  for (double at = kFastest; at >= kSlowest - 1e-9 && held.share > kEnough; at -= kStep) {
+    const double speed = at * vessel_.top_speed_mps;
+    if (speed < usual_mps) {
+      const double share = worst(speed);
+      any.consider(share, speed);
+      if (hasThrust(speed)) {
+        held.consider(share, speed);
+      }
     }
   }
-  return usual_mps;
+  return held.speed < usual_mps ? held.speed : any.speed;
 }
 
 // The gust's force beside the mean's comes all at once and lasts. The hull answers by turning

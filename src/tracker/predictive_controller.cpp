@@ -18,7 +18,7 @@ constexpr double kFarLengths = 0.25;    // position errors beyond weigh in propo
 // that the iteration diverges.
 constexpr double kStepShare = 0.5;
 constexpr double kHeadingStepRad = 0.5;
-constexpr double kFiniteTurnRad = 0.3;
+constexpr double kFiniteTurnRad = 0.3;  // by which a plan bow to the wind sees the way aside
 // A change of course by which a hull's quickness in turning is told.
 constexpr double kTurnRad = 0.2;
 
@@ -51,13 +51,12 @@ OcpWeights weightsOf(const Weights& w, double heading_share, double step_s) {
   return weights;
 }
 
-OcpOptions problemOf(const Options& o, const vessel::Parameters& vessel) {
+OcpOptions problemOf(const Options& o, const vessel::Parameters& vessel, double heading_share) {
   OcpOptions ocp;
   ocp.stages = o.stages;
   ocp.step_s = o.horizon_s / o.stages;
-  ocp.weights = o.method == Method::kPlain
-                    ? weightsOf(plainWeights(), 1.0, ocp.step_s)
-                    : weightsOf(o.flatness, headingShare(vessel), ocp.step_s);
+  ocp.weights = o.method == Method::kPlain ? weightsOf(plainWeights(), 1.0, ocp.step_s)
+                                           : weightsOf(o.flatness, heading_share, ocp.step_s);
   ocp.lower_n.setConstant(-vessel.thrusters.astern_max_n);
   ocp.upper_n.setConstant(vessel.thrusters.ahead_max_n);
   ocp.far_m = kFarLengths * vessel.hull.length_m;
@@ -81,7 +80,8 @@ PredictiveController::PredictiveController(const Options& options, const vessel:
       thrust_rate_nps_(options.thrust_rate_nps),
       lag_s_(vessel.thrusters.lag_s),
       heading_share_(headingShare(vessel)),
-      solver_(problemOf(options, vessel), iterationOf(), vessel.manoeuvring, vessel.thrusters) {
+      solver_(problemOf(options, vessel, heading_share_), iterationOf(), vessel.manoeuvring,
+              vessel.thrusters) {
   prediction_.step_s = options.horizon_s / options.stages;
 }
 

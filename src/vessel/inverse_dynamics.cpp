@@ -234,7 +234,8 @@ struct FirmHeading {
 };
 
 // The nearest to `psi_near_rad`, over a finite angle: a wind's load abeam goes with the square of
-// what comes from there, so near bow to it nothing is firm to the first order.
+// what comes from there, so near bow to it nothing is firm to the first order. Where the balance
+// settles, without the way there: the hull's own turning is left out.
 FirmHeading firmHeading(const ManoeuvringModel& model, const Disturbance& disturbance,
                         const Vector2d& velocity, const Vector2d& acceleration,
                         double psi_near_rad) {
