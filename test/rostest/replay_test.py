@@ -234,6 +234,20 @@ class Replay(unittest.TestCase):
         self.assertLess(figures["difference_max_n"], SAME_N)
         self.assertIn("cut off", done.stdout)
 
+        # The recorder had the last two steps before the odometry that they were made with.
+        early = self.path("early.bag")
+        with rosbag.Bag(bag) as source, rosbag.Bag(early, "w") as target:
+            for topic, message, t, header in source.read_messages(return_connection_header=True):
+                end = {"/odom": 5.004, "/tracker_cycle": 5.024}.get(topic, math.inf)
+                if message._has_header and message.header.stamp.to_sec() > end:
+                    continue
+                target.write(topic, message, t, connection_header=header)
+        with open(early, "rb+") as file:
+            file.truncate(os.path.getsize(early) - 1000)
+        done, figures, rows = self.replay(early, "--partial")
+        self.assertIn("the last 2 steps are left out", done.stdout)
+        self.assertLess(figures["difference_max_n"], SAME_N)
+
         hole = self.path("hole.bag")
         with rosbag.Bag(bag) as source, rosbag.Bag(hole, "w") as target:
             for topic, message, t, header in source.read_messages(return_connection_header=True):

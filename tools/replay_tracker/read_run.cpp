@@ -228,6 +228,24 @@ std::string list(const std::set<std::string>& names) {
   return text.empty() ? "nothing" : text;
 }
 
+// The recorder may have had a step before what the step was made with; where the recording ends in
+// between, the step has nothing to be made with.
+void endWithWhatIsThere(RecordedRun& run) {
+  const double end_s = run.odometry.empty() ? 0.0 : run.odometry.back().stamp_s;
+  const auto isThere = [&](const RecordedCycle& cycle) {
+    const auto isTaken = [&](const RecordedOrder& order) { return order.id == cycle.order_taken; };
+    return cycle.odometry_stamp_s <= end_s &&
+           (cycle.order_taken == 0 || std::any_of(run.orders.begin(), run.orders.end(), isTaken));
+  };
+  const auto last = std::find_if(run.cycles.rbegin(), run.cycles.rend(), isThere);
+  const auto left_out = std::distance(run.cycles.rbegin(), last);
+  if (left_out > 0 && last != run.cycles.rend()) {
+    run.notes.push_back("the last " + std::to_string(left_out) +
+                        " steps are left out: what they were made with came later");
+    run.cycles.erase(last.base(), run.cycles.end());
+  }
+}
+
 Status check(const RecordedRun& run, const std::string& path, bool partial,
              std::vector<std::string>& notes) {
   const auto missing = [&](const std::string& what) -> Status {
@@ -317,6 +335,7 @@ Result<RecordedRun> readRun(const std::string& path, const ReadOptions& options)
   RecordedRun run = std::move(runs[static_cast<std::size_t>(options.run - 1)]);
   if (!note->empty()) {
     run.notes.push_back(*note);
+    endWithWhatIsThere(run);
   }
   if (runs.size() > 1) {
     run.notes.push_back("it holds " + std::to_string(runs.size()) + " runs; this is number " +
