@@ -35,6 +35,12 @@ constexpr double kStretchShare = 0.6;  // a place is looked for from so much of 
 // Attempts with other samples before the last resorts, and of the time for them.
 constexpr int kPatience = 3;
 constexpr double kPatienceShare = 0.3;
+// Beyond the key states: where the way is easy the trees have met by then, and where it is not, the
+// guide path is optimised in less time than they take.
+constexpr int kFewSamples = 40;
+// Under way, of each search (likewise) and of a query: the next clearance is better than more.
+constexpr int kSearchUnderWay = 100;
+constexpr int kSamplesUnderWay = 400;
 constexpr double kNearM = 0.3;    // a goal nearer than this needs no search
 constexpr int kTrySamples = 150;  // what one more try may draw, and any try counts for
 
@@ -83,7 +89,11 @@ class Planner::Pipeline {
                   const Termination& termination) {
     const bool too_fast = query.start.flat.velocity.norm() > query.limits.speed_max_mps;
     samples_left_ = termination.max_iterations;
+    if (!trajectory::atRest(query.start)) {
+      samples_left_ = std::min(samples_left_, kSamplesUnderWay);
+    }
     Termination whole = termination;
+    whole.max_iterations = samples_left_;
     if (query.may_end_early || too_fast) {
       whole.budget_s *= kWholeShare;
       whole.max_iterations = static_cast<int>(kWholeShare * whole.max_iterations);
@@ -250,6 +260,7 @@ class Planner::Pipeline {
     int samples_left = 0;
     bool fallback = false;  // the plan so far could not be optimised
     bool resorted = false;  // to what makes such plans
+    bool joined = false;    // the trees, at the last attempt
 
     [[nodiscard]] double now() const {
       return termination.elapsed_s ? termination.elapsed_s() : 0.0;
@@ -356,7 +367,7 @@ class Planner::Pipeline {
     return run.solved() && !run.fallback && run.plan.figures.attempts > options_.improve_attempts;
   }
   [[nodiscard]] bool done(const Run& run) const {
-    return run.timeUp() || run.samples_left <= 0 || isGood(run);
+    return run.timeUp() || run.samples_left <= 0 || isGood(run) || (run.resorted && isFutile(run));
   }
 
   // A tree's path, optimised; failing that the guide path. Later attempts draw other samples: a
@@ -364,29 +375,33 @@ class Planner::Pipeline {
   void attemptOnce(Run& run, int attempt) {
     ++run.plan.figures.attempts;
     if (!options_.global_optimization) {
-      if (searchTrees(run, attempt, Roots::kLaunched)) {
+      beginTrees(run, attempt, Roots::kLaunched);
+      if (growTrees(run, options_.attempt_samples)) {
         closeTreesPath(run);
       }
       return;
     }
-    if (searchTrees(run, attempt, Roots::kAtEnds)) {
-      run.plan.figures.tree_cost = search_.bestCost();
-      optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
-    }
+    beginTrees(run, attempt, Roots::kAtEnds);
+    optimizeTreesPath(run, sampler_->keyStates() + kFewSamples);
     if (attempt == 0 && !isGood(run) && !run.timeUp()) {
       optimizeGuide(run, 0, 1);
     }
     if (!done(run) && !run.query.warm_start.empty() && attempt == 0) {
       optimizeTrajectory(run, run.query.warm_start);
     }
+    if (!done(run) && !search_.solved()) {
+      optimizeTreesPath(run, mostSamples(run));
+    }
     if ((!run.solved() || run.fallback) && !patient(run, attempt)) {
       lastResorts(run, attempt);
     }
   }
 
-  // Under a low speed limit the guide path with more care makes the faster plans.
+  // Under a low speed limit the guide path with more care makes the faster plans, and under way it
+  // is had sooner.
   [[nodiscard]] bool patient(const Run& run, int attempt) const {
     return attempt + 1 < std::min(options_.max_attempts, kPatience) &&
+           trajectory::atRest(run.query.start) &&
            feasibility::speedShare(vessel_, run.query.limits) == 1.0 &&
            run.samples_left > options_.attempt_samples && !run.timeUp(kPatienceShare);
   }
@@ -400,9 +415,22 @@ class Planner::Pipeline {
       optimizeGuide(run, 1, optimizer::Budget().max_attempts);
     }
     const bool poor = !run.solved() || (run.fallback && first);
-    if (poor && !run.timeUp() && searchTrees(run, attempt, Roots::kLaunched)) {
+    if (!poor || run.timeUp() || isFutile(run)) {
+      return;
+    }
+    beginTrees(run, attempt, Roots::kLaunched);
+    if (growTrees(run, mostSamples(run))) {
       closeTreesPath(run);
     }
+  }
+
+  [[nodiscard]] int mostSamples(const Run& run) const {
+    return trajectory::atRest(run.query.start) ? options_.attempt_samples
+                                               : sampler_->keyStates() + kSearchUnderWay;
+  }
+  // Trees that didn't meet won't with other samples, under way, where they have few.
+  [[nodiscard]] static bool isFutile(const Run& run) {
+    return !run.joined && !trajectory::atRest(run.query.start);
   }
 
   void placeRoots(const Run& run, Roots roots) {
@@ -424,9 +452,7 @@ class Planner::Pipeline {
                   start, goal);
   }
 
-  // Samples until the trees meet, then improve_samples more.
-  bool searchTrees(Run& run, int attempt, Roots roots) {
-    const double began = run.now();
+  void beginTrees(const Run& run, int attempt, Roots roots) {
     placeRoots(run, roots);
     SamplerOptions options;
     options.key_spacing_m /= 1.0 + 0.5 * attempt;
@@ -434,28 +460,43 @@ class Planner::Pipeline {
     options.speed_max_mps = kSampleSpeedShare * run.query.limits.speed_max_mps;
     const double slow = feasibility::speedShare(vessel_, run.query.limits);
     options.accel_mps2 *= slow * slow;
-    Sampler sampler(options, line_, run.obstacles.field(),
-                    run.query.seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(attempt));
+    sampler_.emplace(options, line_, run.obstacles.field(),
+                     run.query.seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(attempt));
     search_.joinRoots();
-    int budget = std::min(run.samples_left, options_.attempt_samples);
+  }
+
+  // Samples until the trees meet, then improve_samples more; `most` of them since they began.
+  bool growTrees(Run& run, int most) {
+    const double began = run.now();
+    const SearchCounts before = search_.counts();
+    int budget =
+        std::min(run.samples_left, std::min(most, options_.attempt_samples) - before.samples);
     int improving = options_.improve_samples;
     while (budget-- > 0 && !run.timeUp()) {
       if (search_.solved() && improving-- <= 0) {
         break;
       }
-      search_.extend(sampler.next());
+      search_.extend(sampler_->next());
       if (search_.solved() && run.plan.figures.first_solution_ms == 0.0) {
         run.plan.figures.first_solution_ms = 1e3 * run.now();
       }
     }
     const SearchCounts counts = search_.counts();
     Figures& figures = run.plan.figures;
-    figures.samples += counts.samples;
-    figures.nodes += counts.joined;
-    figures.local_repairs += counts.repairs;
+    figures.samples += counts.samples - before.samples;
+    figures.nodes += counts.joined - before.joined;
+    figures.local_repairs += counts.repairs - before.repairs;
     figures.tree_ms += 1e3 * (run.now() - began);
-    run.samples_left -= counts.samples;
+    run.samples_left -= counts.samples - before.samples;
     return search_.solved();
+  }
+
+  void optimizeTreesPath(Run& run, int most) {
+    run.joined = growTrees(run, most);
+    if (run.joined) {
+      run.plan.figures.tree_cost = search_.bestCost();
+      optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
+    }
   }
 
   void closeTreesPath(Run& run) {
@@ -572,6 +613,7 @@ class Planner::Pipeline {
   topology::GuidePath guide_;
   GuideLine line_;
   Search search_;
+  std::optional<Sampler> sampler_;
   int samples_left_ = 0;  // of the query, all tries together
   std::optional<Launch> launch_;
   std::optional<Launch> stop_;

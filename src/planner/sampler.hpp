@@ -25,6 +25,8 @@ class Sampler {
           std::uint64_t seed);
 
   [[nodiscard]] KinoState next();
+  // As many of the first are the guide line's own.
+  [[nodiscard]] int keyStates() const { return key_states_; }
 
  private:
   [[nodiscard]] KinoState keyState(int index) const;

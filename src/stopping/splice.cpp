@@ -69,10 +69,9 @@ bool restsBeforeItsEnd(const Trajectory& trajectory) {
     const Piece& piece = trajectory.pieces()[i];
     under_way = under_way || piece.flat(0.5 * piece.duration_s).velocity.norm() > kRestMps;
     if (under_way && piece.flat(piece.duration_s).velocity.norm() < kRestMps) {
-      // Followed by nothing but turns on the spot it is the arrival.
+      // Followed by a turn on the spot alone, which may set the hull aside, it is the arrival.
       for (std::size_t k = i + 1; k < trajectory.pieces().size(); ++k) {
-        const Piece& later = trajectory.pieces()[k];
-        if (later.flat(0.5 * later.duration_s).velocity.norm() > kRestMps) {
+        if (trajectory.pieces()[k].kind == trajectory::PieceKind::kSail) {
           return true;
         }
       }

@@ -170,6 +170,54 @@ TEST(Planner, EndsEarlyWhereItMayAndTheWholeWayCantBePlanned) {
   EXPECT_EQ(whole.left_m, 0.0);
 }
 
+// Three walls with gaps of 2 m, each beside the one before; to be crossed slowly.
+map::DistanceField slalom() {
+  map::OccupancyGrid grid = test::openGrid();
+  for (int k = 0; k < 3; ++k) {
+    const double middle = k % 2 == 0 ? -2.0 : 2.0;
+    test::fill(grid, 6.0 * k, -40.0, 1.0, 39.0 + middle);
+    test::fill(grid, 6.0 * k, middle + 1.0, 1.0, 39.0 - middle);
+  }
+  return map::DistanceField(grid, map::DistanceFieldOptions{});
+}
+Query throughTheGaps() {
+  Query query;
+  query.limits = feasibility::SafetyLimits::of(vessel::Parameters{}, 0.74);
+  query.limits.speed_max_mps = 0.8;
+  query.start.flat.position = {-12.0, -2.0};
+  query.goal.flat.position = {25.0, -2.0};
+  return query;
+}
+
+// Where the trees don't meet at once, the guide path itself is had for less than their samples.
+TEST(Planner, TakesTheGuidePathBeforeManySamples) {
+  const map::DistanceField field = slalom();
+  Planner planner(Options{}, vessel::Parameters{});
+  for (const double speed_mps : {0.0, 0.7}) {
+    Query query = throughTheGaps();
+    query.start.flat.velocity.x() = speed_mps;
+    const Plan plan = planner.plan(field, query, byIterations());
+    ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+    EXPECT_LT(plan.figures.samples, 60) << speed_mps;
+    EXPECT_TRUE(verifyPlan(plan, field, query).ok);
+  }
+}
+
+// Under way another clearance is soon tried; from rest all that there is is spent.
+TEST(Planner, GivesUpSoonUnderWay) {
+  const map::DistanceField field = slalom();
+  Planner planner(Options{}, vessel::Parameters{});
+  Query query = throughTheGaps();
+  query.limits.hull_margin_m = 0.45;
+  const Plan from_rest = planner.plan(field, query, byIterations());
+  ASSERT_EQ(from_rest.outcome, Outcome::kNoPath);
+  EXPECT_GT(from_rest.figures.samples, 1000);
+  query.start.flat.velocity.x() = 0.7;
+  const Plan under_way = planner.plan(field, query, byIterations());
+  ASSERT_EQ(under_way.outcome, Outcome::kNoPath);
+  EXPECT_LT(under_way.figures.samples, 150);
+}
+
 TEST(Planner, SaysThatTheTimeIsUp) {
   const map::DistanceField field = islands();
   Planner planner(Options{}, vessel::Parameters{});
