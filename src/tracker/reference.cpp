@@ -27,6 +27,7 @@ constexpr double kLeastWaitingSpeedMps = 0.3;
 // spent), and catches up by at most so many seconds a second.
 constexpr double kLeashLengths = 1.0;
 constexpr double kCatchUpRate = 0.5;
+constexpr double kTurnBackRadps = 0.3;
 constexpr double kOverReference = 1.01;  // of a reference faster than its limit
 
 }  // namespace
@@ -161,11 +162,20 @@ bool ReferenceSource::isAstern(const Course& c, double psi_rad) {
 vessel::SwayHeading ReferenceSource::heading(const Course& c, double psi_rad, double dt_s,
                                              const vessel::Disturbance& disturbance) const {
   const double psi_path_rad = isAstern(c, psi_rad) ? psi_rad : c.psi_rad;
-  // A heading on which the hull would be set aside yields to the position.
-  return c.spins && (rests_ || vessel::canLie(vessel_.manoeuvring, disturbance, c.psi_rad))
-             ? vessel::SwayHeading{c.psi_rad, 1.0}
-             : vessel::swayHeading(vessel_, disturbance, c.flat.velocity, c.flat.acceleration,
-                                   psi_rad, psi_path_rad, dt_s);
+  // A heading on which the hull would be set aside yields to the position; not where the plan has
+  // it carried there.
+  const auto holds = [&] {
+    return rests_ ||
+           vessel::setOff(vessel_.manoeuvring, disturbance, c.psi_rad, c.yaw_rate, c.flat.velocity,
+                          c.flat.acceleration) <= vessel::kRestMps + c.flat.velocity.norm();
+  };
+  if (!c.spins || !holds()) {
+    return vessel::swayHeading(vessel_, disturbance, c.flat.velocity, c.flat.acceleration, psi_rad,
+                               psi_path_rad, dt_s);
+  }
+  // Back from where it yielded it turns, and doesn't jump.
+  const double most_rad = (std::abs(c.yaw_rate) + kTurnBackRadps) * dt_s;
+  return {psi_rad + std::clamp(wrapAngle(c.psi_rad - psi_rad), -most_rad, most_rad), 1.0};
 }
 
 void ReferenceSource::fillFlat(double start_s, double step_s, int stages,

@@ -13,17 +13,29 @@ Demand atRest(const ManoeuvringModel& model, const Disturbance& disturbance, dou
                   Eigen::Vector2d::Zero());
 }
 
+// Through the water, of a hull that is pushed abeam.
+double carriedBy(const ManoeuvringModel& model, double push_n) {
+  const double abeam = std::abs(push_n);
+  const double drag = steadyDrag(model.sway_drag_kgps, model.sway_drag_quadratic_kgpm, abeam);
+  return std::copysign(abeam / (drag + 5e-13), push_n);  // 0 without drag and load
+}
+
 }  // namespace
 
 double driftAbeam(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad) {
   const double cosine = std::cos(psi_rad);
   const double sine = std::sin(psi_rad);
   const double pushed = outsideForce(cosine, sine, model, disturbance).sway;
-  const double abeam = std::abs(pushed);
-  const double drag = steadyDrag(model.sway_drag_kgps, model.sway_drag_quadratic_kgpm, abeam);
-  const double through = abeam / (drag + 5e-13);  // 0 without drag and load
   const Eigen::Vector2d& current = disturbance.current_mps;
-  return std::copysign(through, pushed) + portPart(cosine, sine, current.x(), current.y());
+  return carriedBy(model, pushed) + portPart(cosine, sine, current.x(), current.y());
+}
+
+double setOff(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad,
+              double yaw_rate_radps, const Eigen::Vector2d& velocity,
+              const Eigen::Vector2d& acceleration) {
+  const Demand demand =
+      demandOf(model, disturbance, psi_rad, yaw_rate_radps, 0.0, velocity, acceleration);
+  return std::abs(carriedBy(model, demand.sway_n));
 }
 
 double headingIntoLoad(const ManoeuvringModel& model, const Disturbance& disturbance,

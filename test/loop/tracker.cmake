@@ -1,5 +1,6 @@
 otter_nav_test(loop_tracker
   SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/tracker/carried_turn_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/handover_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/odometry_faults_test.cpp
-  ROOMS tracker plant)
+  ROOMS tracker plant planner)

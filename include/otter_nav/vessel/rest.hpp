@@ -27,6 +27,12 @@ constexpr double kRestMps = 0.25;
                                  double psi_rad, double most_mps = kRestMps) {
   return setAside(model, disturbance, psi_rad) <= most_mps;
 }
+// How fast, m/s and to whichever side, a hull on that heading falls off a motion over ground that
+// is asked of it: its sway drag balances what that motion lacks of force abeam. A hull that is
+// carried as planned doesn't.
+[[nodiscard]] double setOff(const ManoeuvringModel& model, const Disturbance& disturbance,
+                            double psi_rad, double yaw_rate_radps, const Eigen::Vector2d& velocity,
+                            const Eigen::Vector2d& acceleration);
 // The heading on which the whole load comes from ahead, found from the one that meets the load as
 // it is on `psi_rad`; `psi_rad` itself without any load.
 [[nodiscard]] double headingIntoLoad(const ManoeuvringModel& model, const Disturbance& disturbance,

@@ -33,13 +33,15 @@ class VesselAtSea {
   using Tamper = std::function<bool(double& stamp_s, vessel::State& state)>;
 
   explicit VesselAtSea(const std::string& disturbance, double latency_s = 0.0,
-                       const std::string& name = "otter_gazebo") {
+                       const std::string& name = "otter_gazebo",
+                       const Eigen::Vector2d& force_n = Eigen::Vector2d::Zero()) {
     const auto vessel = vessel::loadParameters(kSource + "/config/vessels/" + name + ".yaml");
     const auto options = config::load<Options>(kSource + "/config/tracker.yaml");
     auto plant = plant::loadOptions(*vessel, kSource + "/config/plant.yaml",
                                     kSource + "/config/disturbances/" + disturbance + ".yaml");
     EXPECT_TRUE(vessel && options && plant);
     plant->odometry.latency_s = latency_s;
+    plant->disturbance.force_n += force_n;
     plant_ = std::make_unique<plant::Simulator>(*plant, map::OccupancyGrid{}, 1);
     tracker_ = Tracker::create(*options, *vessel);
   }

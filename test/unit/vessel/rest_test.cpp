@@ -37,6 +37,20 @@ TEST(Rest, IsSetAsideUntilTheDragBalancesTheLoad) {
   EXPECT_NEAR(setAside(windy(), stream, 0.5 * kPi), 0.0, 1e-12);
 }
 
+// At rest it is what sets the hull aside; carried as the load would, nothing is missing.
+TEST(Rest, AHullFallsOffAMotionByWhatThatLacksOfForce) {
+  Disturbance push;
+  push.force_n = {0.0, 12.0};
+  for (const double psi : {0.0, 0.7, 2.0, -3.0}) {
+    const double drift = driftAbeam(windy(), push, psi);
+    const Eigen::Vector2d carried = drift * Eigen::Vector2d(-std::sin(psi), std::cos(psi));
+    const Eigen::Vector2d none = Eigen::Vector2d::Zero();
+    EXPECT_NEAR(setOff(windy(), push, psi, 0.0, none, none), std::abs(drift), 1e-9);
+    EXPECT_NEAR(setOff(windy(), push, psi, 0.0, carried, none), 0.0, 1e-6);
+    EXPECT_GT(setOff(windy(), push, psi, 0.0, -carried, none), std::abs(drift));
+  }
+}
+
 TEST(Rest, LiesOnHeadingsAlongTheLoadAndOnAnyInCalmWater) {
   Disturbance gale;
   gale.wind_mps = {8.0, 0.0};

@@ -1,0 +1,68 @@
+// The tracker against the plant where a plan to leeward begins with a turn during which the load
+// carries the hull.
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
+#include "otter_nav/planner/planner.hpp"
+#include "otter_nav/trajectory/motion_along.hpp"
+#include "vessel_at_sea.hpp"
+
+namespace otter_nav::tracker {
+namespace {
+
+using test::VesselAtSea;
+
+map::DistanceField openSea() {
+  map::OccupancyGrid grid;
+  grid.geometry.width = grid.geometry.height = 320;
+  grid.geometry.resolution_m = 0.25;
+  grid.geometry.origin = {-40.0, -40.0};
+  grid.cells.assign(320U * 320U, map::Cell::kFree);
+  return map::DistanceField(grid, map::DistanceFieldOptions{});
+}
+
+// A hull abeam of a load is set aside, but here that is the plan: the heading doesn't yield, or it
+// would be gone where the way goes on. The load turns after the plan was made, and is half as much
+// again.
+TEST(CarriedTurn, EndsWhereThePlanGoesOn) {
+  constexpr double kPlannedN = 40.0;
+  constexpr double kWaitS = 10.0;
+  const auto otter = vessel::loadParameters(test::kSource + "/config/vessels/otter.yaml");
+  ASSERT_TRUE(otter);
+  planner::Query query;
+  query.limits = feasibility::SafetyLimits::of(*otter, 1.0, 0.7);
+  query.limits.disturbance.force_n = {kPlannedN, 0.0};
+  query.start.psi_rad = query.goal.psi_rad = kPi;
+  query.goal.flat.position = {30.0, 3.0};
+  const map::DistanceField field = openSea();
+  planner::Planner planner(planner::Options{}, *otter);
+  planner::Termination termination;
+  const planner::Plan plan = planner.plan(feasibility::Obstacles(field), query, termination);
+  ASSERT_EQ(plan.outcome, planner::Outcome::kSolved);
+  const trajectory::MotionAlong planned(plan.trajectory, *otter, query.limits.disturbance, kPi);
+  double turn_s = 0.0;
+  for (const trajectory::Piece& piece : plan.trajectory.pieces()) {
+    if (piece.kind != trajectory::PieceKind::kSpin) {
+      break;
+    }
+    turn_s += piece.duration_s;
+  }
+  ASSERT_GT(turn_s, 5.0);
+  ASSERT_GT(planned.sample(turn_s).flat.velocity.norm(), 0.3);
+  for (const double turned_rad : {-0.5, 0.0, 0.25, 0.5}) {
+    for (const double pushed_n : {kPlannedN, 1.5 * kPlannedN}) {
+      VesselAtSea sea("none", 0.0, "otter", pushed_n * unitVector(turned_rad));
+      sea.plant().placeAt({0.0, 0.0}, kPi);
+      sea.tracker().requestStop("until the load is known", sea.now(), 1);
+      sea.sail(kWaitS);
+      ASSERT_TRUE(sea.tracker().setTrajectory({plan.trajectory, kWaitS}, 2));
+      sea.sail(turn_s);
+      const vessel::State end = planned.sample(turn_s).state;
+      EXPECT_LT((sea.truth() - end).head<2>().norm(), 0.6) << pushed_n << " N, " << turned_rad;
+      EXPECT_NEAR(wrapAngle((sea.truth() - end)[vessel::kPsi]), 0.0, 0.4)
+          << pushed_n << " N, " << turned_rad;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace otter_nav::tracker
