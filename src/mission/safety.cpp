@@ -23,7 +23,9 @@ constexpr double kPlanMarginM = 0.05;
 constexpr double kOffTrajectoryM = 0.02;
 constexpr double kMostOfRoom = 0.75;
 constexpr double kSlower = 0.65;
-constexpr double kWanderM = 0.2;  // of what it wanders, kept on the narrow levels too
+// Of what it wanders, kept on the narrow levels too; and what it is expected to where it was not
+// under way for long enough to tell.
+constexpr double kWanderM = 0.2;
 // Among what nobody has charted: a pace at which the tracker leaves waves alone, in hull's lengths
 // a second; and so many times what it wanders on the levels that have room for it, for what comes
 // into sight takes some.
@@ -111,8 +113,9 @@ double Safety::sailingSpeed(double usual_mps) const {
 }
 
 double Safety::reach() const {
-  return in_unknown_water_ && !wander_.isKnown() ? std::max(kWanderM, wander_.reach())
-                                                 : wander_.reach();
+  // Gusts come with a firm load, and corrections among what nobody has charted.
+  const bool expects_it = in_unknown_water_ || plansWithWeather();
+  return expects_it && !wander_.isKnown() ? std::max(kWanderM, wander_.reach()) : wander_.reach();
 }
 
 bool Safety::mayPlanWithWeather() const {

@@ -120,6 +120,25 @@ vessel::Parameters otter() {
   return *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
 }
 
+// Nor in a firm load, whose first plan is made before; until it shows.
+TEST(Safety, ReckonsWithWanderingInAFirmLoad) {
+  for (const double load_n : {5.0, 40.0}) {
+    Safety safety(SupervisorOptions{}, otter());
+    vessel::Disturbance load;
+    load.force_n = {0.0, load_n};
+    for (int k = 0; k < 50; ++k) {
+      safety.feel(0.1 * k, load);
+    }
+    const bool firm = safety.plansWithWeather();
+    EXPECT_EQ(firm, load_n > 30.0);
+    EXPECT_NEAR(safety.limits(0.8, 20.0).hull_margin_m, firm ? 0.2 : 0.06, 1e-9);
+    for (int k = 0; k < 80; ++k) {
+      safety.wander(0.1 * k, 0.01);
+    }
+    EXPECT_LT(safety.limits(0.8, 20.0).hull_margin_m, 0.06);
+  }
+}
+
 // What plans may take of the thrust in a load, with the hull swaying by so much beside a steady
 // sway.
 double shareInWaves(const vessel::Parameters& vessel, double load_n, double sway_mps,
