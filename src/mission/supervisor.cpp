@@ -88,6 +88,7 @@ class Decider final : public Supervisor {
     plans_.drop();
     plans_.latency.onTime();
     retries_.newGoal(m.now_s);
+    calmer_by_s_ = m.now_s;
     cancelled_ = false;
     suspended_.reset();
     replans_ = 0;
@@ -313,6 +314,13 @@ class Decider final : public Supervisor {
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
                lost_rad;
   }
+  // The mean wind turns the hull with much of the thrusters' moment.
+  bool mayLoseItsHeading() {
+    constexpr double kStrongShare = 0.4;
+    return weather().greatestMoment() > kStrongShare * vessel::greatestMoment(vessel_.thrusters);
+  }
+  // It had to stop hereabouts before: in such a wind it waits longer each time, for less of it.
+  bool waitsForLessWind(const Moment& m) { return mayLoseItsHeading() && m.now_s < calmer_by_s_; }
   // Off its trajectory, where nothing was verified, for longer than a plan takes, or towards
   // something near.
   bool isSetAside(const Moment& m) {
@@ -328,17 +336,15 @@ class Decider final : public Supervisor {
     }
     // Where the wind can take the heading, with something near, a plan from there leads nowhere: at
     // rest, bow to it, there is a better. Unless the vessel is coming back.
-    constexpr double kStrongShare = 0.4;  // of the thrusters' moment
-    constexpr double kNearShare = 0.5;    // of what a lost heading takes
+    constexpr double kNearShare = 0.5;  // of what a lost heading takes
     const vessel::State& x = m.situation.state;
     const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
-    const double moment_nm = vessel::greatestMoment(vessel_.thrusters);
     const Eigen::Vector2d velocity =
         Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
     const vessel::FlatPoint wanted = sailed_.trajectory.flat(sailed_.elapsed(m.now_s));
     const bool comes_back = (x.head<2>() - wanted.position).dot(velocity - wanted.velocity) < 0.0;
-    const bool hurries = weather().greatestMoment() > kStrongShare * moment_nm &&
-                         here < kNearShare * weather().drift().norm() && !comes_back;
+    const bool hurries =
+        mayLoseItsHeading() && here < kNearShare * weather().drift().norm() && !comes_back;
     const double patience_s = hurries ? 0.0 : kPatienceS;
     if (isFarOff(m) && m.now_s - off_since_s_ >= patience_s) {
       return true;
@@ -670,10 +676,17 @@ class Decider final : public Supervisor {
         m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
   }
   Orders turnIntoTheLoad(const Moment& /*m*/) { return holdHere(); }
+  Orders keepThePlace(const Moment& /*m*/) {
+    enter(phase_,
+          text("waits for less wind, having stopped %d times hereabouts", retries_.stops()));
+    return holdHere();
+  }
   Orders makeSeaRoom(const Moment& m) {
-    return manoeuvre(m, Phase::kBackingOff, legAhead(m, sea_room_m_),
-                     text("makes room, %.1f m %s", std::abs(sea_room_m_),
-                          sea_room_m_ > 0.0 ? "ahead" : "astern"));
+    Orders orders = manoeuvre(m, Phase::kBackingOff, legAhead(m, sea_room_m_),
+                              text("makes room, %.1f m %s", std::abs(sea_room_m_),
+                                   sea_room_m_ > 0.0 ? "ahead" : "astern"));
+    makes_room_ = true;
+    return orders;
   }
   Orders standAside(const Moment& m) {
     Orders orders =
@@ -722,7 +735,7 @@ class Decider final : public Supervisor {
     return retries_.roundLost(m.now_s) ? Orders{} : enter(Phase::kFailed, faultOf(m));
   }
   Orders restBeforeTheGoal(const Moment& m) {
-    if (is_aside_) {  // no stop that counts
+    if (is_aside_ || makes_room_) {  // no stop that counts
       safety().tryWidest();
       return enter(Phase::kStopped, reason_);
     }
@@ -785,6 +798,7 @@ class Decider final : public Supervisor {
       {kWaiting, &Decider::isBeyondThrust, &Decider::waitForCalm},
       {kWaiting, &Decider::liesAcrossTheLoad, &Decider::turnIntoTheLoad},
       {kWaiting, &Decider::liesOffALeeShore, &Decider::makeSeaRoom},
+      {kWaiting, &Decider::waitsForLessWind, &Decider::keepThePlace},
       {kWaiting, &Decider::always, &Decider::planFromRest},
 
       {kUnderWay, &Decider::hasFault, &Decider::stopForFault},
@@ -1091,7 +1105,7 @@ class Decider final : public Supervisor {
     planned_in_known_weather_ = weather().isKnown();
     planned_overtaxed_s_ = overtaxed(m.now_s, planned_disturbance_);
     plan_time_s_ = sailed_since_s_ = m.now_s;
-    holds_ = is_aside_ = false;
+    holds_ = is_aside_ = makes_room_ = false;
     safety().planTaken();
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
@@ -1100,7 +1114,7 @@ class Decider final : public Supervisor {
   Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason) {
     plans_.drop();
     stop_time_s_ = m.now_s;
-    is_aside_ = false;
+    is_aside_ = makes_room_ = false;
     planned_clearance_m_ = 0.0;
     fallback_.reset();
     enter(phase, std::move(reason));
@@ -1125,6 +1139,11 @@ class Decider final : public Supervisor {
       return enter(Phase::kFailed, last);
     }
     safety().tryWidest();
+    constexpr double kCalmerS = 10.0;
+    constexpr double kCalmerMostS = 60.0;
+    if (mayLoseItsHeading()) {
+      calmer_by_s_ = m.now_s + std::min(kCalmerMostS, kCalmerS * (retries_.stops() - 1));
+    }
     return enter(Phase::kStopped, reason);
   }
 
@@ -1249,6 +1268,8 @@ class Decider final : public Supervisor {
   double stops_looked_for_s_ = -std::numeric_limits<double>::infinity();
   std::optional<Trajectory> aside_;  // out of another vessel's way, if that is asked for
   bool is_aside_ = false;            // and is being sailed
+  bool makes_room_ = false;          // so, before it plans
+  double calmer_by_s_ = 0.0;         // until then it waits for less wind
   std::optional<double> calm_by_s_;  // or the mission fails
   double planned_for_mps_ = 0.0;     // the mission's speed limit then
   double too_fast_since_s_ = 0.0;

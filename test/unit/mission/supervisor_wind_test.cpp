@@ -411,6 +411,11 @@ TEST(SupervisorInWind, MakesRoomOffALeeShoreBeforeItPlans) {
       EXPECT_GT(end.state.x(), 0.9);
       EXPECT_NEAR(end.state.y(), 0.0, 1e-6);
       EXPECT_NEAR(end.state[vessel::kPsi], 0.0, 1e-6);
+      mission.rest = end.state;
+      (void)mission.update(path.duration() + 0.1);
+      (void)mission.update(0.1);
+      EXPECT_NE(mission.supervisor->phase(), Phase::kBackingOff);
+      EXPECT_EQ(mission.supervisor->stops(), 0);  // it was nothing that went wrong
     }
   }
 }
@@ -573,6 +578,45 @@ TEST(SupervisorInWind, IsImpatientOffItsTrajectoryWithSomethingNear) {
     }
     const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
     EXPECT_EQ(orders.stop, near && away_mps > 0.0);
+  }
+}
+
+// Set aside until it stops; s from there to the request for another plan, which is granted.
+double plansAgainAfter(ScriptedMission& mission) {
+  mission.rest = mission.situation().state;
+  mission.rest.tail<3>().setZero();
+  for (bool stopped = false; !stopped;) {
+    mission.now_s += 0.1;
+    Situation aside = mission.situation();
+    aside.tracking_error_m = 2.0;
+    const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
+    stopped = orders.stop;
+    if (orders.plan) {
+      (void)mission.refuse(*orders.plan, "no");
+    }
+  }
+  const double since_s = mission.now_s;
+  while (mission.now_s < since_s + 100.0) {
+    if (const Orders orders = mission.update(0.1); orders.plan) {
+      const double after_s = mission.now_s - since_s;
+      const Vector2d here = mission.rest.head<2>();
+      (void)mission.answer(*orders.plan, test::eastward(here, 40.0 - here.x(), 4.0));
+      return after_s;
+    }
+  }
+  return 100.0;
+}
+
+// Where the wind takes most of the moment, the next gust would do what the last one did.
+TEST(SupervisorInWind, WaitsLongerEachTimeItHadToStopInAStrongWind) {
+  for (const double moment_nm : {0.0, 20.0}) {
+    ScriptedMission mission;
+    mission.disturbance.moment_nm = moment_nm;
+    mission.knowWeather();
+    mission.setOut(1.0);
+    EXPECT_LT(plansAgainAfter(mission), 2.0);
+    EXPECT_NEAR(plansAgainAfter(mission), moment_nm > 0.0 ? 10.0 : 0.5, 1.5);
+    EXPECT_NEAR(plansAgainAfter(mission), moment_nm > 0.0 ? 20.0 : 0.5, 1.5);
   }
 }
 
