@@ -404,7 +404,8 @@ class Decider final : public Supervisor {
   // it was planned. Once the weather is known, then not for each change again.
   bool lacksThrust(const Moment& m) {
     constexpr double kLongerS = 1.5;
-    return mayReplanForWeather(m) &&
+    constexpr double kAgainS = 5.0;
+    return mayReplanForWeather(m) && (for_weather_ || m.now_s - weather_asked_s_ >= kAgainS) &&
            overtaxed(m.now_s, weather().mean()) > planned_overtaxed_s_ + kLongerS;
   }
   // At this speed gusts by now take the moment that holds the headings.
@@ -536,7 +537,10 @@ class Decider final : public Supervisor {
     return planFromVessel(m, "far off the trajectory");
   }
   Orders planForWeather(const Moment& m) {
-    return planFromVessel(m, "wind and current take thrust that the plan counts on");
+    Orders orders = planFromVessel(m, "wind and current take thrust that the plan counts on");
+    for_weather_ = true;
+    weather_asked_s_ = m.now_s;
+    return orders;
   }
   Orders planForGoalHeading(const Moment& m) {
     enter(Phase::kReplanning, "the heading at the goal is another in this wind and current");
@@ -1105,7 +1109,7 @@ class Decider final : public Supervisor {
     planned_in_known_weather_ = weather().isKnown();
     planned_overtaxed_s_ = overtaxed(m.now_s, planned_disturbance_);
     plan_time_s_ = sailed_since_s_ = m.now_s;
-    holds_ = is_aside_ = makes_room_ = false;
+    holds_ = is_aside_ = makes_room_ = for_weather_ = false;
     safety().planTaken();
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
@@ -1149,7 +1153,7 @@ class Decider final : public Supervisor {
 
   Orders planFromVessel(const Moment& m, std::string why) {
     enter(Phase::kReplanning, std::move(why));
-    for_clearance_ = false;
+    for_clearance_ = for_weather_ = false;
     return {plans_.fromVessel(m.now_s, m.situation.state, goal_, m.obstacles), {}, false};
   }
   Orders takeFromRest(const Moment& m, const planner::Plan& plan,
@@ -1197,6 +1201,12 @@ class Decider final : public Supervisor {
       return {};
     }
     const bool more = safety().refused();
+    if (for_weather_ && safety().plansBlind()) {
+      // One that knows nothing of the weather is no better than the one being sailed.
+      for_weather_ = false;
+      safety().planTaken();
+      return keepThePlan(m);
+    }
     if (more && asked.from == From::kSailed && phase_ == Phase::kReplanning) {
       return planFromSailed(m);  // at once: there is less room with each update
     }
@@ -1283,6 +1293,8 @@ class Decider final : public Supervisor {
   std::string end_reason_;          // by whose wish
   std::optional<Phase> suspended_;  // what the vessel is to rest in, with its mission kept
   bool for_clearance_ = false;      // replanning because of the clearance ahead, nothing else
+  bool for_weather_ = false;        // or because wind and current take the thrust
+  double weather_asked_s_ = 0.0;
   int replans_ = 0;
   PlanRequests plans_;
   RetryBudget retries_;

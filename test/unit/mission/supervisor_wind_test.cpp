@@ -224,6 +224,29 @@ TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.x(), -10.0);
 }
 
+// What is sailed at least began with the weather of then: no plan for still water takes its place.
+TEST(SupervisorInWind, KeepsItsPlanWhereNoneThatKnowsTheWeatherIsFound) {
+  ScriptedMission mission(openWater(), knowing());
+  mission.setOut(6.0);
+  blow(mission, 2.0, steady);
+  double asked_s = 0.0;
+  int rounds = 0;
+  int sailing = 0;
+  for (int k = 0; k < 100; ++k) {
+    mission.disturbance.force_n = {-45.0, 0.0};
+    if (const Orders orders = mission.update(0.1); orders.plan) {
+      EXPECT_LT(orders.plan->query.limits.disturbance.force_n.x(), -5.0);
+      rounds += mission.now_s - asked_s > 3.0 ? 1 : 0;
+      asked_s = mission.now_s;
+      (void)mission.refuse(*orders.plan, "no");
+    }
+    sailing += mission.supervisor->phase() == Phase::kSailing ? 1 : 0;
+  }
+  EXPECT_GE(rounds, 1);
+  EXPECT_LE(rounds, 2);  // not again at once
+  EXPECT_GT(sailing, 80);
+}
+
 // Then with thrust left for what blows.
 TEST(SupervisorInWind, PlansForStillWaterIfAsked) {
   ScriptedMission mission(openWater(), forStillWater()), asked(openWater(), knowing());
