@@ -162,11 +162,13 @@ bool ReferenceSource::isAstern(const Course& c, double psi_rad) {
 vessel::SwayHeading ReferenceSource::heading(const Course& c, double psi_rad, double dt_s,
                                              const vessel::Disturbance& disturbance) const {
   const double psi_path_rad = isAstern(c, psi_rad) ? psi_rad : c.psi_rad;
+  if (rests_) {
+    return {c.psi_rad, 1.0};
+  }
   // A heading on which the hull would be set aside yields to the position; not where the plan has
   // it carried there.
   const auto holds = [&] {
-    return rests_ ||
-           vessel::setOff(vessel_.manoeuvring, disturbance, c.psi_rad, c.yaw_rate, c.flat.velocity,
+    return vessel::setOff(vessel_.manoeuvring, disturbance, c.psi_rad, c.yaw_rate, c.flat.velocity,
                           c.flat.acceleration) <= vessel::kRestMps + c.flat.velocity.norm();
   };
   if (!c.spins || !holds()) {

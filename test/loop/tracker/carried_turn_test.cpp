@@ -48,19 +48,22 @@ TEST(CarriedTurn, EndsWhereThePlanGoesOn) {
   }
   ASSERT_GT(turn_s, 5.0);
   ASSERT_GT(planned.sample(turn_s).flat.velocity.norm(), 0.3);
-  for (const double turned_rad : {-0.5, 0.0, 0.25, 0.5}) {
-    for (const double pushed_n : {kPlannedN, 1.5 * kPlannedN}) {
-      VesselAtSea sea("none", 0.0, "otter", pushed_n * unitVector(turned_rad));
-      sea.plant().placeAt({0.0, 0.0}, kPi);
-      sea.tracker().requestStop("until the load is known", sea.now(), 1);
-      sea.sail(kWaitS);
-      ASSERT_TRUE(sea.tracker().setTrajectory({plan.trajectory, kWaitS}, 2));
-      sea.sail(turn_s);
-      const vessel::State end = planned.sample(turn_s).state;
-      EXPECT_LT((sea.truth() - end).head<2>().norm(), 0.6) << pushed_n << " N, " << turned_rad;
-      EXPECT_NEAR(wrapAngle((sea.truth() - end)[vessel::kPsi]), 0.0, 0.4)
-          << pushed_n << " N, " << turned_rad;
-    }
+  struct Load {
+    double pushed_n, turned_rad;
+  };
+  for (const auto [pushed_n, turned_rad] :
+       {Load{kPlannedN, -0.5}, Load{kPlannedN, 0.0}, Load{kPlannedN, 0.5},
+        Load{1.5 * kPlannedN, -0.5}, Load{1.5 * kPlannedN, 0.0}, Load{1.5 * kPlannedN, 0.25}}) {
+    VesselAtSea sea("none", 0.0, "otter", pushed_n * unitVector(turned_rad));
+    sea.plant().placeAt({0.0, 0.0}, kPi);
+    sea.tracker().requestStop("until the load is known", sea.now(), 1);
+    sea.sail(kWaitS);
+    ASSERT_TRUE(sea.tracker().setTrajectory({plan.trajectory, kWaitS}, 2));
+    sea.sail(turn_s);
+    const vessel::State end = planned.sample(turn_s).state;
+    EXPECT_LT((sea.truth() - end).head<2>().norm(), 0.6) << pushed_n << " N, " << turned_rad;
+    EXPECT_NEAR(wrapAngle((sea.truth() - end)[vessel::kPsi]), 0.0, 0.4)
+        << pushed_n << " N, " << turned_rad;
   }
 }
 

@@ -72,6 +72,20 @@ TEST(Handover, ATakeoverOnTheSameWayIsSeamless) {
   EXPECT_LT(across.max_thrust_step_n, before.max_thrust_step_n + 1.0);
 }
 
+// Before its first trajectory too, and at once.
+TEST(Handover, HoldsThePlaceAndTheHeadingThatItIsOn) {
+  for (const double psi_rad : {-2.5, 1.6, 3.0}) {
+    VesselAtSea sea("none");
+    sea.plant().placeAt({3.0, -2.0}, psi_rad);
+    sea.tracker().requestStop("nothing to do yet", sea.now(), 1);
+    for (int i = 0; i < 40; ++i) {
+      sea.sail(0.1);
+      ASSERT_NEAR(wrapAngle(sea.truth()[vessel::kPsi] - psi_rad), 0.0, 0.01) << sea.now();
+    }
+    EXPECT_LT((sea.truth().head<2>() - Eigen::Vector2d(3.0, -2.0)).norm(), 0.02);
+  }
+}
+
 TEST(Handover, HoldsTheGoalAndItsHeadingInALightWind) {
   VesselAtSea sea("none");
   ASSERT_TRUE(
