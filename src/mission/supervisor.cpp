@@ -89,6 +89,7 @@ class Decider final : public Supervisor {
     plans_.latency.onTime();
     retries_.newGoal(m.now_s);
     calmer_by_s_ = m.now_s;
+    rooms_made_ = 0;
     cancelled_ = false;
     suspended_.reset();
     replans_ = 0;
@@ -258,7 +259,7 @@ class Decider final : public Supervisor {
            stopping::isAboutToTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
                                     alongSailed(m), vessel_, planned_limits_.disturbance);
   }
-  bool isClearAgain(const Moment& m) { return for_clearance_ && !isNarrow(m); }
+  bool isClearAgain(const Moment& m) { return replan_for_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
   bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_); }
   // The way to rest itself is not clear any more, or its end, and there is a milder one.
@@ -405,7 +406,8 @@ class Decider final : public Supervisor {
   bool lacksThrust(const Moment& m) {
     constexpr double kLongerS = 1.5;
     constexpr double kAgainS = 5.0;
-    return mayReplanForWeather(m) && (for_weather_ || m.now_s - weather_asked_s_ >= kAgainS) &&
+    return mayReplanForWeather(m) &&
+           (replansForWeather() || m.now_s - weather_asked_s_ >= kAgainS) &&
            overtaxed(m.now_s, weather().mean()) > planned_overtaxed_s_ + kLongerS;
   }
   // At this speed gusts by now take the moment that holds the headings.
@@ -500,8 +502,7 @@ class Decider final : public Supervisor {
     return liesAcrossTheLoad(m) ? turnIntoTheLoad(m) : planFromRest(m);
   }
   Orders planForNewGoal(const Moment& m) {
-    enter(Phase::kReplanning, "new goal");
-    for_clearance_ = false;
+    replan("new goal");
     return planFromSailed(m);
   }
   Orders planFromRest(const Moment& m) {
@@ -537,14 +538,12 @@ class Decider final : public Supervisor {
     return planFromVessel(m, "far off the trajectory");
   }
   Orders planForWeather(const Moment& m) {
-    Orders orders = planFromVessel(m, "wind and current take thrust that the plan counts on");
-    for_weather_ = true;
     weather_asked_s_ = m.now_s;
-    return orders;
+    return planFromVessel(m, "wind and current take thrust that the plan counts on",
+                          Cause::kWeather);
   }
   Orders planForGoalHeading(const Moment& m) {
-    enter(Phase::kReplanning, "the heading at the goal is another in this wind and current");
-    for_clearance_ = false;
+    replan("the heading at the goal is another in this wind and current");
     Orders orders = planFromSailed(m);
     if (!orders.plan) {
       return enter(Phase::kSailing);
@@ -552,9 +551,8 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders planForGusts(const Moment& m) {
-    enter(Phase::kReplanning, text("gusts take the moment that holds headings at %.1f m/s",
-                                   planned_limits_.speed_max_mps));
-    for_clearance_ = false;
+    replan(text("gusts take the moment that holds headings at %.1f m/s",
+                planned_limits_.speed_max_mps));
     Orders orders = planFromSailed(m);
     return orders.plan ? orders : enter(Phase::kSailing);
   }
@@ -563,8 +561,7 @@ class Decider final : public Supervisor {
       planned_for_mps_ = safety().speedMax();
       return planToImprove(m);
     }
-    enter(Phase::kReplanning, text("the speed limit is %.2f m/s now", safety().speedMax()));
-    for_clearance_ = false;
+    replan(text("the speed limit is %.2f m/s now", safety().speedMax()));
     return planFromSailed(m);
   }
   Orders planFaster(const Moment& m) {
@@ -623,8 +620,7 @@ class Decider final : public Supervisor {
                       vessel::setAside(vessel_.manoeuvring, weather().mean(), goal_.psi_rad)));
   }
   Orders lookForAnother(const Moment& /*m*/) {
-    for_clearance_ = true;
-    return enter(Phase::kReplanning, conflictText(conflict_));
+    return replan(conflictText(conflict_), Cause::kClearance);
   }
   Orders keepThePlan(const Moment& /*m*/) {
     plans_.drop();
@@ -739,7 +735,8 @@ class Decider final : public Supervisor {
     return retries_.roundLost(m.now_s) ? Orders{} : enter(Phase::kFailed, faultOf(m));
   }
   Orders restBeforeTheGoal(const Moment& m) {
-    if (is_aside_ || makes_room_) {  // no stop that counts
+    constexpr int kRoomsMost = 3;  // before another plan is sailed; then it leads nowhere
+    if (is_aside_ || (makes_room_ && ++rooms_made_ <= kRoomsMost)) {  // no stop that counts
       safety().tryWidest();
       return enter(Phase::kStopped, reason_);
     }
@@ -1081,6 +1078,15 @@ class Decider final : public Supervisor {
                 .found;
   }
 
+  // What alone another plan is looked for under way.
+  enum class Cause { kOther, kClearance, kWeather };
+  Orders replan(std::string why, Cause cause = Cause::kOther) {
+    replan_for_ = cause;
+    return enter(Phase::kReplanning, std::move(why));
+  }
+  [[nodiscard]] bool replansForWeather() const {
+    return phase_ == Phase::kReplanning && replan_for_ == Cause::kWeather;
+  }
   Orders enter(Phase phase, std::string reason = {}) {
     phase_ = phase;
     reason_ = std::move(reason);
@@ -1109,7 +1115,8 @@ class Decider final : public Supervisor {
     planned_in_known_weather_ = weather().isKnown();
     planned_overtaxed_s_ = overtaxed(m.now_s, planned_disturbance_);
     plan_time_s_ = sailed_since_s_ = m.now_s;
-    holds_ = is_aside_ = makes_room_ = for_weather_ = false;
+    holds_ = is_aside_ = makes_room_ = false;
+    rooms_made_ = 0;
     safety().planTaken();
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
@@ -1151,9 +1158,8 @@ class Decider final : public Supervisor {
     return enter(Phase::kStopped, reason);
   }
 
-  Orders planFromVessel(const Moment& m, std::string why) {
-    enter(Phase::kReplanning, std::move(why));
-    for_clearance_ = for_weather_ = false;
+  Orders planFromVessel(const Moment& m, std::string why, Cause cause = Cause::kOther) {
+    replan(std::move(why), cause);
     return {plans_.fromVessel(m.now_s, m.situation.state, goal_, m.obstacles), {}, false};
   }
   Orders takeFromRest(const Moment& m, const planner::Plan& plan,
@@ -1201,9 +1207,8 @@ class Decider final : public Supervisor {
       return {};
     }
     const bool more = safety().refused();
-    if (for_weather_ && safety().plansBlind()) {
+    if (replansForWeather() && safety().plansBlind()) {
       // One that knows nothing of the weather is no better than the one being sailed.
-      for_weather_ = false;
       safety().planTaken();
       return keepThePlan(m);
     }
@@ -1279,6 +1284,7 @@ class Decider final : public Supervisor {
   std::optional<Trajectory> aside_;  // out of another vessel's way, if that is asked for
   bool is_aside_ = false;            // and is being sailed
   bool makes_room_ = false;          // so, before it plans
+  int rooms_made_ = 0;               // since a plan was sailed
   double calmer_by_s_ = 0.0;         // until then it waits for less wind
   std::optional<double> calm_by_s_;  // or the mission fails
   double planned_for_mps_ = 0.0;     // the mission's speed limit then
@@ -1292,8 +1298,7 @@ class Decider final : public Supervisor {
   bool cancelled_ = false;          // the mission ends with the stop
   std::string end_reason_;          // by whose wish
   std::optional<Phase> suspended_;  // what the vessel is to rest in, with its mission kept
-  bool for_clearance_ = false;      // replanning because of the clearance ahead, nothing else
-  bool for_weather_ = false;        // or because wind and current take the thrust
+  Cause replan_for_ = Cause::kOther;
   double weather_asked_s_ = 0.0;
   int replans_ = 0;
   PlanRequests plans_;

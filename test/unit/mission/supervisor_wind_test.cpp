@@ -247,6 +247,63 @@ TEST(SupervisorInWind, KeepsItsPlanWhereNoneThatKnowsTheWeatherIsFound) {
   EXPECT_GT(sailing, 80);
 }
 
+// A plan is asked for under way since the thrust lacks.
+Orders asksForTheWeathersSake(ScriptedMission& mission) {
+  mission.setOut(6.0);
+  blow(mission, 2.0, steady);
+  mission.disturbance.force_n = {-45.0, 0.0};
+  Orders orders;
+  for (int k = 0; k < 100 && !orders.plan; ++k) {
+    orders = mission.update(0.1);
+  }
+  return orders;
+}
+
+// It stops meanwhile: from rest there is no plan to keep, and one for still water is tried.
+TEST(SupervisorInWind, HasNoPlanToKeepOnceItStopped) {
+  ScriptedMission mission(openWater(), knowing());
+  ASSERT_TRUE(asksForTheWeathersSake(mission).plan);
+  mission.rest = mission.situation().state;
+  mission.rest.tail<3>().setZero();
+  mission.rest[vessel::kPsi] = 0.0;        // bow to it
+  for (bool stopped = false; !stopped;) {  // without an answer
+    mission.now_s += 0.1;
+    Situation aside = mission.situation();
+    aside.tracking_error_m = 2.0;
+    stopped = mission.supervisor->update(mission.now_s, aside, mission.field).stop;
+  }
+  bool still_water = false;
+  for (int k = 0; k < 100; ++k) {
+    if (const Orders orders = mission.update(0.1); orders.plan) {
+      still_water = still_water || orders.plan->query.limits.disturbance.force_n.isZero(0.0);
+      (void)mission.refuse(*orders.plan, "no");
+    }
+    EXPECT_NE(mission.supervisor->phase(), Phase::kSailing);
+  }
+  EXPECT_TRUE(still_water);
+}
+
+// And a new goal is no matter of the weather: the plan that is sailed leads elsewhere.
+TEST(SupervisorInWind, DoesNotKeepThePlanToAnotherGoal) {
+  ScriptedMission mission(openWater(), knowing());
+  ASSERT_TRUE(asksForTheWeathersSake(mission).plan);
+  Result<Orders> orders = mission.goTo({30.0, 10.0});
+  ASSERT_TRUE(orders);
+  std::optional<PlanRequest> asked = orders->plan;
+  int refused = 0;
+  for (int k = 0; k < 40; ++k) {
+    if (asked) {
+      ++refused;
+      asked = mission.refuse(*asked, "no").plan;
+    }
+    EXPECT_NE(mission.supervisor->phase(), Phase::kSailing);
+    if (!asked) {
+      asked = mission.update(0.1).plan;
+    }
+  }
+  EXPECT_GT(refused, 4);
+}
+
 // Then with thrust left for what blows.
 TEST(SupervisorInWind, PlansForStillWaterIfAsked) {
   ScriptedMission mission(openWater(), forStillWater()), asked(openWater(), knowing());
@@ -441,6 +498,32 @@ TEST(SupervisorInWind, MakesRoomOffALeeShoreBeforeItPlans) {
       EXPECT_EQ(mission.supervisor->stops(), 0);  // it was nothing that went wrong
     }
   }
+}
+
+// Set back each time, it would make room for ever: after three times it counts.
+TEST(SupervisorInWind, MakesRoomThreeTimesBeforeItCounts) {
+  ScriptedMission mission;
+  mission.put({-4.0, -5.0}, {-2.5, 5.0});
+  const Force push = [](double) { return Vector2d(-30.0, 0.0); };
+  blow(mission, 5.0, push);
+  const auto orders = mission.goTo({20.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  (void)mission.refuse(*orders->plan, "no");
+  int rooms = 0;
+  for (int k = 0; k < 3000 && mission.supervisor->phase() != Phase::kFailed; ++k) {
+    const bool makes_room = mission.supervisor->phase() == Phase::kBackingOff;
+    mission.now_s += 0.1;
+    Situation back = mission.situation();
+    if (!makes_room) {
+      back.state = mission.rest;
+    }
+    rooms += mission.supervisor->update(mission.now_s, back, mission.field).sail ? 1 : 0;
+    if (mission.supervisor->phase() == Phase::kStopped) {
+      EXPECT_EQ(mission.supervisor->stops(), std::max(0, rooms - 3));
+    }
+  }
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kFailed);
+  EXPECT_GT(rooms, 3);
 }
 
 // Not into the way of what crosses ahead: it would be broken off at once, again and again.
