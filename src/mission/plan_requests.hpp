@@ -15,6 +15,10 @@ namespace otter_nav::mission {
 // Where a plan starts from.
 enum class From { kRest, kSailed, kVessel };
 
+// What a plan is asked for though the one being sailed is sound: to be there sooner, to leave the
+// waves what they take, or more room for how the vessel wanders.
+enum class Gain { kTime, kThrust, kRoom };
+
 // A hull at rest that is off the load by less lies bow to it.
 constexpr double kIntoLoadRad = 0.35;
 
@@ -40,8 +44,7 @@ class PlanRequests {
   struct Asked {
     PlanRequest request;
     From from = From::kRest;
-    bool improves = false;  // asked for only to be better than what is sailed: faster,
-    bool slower = false;    // or within what the waves leave
+    std::optional<Gain> gain;  // asked for only to be better than what is sailed
     double since_s = 0.0;
     double speed_max_mps = 0.0;  // the mission's, when it was asked for
     double catch_up_mps = 0.0;   // what a vessel that fell behind may go
@@ -82,8 +85,7 @@ class PlanRequests {
     constexpr double kPatienceS = 5.0;
     return asked_ && now_s - asked_->since_s > kPatienceS;
   }
-  void markAsImprovement() { asked_->improves = true; }
-  void markAsSlower() { asked_->slower = true; }
+  void markAsImprovement(Gain gain) { asked_->gain = gain; }
   void drop() { asked_.reset(); }
   [[nodiscard]] Asked take() { return *std::exchange(asked_, std::nullopt); }
   // Nothing if the answer is to a request that was replaced.

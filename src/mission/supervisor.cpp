@@ -428,6 +428,15 @@ class Decider final : public Supervisor {
            sailed_.left(m.now_s) > kLeftS &&
            safety().speedInWaves() < kWorthShare * fastestAhead(m.now_s);
   }
+  // The plan was made before it showed how far gusts and waves set the vessel aside.
+  bool passesTooNear(const Moment& m) {
+    constexpr double kAgainS = 5.0;
+    constexpr double kLeftS = 4.0;
+    constexpr double kShare = 0.85;  // for a little more it is not worth another plan
+    constexpr double kAheadS = 30.0;
+    return safety().plansWithWeather() && m.now_s - wider_asked_s_ >= kAgainS &&
+           sailed_.left(m.now_s) > kLeftS && !leavesRoom(m, sailed_, kShare, kAheadS);
+  }
   // The plan ends on a heading that can't be held there, or not on the goal's though it can.
   bool endsOnAWrongHeading(const Moment& m) {
     constexpr double kWrongRad = 0.7;
@@ -571,11 +580,13 @@ class Decider final : public Supervisor {
   Orders planSlower(const Moment& m) {
     slower_asked_s_ = m.now_s;
     safety().tryLevel(planned_level_);
-    Orders orders = improve(m);
-    if (orders.plan) {
-      plans_.markAsSlower();
-    }
-    return orders;
+    return improve(m, Gain::kThrust);
+  }
+  // The widest way first; then one like that being sailed, with more beside the hull.
+  Orders planWider(const Moment& m) {
+    wider_asked_s_ = m.now_s;
+    safety().tryLevel(std::exchange(asks_widest_, !asks_widest_) ? 0 : planned_level_);
+    return improve(m, Gain::kRoom);
   }
   Orders planToImprove(const Moment& m) {
     if (is_last_resort_) {
@@ -583,12 +594,14 @@ class Decider final : public Supervisor {
     }
     return improve(m);
   }
-  Orders improve(const Moment& m) {
-    plan_time_s_ = m.now_s;
+  Orders improve(const Moment& m, Gain gain = Gain::kTime) {
+    if (gain != Gain::kRoom) {  // which is no reason for the weather to wait
+      plan_time_s_ = m.now_s;
+    }
     Orders orders = planFromSailed(m);
     safety().tryWidest();
     if (orders.plan) {
-      plans_.markAsImprovement();
+      plans_.markAsImprovement(gain);
     }
     return orders;
   }
@@ -824,6 +837,7 @@ class Decider final : public Supervisor {
       {kUnderWay, &Decider::hasNewSpeedMax, &Decider::planForSpeedMax},
       {kReplanning, &Decider::always, &Decider::planFromSailed},
       {kSailing, &Decider::isTooFastForWaves, &Decider::planSlower},
+      {kSailing, &Decider::passesTooNear, &Decider::planWider},
       {kSailing, &Decider::isNeedlesslySlow, &Decider::planFaster},
       {kSailing, &Decider::mayImprove, &Decider::planToImprove},
 
@@ -883,6 +897,15 @@ class Decider final : public Supervisor {
   bool mayReplanForWeather(const Moment& m) {
     constexpr double kAgainS = 10.0;
     return weather().isKnown() && (!planned_in_known_weather_ || m.now_s - plan_time_s_ >= kAgainS);
+  }
+  // For that share of how far the vessel wanders by now, on the stretch of the way until then.
+  bool leavesRoom(const Moment& m, const TimedTrajectory& path, double share, double ahead_s) {
+    const double from = path.elapsed(m.now_s);
+    const double to = std::min(path.trajectory.duration(), from + ahead_s);
+    return !stopping::outlineConflict(path.trajectory, from, to,
+                                      m.obstacles.startingAt(path.start_time_s), vessel_,
+                                      share * safety().reach(), true, weather().mean())
+                .found;
   }
   // The highest speed on the way left, m/s, from where a slower plan could have an effect.
   double fastestAhead(double now_s) {
@@ -1095,7 +1118,7 @@ class Decider final : public Supervisor {
   // Only if a stop exists on it; else it is asked for again, or the vessel stops.
   Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequests::Asked& asked) {
     if (!findStop(m, plan, asked.request.query.limits)) {
-      return asked.improves ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
+      return asked.gain ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
     }
     replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;
     sailed_ = std::move(plan);
@@ -1175,6 +1198,8 @@ class Decider final : public Supervisor {
     constexpr double kLateM = 0.3;
     constexpr double kImproveShare = 0.05;  // of the time left, that an improvement saves
     constexpr double kFurtherM = 2.0;       // or leads so much nearer to the goal
+    constexpr double kRoomShare = 0.95;     // or leaves that much room
+    constexpr double kRoomS = 40.0;         // for so long
     TimedTrajectory next{plan.trajectory, asked.request.start_time_s};
     if (!asked.lead.trajectory.empty()) {
       std::vector<trajectory::Piece> pieces = asked.lead.trajectory.pieces();
@@ -1186,14 +1211,15 @@ class Decider final : public Supervisor {
     const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position;
     if (late > 0.0 && (next.trajectory.flat(late).position - there).norm() > kLateM) {
       plans_.latency.late(late);
-      return asked.improves ? Orders{} : planFromSailed(m);
+      return asked.gain ? Orders{} : planFromSailed(m);
     }
     const bool saves_time =
         late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.left(m.now_s);
     const bool leads_on = asked.left_m < planned_left_m_ - kFurtherM ||
                           (asked.left_m == 0.0 && planned_left_m_ > 0.0);
-    const bool is_better = saves_time || asked.slower;
-    if (asked.improves && !leads_on && (asked.left_m > planned_left_m_ || !is_better)) {
+    const bool is_better = saves_time || asked.gain == Gain::kThrust ||
+                           (asked.gain == Gain::kRoom && leavesRoom(m, next, kRoomShare, kRoomS));
+    if (asked.gain && !leads_on && (asked.left_m > planned_left_m_ || !is_better)) {
       return {};
     }
     plans_.latency.onTime();
@@ -1203,7 +1229,7 @@ class Decider final : public Supervisor {
     return sail(m, stopping::splice(sailed_, m.now_s, next), asked);
   }
   Orders planFailed(const Moment& m, const std::string& why, const PlanRequests::Asked& asked) {
-    if (asked.improves) {
+    if (asked.gain) {
       return {};
     }
     const bool more = safety().refused();
@@ -1293,6 +1319,9 @@ class Decider final : public Supervisor {
   double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
   // When a plan was asked for that leaves the waves what they take.
   double slower_asked_s_ = -std::numeric_limits<double>::infinity();
+  // When one was asked for with more room, and whether the next is to be the widest.
+  double wider_asked_s_ = -std::numeric_limits<double>::infinity();
+  bool asks_widest_ = true;
   double sailed_since_s_ = 0.0;     // when a plan was taken last, or the goal
   double stop_time_s_ = 0.0;        // when the vessel began to come to rest
   bool cancelled_ = false;          // the mission ends with the stop

@@ -195,6 +195,71 @@ TEST(SupervisorInWind, PlansSlowerOnceItKnowsWhatWavesTake) {
   EXPECT_GT(taken.sail->speed_max_mps, 2.7);
 }
 
+// What is asked for within that time by a vessel that is set aside by `off_m`.
+std::optional<PlanRequest> sailAside(ScriptedMission& mission, double within_s, double off_m) {
+  for (int k = 0; k < static_cast<int>(10.0 * within_s); ++k) {
+    mission.now_s += 0.1;
+    Situation aside = mission.situation();
+    aside.state.y() += off_m;
+    aside.tracking_error_m = off_m;
+    Orders asked = mission.supervisor->update(mission.now_s, aside, mission.field);
+    if (asked.plan) {
+      return asked.plan;
+    }
+  }
+  return std::nullopt;
+}
+
+// Eastward past a wall with 0.7 m beside the hull, against a firm load that sets the vessel aside
+// by `off_m`: what it asks for within 15 s.
+std::optional<PlanRequest> passAWall(ScriptedMission& mission, double off_m) {
+  constexpr double kSpeedMps = 1.5;
+  mission.put({0.0, 1.3}, {3.0, 3.0});
+  mission.disturbance.force_n = {-20.0, 0.0};
+  blow(mission, 10.0, [](double) { return Vector2d(-20.0, 0.0); });
+  mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({40.0, 0.0});
+  EXPECT_TRUE(orders && orders->plan);
+  (void)mission.refuse(*orders->plan, "too narrow");
+  const Orders narrower = mission.update(0.1);
+  EXPECT_TRUE(narrower.plan);
+  (void)mission.answer(*narrower.plan, test::eastward({-40.0, 0.0}, 80.0, kSpeedMps));
+  return sailAside(mission, 15.0, off_m);
+}
+
+// The plan was made before it showed by how much: a wider way is sailed once it is found, and the
+// one at hand until then.
+TEST(SupervisorInWind, LooksForMoreRoomOnceItKnowsHowFarItWanders) {
+  ScriptedMission steadily(openWater(), knowing());
+  EXPECT_FALSE(passAWall(steadily, 0.05).has_value());
+
+  ScriptedMission mission(openWater(), knowing());
+  constexpr double kOffM = 0.48;
+  const std::optional<PlanRequest> wider = passAWall(mission, kOffM);
+  ASSERT_TRUE(wider.has_value());
+  EXPECT_TRUE(wider->moving);
+  EXPECT_GT(wider->query.limits.hull_margin_m, 0.6);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+  const auto way = [&](const PlanRequest& request, double to_y_m) {
+    const trajectory::TimedTrajectory& sailed = mission.supervisor->sailed();
+    const vessel::FlatPoint from =
+        sailed.trajectory.flat(request.start_time_s - sailed.start_time_s);
+    vessel::FlatPoint beside;
+    beside.position = {0.0, to_y_m};
+    beside.velocity = from.velocity;
+    vessel::FlatPoint end;
+    end.position = {40.0, 0.0};
+    const double there_s = (beside.position - from.position).norm() / from.velocity.norm();
+    return trajectory::Trajectory({trajectory::hermitePiece(from, beside, there_s),
+                                   trajectory::hermitePiece(beside, end, 50.0)});
+  };
+  EXPECT_FALSE(mission.answer(*wider, way(*wider, 0.0)).sail);
+  const std::optional<PlanRequest> again = sailAside(mission, 6.0, kOffM);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_TRUE(mission.answer(*again, way(*again, -3.0)).sail);
+  EXPECT_EQ(mission.supervisor->replans(), 1);
+}
+
 TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
   ScriptedMission mission;
   mission.setOut(6.0);
