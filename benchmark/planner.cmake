@@ -5,6 +5,7 @@ otter_nav_program(planner_benchmark
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/planner_benchmark.cpp
           ${CMAKE_CURRENT_LIST_DIR}/planner_cases.cpp
           ${CMAKE_CURRENT_LIST_DIR}/planner_dump.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/planner_load.cpp
           ${CMAKE_CURRENT_LIST_DIR}/planner_report.cpp
           ${CMAKE_CURRENT_LIST_DIR}/shortest_way.cpp
   ROOMS planner scenario

@@ -16,7 +16,39 @@ namespace {
 
 using otter_nav::benchmark::Request;
 
-void addOptions(CLI::App& app, Request& request, std::string& out, bool& profile) {
+template <typename Pair>
+void addPair(CLI::App& app, const std::string& name, Pair& pair, const std::string& what) {
+  app.add_option_function<std::vector<double>>(
+         name,
+         [&pair](const std::vector<double>& given) { pair = Eigen::Vector2d(given[0], given[1]); },
+         what)
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("EAST,NORTH");
+}
+
+void addLoad(CLI::App& app, otter_nav::benchmark::Load& load) {
+  addPair(app, "--force", load.disturbance.force_n, "plan against this force, N");
+  addPair(app, "--current", load.disturbance.current_mps, "plan in this current, m/s");
+  app.add_option("--beside", load.beside_m, "room beside the hull, m (default: 0.26)")
+      ->check(CLI::Range(0.0, 100.0));
+  app.add_option("--thrust-share", load.thrust_share, "of the thrust that plans take (default: 1)")
+      ->check(CLI::Range(0.1, 1.0));
+  app.add_option("--hull-margin", load.hull_margin_m, "around the hull, m (default: 0)")
+      ->check(CLI::Range(0.0, 100.0));
+}
+
+void addUnderWay(CLI::App& app, otter_nav::benchmark::UnderWay& change) {
+  app.add_option("--under-way", change.at_share,
+                 "plan again from this share of each plan's duration (default: from rest alone)")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--then-speed", change.speed_max_mps, "likewise, no faster than this, m/s")
+      ->check(CLI::Range(0.01, 100.0));
+  addPair(app, "--then-force", change.force_n, "likewise, against this force, N");
+  addPair(app, "--then-current", change.current_mps, "likewise, in this current, m/s");
+}
+
+void addOptions(CLI::App& app, Request& request, std::string& out, bool& profile, bool& refused) {
   app.add_option("--scenarios", request.scenarios, "folder of scenario files")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -43,9 +75,12 @@ void addOptions(CLI::App& app, Request& request, std::string& out, bool& profile
       ->capture_default_str();
   app.add_option("--config", request.config,
                  "folder of planner.yaml and topology.yaml (default: the package's)");
+  addLoad(app, request.load);
+  addUnderWay(app, request.under_way);
   app.add_option("--out", out, "JSON file to write");
   app.add_option("--dump", request.dump, "folder for trajectories, one CSV a case");
   app.add_flag("--profile", profile, "print where the time went");
+  app.add_flag("--refused", refused, "print why each case failed");
 }
 
 int fail(const std::string& message) {
@@ -59,8 +94,9 @@ int main(int argc, char** argv) {
   Request request;
   std::string out;
   bool profile = false;
+  bool refused = false;
   CLI::App app("Plans every mission of a folder of scenarios and prints the paper's table I.");
-  addOptions(app, request, out, profile);
+  addOptions(app, request, out, profile, refused);
   CLI11_PARSE(app, argc, argv);
   if (request.config.empty()) {
     const auto share = otter_nav::config::shareDirectory();
@@ -83,6 +119,9 @@ int main(int argc, char** argv) {
     return fail(outcome.error().message);
   }
   otter_nav::benchmark::printTable(*outcome, request, profile, std::cout);
+  if (refused) {
+    otter_nav::benchmark::printRefused(*outcome, std::cout);
+  }
   if (json) {
     json << otter_nav::benchmark::toJson(*outcome, request).dump(1) << "\n";
   }

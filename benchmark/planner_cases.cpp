@@ -103,11 +103,17 @@ class Runner {
  private:
   Status runCase(const Ground& ground, const scenario::Mission& mission, Method& method,
                  Case& result) {
-    const planner::Query query = queryOf(mission, vessel_, result.seed);
-    const double budget_s = 1e-3 * request_.budget_ms;
-    const planner::Plan plan = method.planner.plan(
-        ground.field, query,
-        request_.clock == "cpu" ? cpuClock(budget_s) : planner::wallClock(budget_s));
+    const auto termination = [&] {
+      const double budget_s = 1e-3 * request_.budget_ms;
+      return request_.clock == "cpu" ? cpuClock(budget_s) : planner::wallClock(budget_s);
+    };
+    planner::Query query =
+        underLoad(queryOf(mission, vessel_, result.seed), request_.load, vessel_, ground.field);
+    planner::Plan plan = method.planner.plan(ground.field, query, termination());
+    if (request_.under_way.at_share > 0.0 && plan.outcome == planner::Outcome::kSolved) {
+      query = underWay(query, plan.trajectory, request_.under_way, vessel_);
+      plan = method.planner.plan(ground.field, query, termination());
+    }
     result.success = plan.outcome == planner::Outcome::kSolved;
     result.reason =
         result.success ? "" : std::string(planner::toString(plan.outcome)) + ": " + plan.reason;

@@ -11,6 +11,7 @@
 #include "otter_nav/planner/planner.hpp"
 #include "otter_nav/scenario/scenario.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "planner_load.hpp"
 
 namespace otter_nav::benchmark {
 
@@ -25,6 +26,8 @@ struct Request {
   std::string vessel = "otter_gazebo";
   std::string config;  // folder of planner.yaml and its neighbours
   std::string dump;    // folder; empty: no dumps
+  Load load;
+  UnderWay under_way;
 };
 
 struct Case {

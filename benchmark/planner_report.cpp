@@ -248,4 +248,13 @@ void printTable(const Outcome& outcome, const Request& request, bool profile, st
   out << line;
 }
 
+void printRefused(const Outcome& outcome, std::ostream& out) {
+  for (const Case& c : outcome.cases) {
+    if (!c.success) {
+      out << c.scenario << " " << c.mission << ", " << c.method << ", seed " << c.seed << ": "
+          << c.reason << "\n";
+    }
+  }
+}
+
 }  // namespace otter_nav::benchmark

@@ -16,4 +16,7 @@ namespace otter_nav::benchmark {
 // time went.
 void printTable(const Outcome& outcome, const Request& request, bool profile, std::ostream& out);
 
+// A line for each case without a plan: scenario, mission, method, seed and the reason.
+void printRefused(const Outcome& outcome, std::ostream& out);
+
 }  // namespace otter_nav::benchmark
