@@ -190,7 +190,8 @@ void PieceCheck::checkSway(double sway_n, double allowed_n, PieceReport& report)
           ? 0.0
           : std::abs(vessel_.manoeuvring.sway_from_yaw_kgmps) * limits_.yaw_rate_max_radps;
   report.sway_n = std::max(report.sway_n, size);
-  if (!in_place || size > allowed_n + turning + inverse_.greatestLoadAbeam()) {
+  report.sway_most_n = in_place ? allowed_n + turning + inverse_.greatestLoadAbeam() : allowed_n;
+  if (size > report.sway_most_n) {
     report.fault = Fault::kSway;
   }
 }

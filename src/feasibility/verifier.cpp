@@ -210,6 +210,7 @@ class Verifier {
 
   void explain(const PieceReport& r, double t) {
     const SafetyLimits& o = limits_;
+    result_.fault = r.fault;
     switch (r.fault) {
       case Fault::kThrust:
         return fail(t, "thrust share too large", r.thrust_share, o.thrust_share);
@@ -225,9 +226,9 @@ class Verifier {
       case Fault::kAstern:
         return fail(t, "sails astern", 0.0, 0.0);
       case Fault::kSway:
-        return fail(t, "slides without a force, N", r.sway_n, 0.0);
+        return fail(t, "slides without a force, N", r.sway_n, r.sway_most_n);
       case Fault::kClearance:
-        return fail(t, "too near an obstacle, m", r.clearance_m, o.clearance_m);
+        return fail(t, "too near an obstacle, m", r.clearance_m, o.clearance_m + r.slide_m);
       case Fault::kHull:
         return fail(t, "the hull touches an obstacle", r.clearance_m, o.clearance_m);
       case Fault::kNone:

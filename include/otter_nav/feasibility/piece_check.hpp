@@ -12,19 +12,6 @@
 
 namespace otter_nav::feasibility {
 
-enum class Fault {
-  kNone,
-  kThrust,
-  kSpeed,
-  kYawRate,
-  kHeadingUndefined,
-  kHeadingJump,
-  kAstern,
-  kSway,
-  kClearance,
-  kHull
-};
-
 struct PieceReport {
   Fault fault = Fault::kNone;
   double time_s = 0.0;  // of the fault, from the piece's start
@@ -34,8 +21,9 @@ struct PieceReport {
   double yaw_rate_radps = 0.0;
   double heading_force_n = 0.0;  // least; infinite on straight pieces
   double clearance_m = 0.0;
-  double sway_n = 0.0;   // most, of a spin in place that is more than the model's own error
-  double slide_m = 0.0;  // how far the hull may be aside of the piece: more room is asked for
+  double sway_n = 0.0;       // most, of a spin in place that is more than the model's own error
+  double sway_most_n = 0.0;  // that is no fault
+  double slide_m = 0.0;      // how far the hull may be aside of the piece: more room is asked for
 };
 
 class PieceCheck {

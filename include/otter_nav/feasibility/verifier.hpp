@@ -28,10 +28,25 @@ struct Tolerances {
   double step_s = 0.01;       // of the thrusts
 };
 
+// What a piece does wrong.
+enum class Fault {
+  kNone,
+  kThrust,
+  kSpeed,
+  kYawRate,
+  kHeadingUndefined,
+  kHeadingJump,
+  kAstern,
+  kSway,
+  kClearance,
+  kHull
+};
+
 struct Verification {
   bool ok = false;
-  std::string reason;    // the first fault, a sentence with its time; empty when ok
-  double fault_s = 0.0;  // its time
+  std::string reason;          // the first fault, a sentence with its time; empty when ok
+  double fault_s = 0.0;        // its time
+  Fault fault = Fault::kNone;  // where it is a piece's, not one of an end or a joint
   // Worst figures of what was looked at (up to the first fault).
   double clearance_m = 0.0;
   double thrust_share = 0.0;  // 1: a thruster is at its limit

@@ -226,6 +226,8 @@ TEST_F(VerificationTest, ASpinSlidesOnlyAsTheModelLetsIt) {
   const Verification v = verify(Trajectory(turned), field, vessel, options);
   EXPECT_FALSE(v.ok);
   EXPECT_NE(v.reason.find("slides"), std::string::npos) << v.reason;
+  EXPECT_EQ(v.fault, Fault::kSway);
+  EXPECT_NE(v.reason.find("(limit 0.1"), std::string::npos) << v.reason;
 }
 
 }  // namespace
