@@ -311,7 +311,8 @@ class GlobalOptimizer::Solver {
       problem_.targets.limits.thrust_ahead_n -= (excess + 0.003) * vessel_.thrusters.ahead_max_n;
       problem_.targets.limits.thrust_astern_n -= (excess + 0.003) * vessel_.thrusters.astern_max_n;
       problem_.targets.weights.dynamics *= kWeightGrowth;
-    } else if (v.speed_mps > limits_.speedMaxEver()) {
+    } else if (v.fault == feasibility::Fault::kSpeed) {
+      problem_.targets.limits.slowing.start_mps *= kSlower;
       problem_.targets.limits.speed_mps *= kSlower;
       problem_.targets.weights.dynamics *= kWeightGrowth;
     } else {
