@@ -36,7 +36,8 @@ constexpr double kWeightGrowth = 1.5;  // of the weights of what fails, from rou
 constexpr double kSlower = 0.97;       // wanted, where a speed failed
 // Of the force |w| that is wanted while turning, from round to round, where a thrust exceeds its
 // limit by more than a share: next to w = 0 the heading turns at any rate, and slowing down or a
-// reserve of thrust mends nothing.
+// reserve of thrust mends nothing. In a load that is where the vessel rounds up to its goal, with
+// any hull; in still water only the paper's model has it.
 constexpr double kFirmerHeading = 2.5;
 constexpr double kSpike = 0.1;
 // Asks for so much more than a thruster has only while the bow goes round the wrong way.
@@ -297,7 +298,7 @@ class GlobalOptimizer::Solver {
   // What failed is wanted more strictly, and its weight raised.
   void tighten() {
     const feasibility::Verification& v = result_.verification;
-    if (vessel::paperHolds(vessel_) && excess_ > kSpike) {
+    if ((vessel::paperHolds(vessel_) || underLoad()) && excess_ > kSpike) {
       double& wanted_n = problem_.targets.limits.heading_force_n;
       wanted_n = std::min(kFirmerHeading * wanted_n, mostHeadingForce(vessel_, limits_));
     }

@@ -59,6 +59,12 @@ class AllRoundTest : public ::testing::Test {
   map::DistanceField field_;
 };
 
+// With |w| wanted as firmly from round to round 17 and 15 were found.
+TEST_F(AllRoundTest, RoundsUpToTheGoal) {
+  EXPECT_GE(found(0, limits(25.0), 70.0, 0.0), 20);
+  EXPECT_GE(found(0, limits(30.0), 40.0, 0.0), 18);
+}
+
 TEST_F(AllRoundTest, SlowsDownFromAStartThatIsTooFast) {
   for (const double speed_mps : {1.0, 1.48}) {
     feasibility::SafetyLimits slow = limits(0.0);
