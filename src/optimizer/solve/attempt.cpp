@@ -133,8 +133,7 @@ Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parame
   attempt.ends = endsOf(care, vessel, safety, share);
   // Turning under a load takes thrust and room: every other attempt does without.
   attempt.ends.straight_arrival = attempt.initial.load_n > 0.0 && number % 2 == 1;
-  // The last one turns on the spot, and drifts meanwhile.
-  attempt.ends.in_load = firm && number + 1 < kAttempts;
+  attempt.ends.in_load = firm;
   return attempt;
 }
 

@@ -65,6 +65,12 @@ TEST_F(AllRoundTest, RoundsUpToTheGoal) {
   EXPECT_GE(found(0, limits(30.0), 40.0, 0.0), 18);
 }
 
+TEST_F(AllRoundTest, TheMostCarefulAttemptFindsWaysToo) {
+  for (const double force_n : {25.0, 30.0, 40.0}) {
+    EXPECT_GE(found(3, limits(force_n), 40.0, 0.0), kCourses / 2) << force_n << " N";
+  }
+}
+
 TEST_F(AllRoundTest, SlowsDownFromAStartThatIsTooFast) {
   for (const double speed_mps : {1.0, 1.48}) {
     feasibility::SafetyLimits slow = limits(0.0);
