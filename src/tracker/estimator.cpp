@@ -24,6 +24,7 @@ constexpr double kWalkShare = 0.25;  // of their intensity: most is faster than 
 // thrown at the propellers.
 constexpr double kForceWalkNpm2 = 0.5 / 2.16;
 constexpr double kForceSigmaNpm2 = 10.0 / 2.16;
+constexpr double kForceSigmaBesideCurrentNpm2 = 5.0 / 2.16;
 constexpr double kMomentWalkNpm2 = 10.0 / 4.32;
 constexpr double kMomentWalkInWindNpm2 = 2.0 / 4.32;  // what the wind's own moment leaves
 constexpr double kMomentSigmaNpm2 = 5.0 / 4.32;
@@ -32,7 +33,11 @@ constexpr double kMomentMostNpm2 = 60.0 / 4.32;
 constexpr double kCurrentSigmaMps = 0.3;
 constexpr double kCurrentMostMps = 1.5;
 // On a steady course the two aren't told apart: both fade, or they would walk away from each other.
-constexpr double kForceFadesS = 100.0;
+// The force soon: gusts come and go, and while a current turns, a force that lasted would make up
+// for what it was minutes ago. In a turn it shows, and lasts.
+constexpr double kForceFadesS = 20.0;
+constexpr double kTurningRadps = 0.1;
+constexpr double kTurningMemoryS = 5.0;  // longer than waves swing the bow one way
 constexpr double kCurrentFadesS = 200.0;
 // A hull that lies still on its heading doesn't tell a moment from one of the wind, whose loads
 // also say what turning will bring: what lasts is the wind's.
@@ -85,7 +90,6 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   const double current_walk = tellsCurrent(model_) ? o.current_walk_mps : 0.0;
   const double current_sigma = current_walk > 0.0 ? kCurrentSigmaMps : 0.0;
   if (current_walk > 0.0) {
-    force_fade_per_s_ = 1.0 / kForceFadesS;
     current_fade_per_s_ = 1.0 / kCurrentFadesS;
   }
   walk_variance_ << 0.0, 0.0, 0.0, kVelocityWalkMps, kVelocityWalkMps, kYawRateWalkRadps,
@@ -95,10 +99,12 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   least_walk_variance_ = walk_variance_.segment<3>(kSurge);
   wave_rate_variance_ =
       Eigen::Vector3d(o.wave_velocity_mps, o.wave_velocity_mps, o.wave_yaw_rate_radps).cwiseAbs2();
+  const double force_sigma =
+      (current_walk > 0.0 ? kForceSigmaBesideCurrentNpm2 : kForceSigmaNpm2) * area_m2;
   if (o.enabled) {
-    covariance_.diagonal().segment<7>(kForce) << kForceSigmaNpm2 * area_m2,
-        kForceSigmaNpm2 * area_m2, kMomentSigmaNpm2 * area_moment_m3, current_sigma, current_sigma,
-        kWindSigmaM2ps2, kWindSigmaM2ps2;
+    covariance_.diagonal().segment<7>(kForce) << force_sigma, force_sigma,
+        kMomentSigmaNpm2 * area_moment_m3, current_sigma, current_sigma, kWindSigmaM2ps2,
+        kWindSigmaM2ps2;
     covariance_ = covariance_.cwiseAbs2().eval();
   } else {
     walk_variance_.segment<7>(kForce).setZero();
@@ -226,6 +232,11 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
 
 void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   predicted_s_ += dt_s;
+  turning_radps_ += std::min(1.0, dt_s / kTurningMemoryS) * (state_[kYawRate] - turning_radps_);
+  if (current_fade_per_s_ > 0.0) {
+    force_fade_per_s_ =
+        std::max(0.0, 1.0 - std::abs(turning_radps_) / kTurningRadps) / kForceFadesS;
+  }
   const Covariance f = transition(thrusts, dt_s);
   const Covariance spread = f * covariance_;
   covariance_.noalias() = spread * f.transpose();

@@ -77,7 +77,8 @@ class Estimator {
   vessel::State measurement_variance_;
   double force_most_n_;
   double moment_fade_per_s_ = 0.0;
-  double force_fade_per_s_ = 0.0;
+  double force_fade_per_s_ = 0.0;  // now
+  double turning_radps_ = 0.0;     // on the whole
   double current_fade_per_s_ = 0.0;
   double moment_most_nm_;
   Eigen::Matrix<double, kSize, 1> walk_variance_;         // per second

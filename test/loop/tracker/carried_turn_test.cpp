@@ -46,8 +46,10 @@ TEST(CarriedTurn, EndsWhereThePlanGoesOn) {
   };
   for (const auto [pushed_n, turned_rad, most_m] :
        {Load{kPlannedN, -0.5}, Load{kPlannedN, 0.0}, Load{kPlannedN, 0.5},
-        Load{1.5 * kPlannedN, -0.5}, Load{1.5 * kPlannedN, 0.0}, Load{1.5 * kPlannedN, 0.25},
-        Load{1.5 * kPlannedN, 0.5, 2.0}}) {  // the last is more than the thrust holds
+        // What lay still before takes the force for a current; the last is more than the thrust
+        // holds.
+        Load{1.5 * kPlannedN, -0.5}, Load{1.5 * kPlannedN, 0.0}, Load{1.5 * kPlannedN, 0.25, 1.2},
+        Load{1.5 * kPlannedN, 0.5, 2.3}}) {
     VesselAtSea sea("none", 0.0, "otter", pushed_n * unitVector(turned_rad));
     sea.plant().placeAt({0.0, 0.0}, kPi);
     sea.tracker().requestStop("until the load is known", sea.now(), 1);

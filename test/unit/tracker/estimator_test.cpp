@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/rk4.hpp"
 #include "otter_nav/tracker/options.hpp"
 
@@ -182,6 +183,35 @@ TEST(Estimator, KeepsForceAndCurrentTogetherOnASteadyCourse) {
   const Off off = worstOff(2.0, 0.15);
   EXPECT_LT(off.current_mps, 0.9);
   EXPECT_LT(off.force_n, 60.0);
+}
+
+// Once round in ten minutes, while the vessel sails on with waves: the force doesn't make up for the
+// current of minutes ago.
+TEST(Estimator, FollowsACurrentThatTurns) {
+  constexpr double kCurrentMps = 0.5;
+  constexpr double kTurnsRadps = 0.01;
+  Sea sea;
+  sea.vessel = otter();
+  sea.push_n = 60.0;
+  sea.turn_n = 0.5;
+  sea.wave_m = 0.15;
+  sea.wave_radps = 2.5;
+  Estimator estimator(shipped(), sea.vessel);
+  estimator.reset(sea.measured());
+  double square = 0.0;
+  double largest_n = 0.0;
+  constexpr int kSteps = 30000;
+  for (int i = 0; i < kSteps; ++i) {
+    sea.disturbance.current_mps = kCurrentMps * unitVector(kTurnsRadps * sea.t);
+    sea.advance();
+    estimator.predict(sea.thrusts(), kStepS);
+    estimator.update(sea.measured());
+    const vessel::Disturbance& found = estimator.disturbance();
+    square += (found.current_mps - sea.disturbance.current_mps).squaredNorm() / kSteps;
+    largest_n = std::max(largest_n, found.force_n.norm());
+  }
+  EXPECT_LT(std::sqrt(square), 0.16);
+  EXPECT_LT(largest_n, 20.0);  // there is none
 }
 
 // Largest error of the estimated velocity against the motion without its waves, at crawling pace.
