@@ -108,8 +108,8 @@ double Safety::paceAt(std::size_t level, double usual_mps) const {
 }
 
 double Safety::sailingSpeed(double usual_mps) const {
-  const bool light = mayPlanWithWeather() && !plansWithWeather();
-  return !weather_.isKnown() || light ? usual_mps : weather_.sailingSpeed(usual_mps);
+  return !weather_.isKnown() || mayPlanWithWeather() ? usual_mps
+                                                     : weather_.sailingSpeed(usual_mps);
 }
 
 double Safety::reach() const {

@@ -83,8 +83,8 @@ class Safety {
   // instead is better than none.
   [[nodiscard]] bool plansBlind() const;
 
-  // What gusts leave of the speed that plans usually have, m/s. A light load that doesn't turn with
-  // the heading leaves all of it.
+  // What gusts leave of the speed that plans usually have, m/s. A load that doesn't turn with the
+  // heading leaves all of it: a slower hull would only be carried.
   [[nodiscard]] double sailingSpeed(double usual_mps) const;
   // Of the speed that plans may usually have: what can't be planned fast may be planned slow.
   [[nodiscard]] double slowShare() const;
