@@ -108,8 +108,7 @@ double Safety::paceAt(std::size_t level, double usual_mps) const {
 }
 
 double Safety::sailingSpeed(double usual_mps) const {
-  return !weather_.isKnown() || mayPlanWithWeather() ? usual_mps
-                                                     : weather_.sailingSpeed(usual_mps);
+  return !weather_.isKnown() || mayPlanWithWeather() ? usual_mps : weather_.sailingSpeed(usual_mps);
 }
 
 double Safety::reach() const {

@@ -185,8 +185,8 @@ TEST(Estimator, KeepsForceAndCurrentTogetherOnASteadyCourse) {
   EXPECT_LT(off.force_n, 60.0);
 }
 
-// Once round in ten minutes, while the vessel sails on with waves: the force doesn't make up for the
-// current of minutes ago.
+// Once round in ten minutes, while the vessel sails on with waves: the force doesn't make up for
+// the current of minutes ago.
 TEST(Estimator, FollowsACurrentThatTurns) {
   constexpr double kCurrentMps = 0.5;
   constexpr double kTurnsRadps = 0.01;
