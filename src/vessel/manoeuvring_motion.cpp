@@ -78,12 +78,21 @@ FlatPoint pathFromState(const State& state, double force_max_n, const Parameters
   FlatPoint z;
   z.position = state.head<2>();
   z.velocity = state[kSurge] * e + state[kSway] * across(e);
-  const Demand steady =
-      demandOf(vessel.manoeuvring, disturbance, psi, 0.0, 0.0, z.velocity, Vector2d::Zero());
-  push(vessel.manoeuvring, disturbance, {psi, state[kYawRate], 0.0},
-       std::min(std::max(steady.tau.surge_n, 2.0 * kOnwardShare * vessel.thrusters.ahead_max_n),
-                force_max_n),
-       0.0, z);
+  const ManoeuvringModel& m = vessel.manoeuvring;
+  const Thrusters& t = vessel.thrusters;
+  const double r = state[kYawRate];
+  const Tau steady = demandOf(m, disturbance, psi, r, 0.0, z.velocity, Vector2d::Zero()).tau;
+  // What the moment that keeps the yaw rate leaves of the surge force; a hull that slides broadside
+  // may be turned by more than there is, and goes on turning.
+  const double astern_max_n = force_max_n * t.astern_max_n / t.ahead_max_n;
+  const double most_turning_n = 0.5 * (force_max_n - astern_max_n);
+  const double left_n =
+      std::max(force_max_n - std::abs(steady.yaw_nm) / t.lever_arm_m, most_turning_n);
+  const double surge_n = std::min(std::max(steady.surge_n, 2.0 * kOnwardShare * t.ahead_max_n),
+                                  std::min(force_max_n, left_n));
+  const double most_nm = t.lever_arm_m * std::min(force_max_n - surge_n, astern_max_n + surge_n);
+  const double yaw_nm = std::clamp(steady.yaw_nm, -most_nm, most_nm);
+  push(m, disturbance, {psi, r, (yaw_nm - steady.yaw_nm) / m.yaw_inertia_kgm2}, surge_n, 0.0, z);
   return z;
 }
 

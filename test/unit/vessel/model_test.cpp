@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
+#include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::vessel {
@@ -152,6 +157,53 @@ TEST(Thrusters, TauRoundTripAndMargin) {
 }
 
 // Beside m2 r' = M - d3 r integrated in steps of 0.1 ms.
+// The thrusts under which a state moves on as the path says: its acceleration and the port part of
+// its jerk are linear in the surge force and the yaw moment.
+Thrusts thrustsOnto(const FlatPoint& path, const State& state, const Parameters& vessel) {
+  constexpr double kLaterS = 1e-6;
+  const Eigen::Vector2d e(std::cos(state[kPsi]), std::sin(state[kPsi]));
+  const Eigen::Vector2d n(-e.y(), e.x());
+  const auto accelerationOf = [&](const State& x, const Thrusts& thrusts) {
+    const State dx = stateDerivative(x, thrusts, vessel.manoeuvring, vessel.thrusters, {});
+    const Eigen::Rotation2D<double> earth_from_body(x[kPsi]);
+    return Eigen::Vector2d(earth_from_body * Eigen::Vector2d(dx[kSurge] - x[kYawRate] * x[kSway],
+                                                             dx[kSway] + x[kYawRate] * x[kSurge]));
+  };
+  const auto portJerkOf = [&](const Tau& tau) {
+    const Thrusts thrusts = thrustsFromTau(tau, vessel.thrusters);
+    const State later =
+        state + kLaterS * stateDerivative(state, thrusts, vessel.manoeuvring, vessel.thrusters, {});
+    return n.dot(accelerationOf(later, thrusts) - accelerationOf(state, thrusts)) / kLaterS;
+  };
+  Tau tau;
+  tau.surge_n = vessel.manoeuvring.surge_inertia_kg *
+                e.dot(path.acceleration - accelerationOf(state, Thrusts::Zero()));
+  const double with_none = portJerkOf(tau);
+  tau.yaw_nm = 1.0;
+  tau.yaw_nm = (n.dot(path.jerk) - with_none) / (portJerkOf(tau) - with_none);
+  return thrustsFromTau(tau, vessel.thrusters);
+}
+
+// Sliding broadside at speed takes more moment than there is: the hull goes on turning.
+TEST(PathFromState, BeginsWithWhatTheThrustersHave) {
+  const auto otter =
+      loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+  ASSERT_TRUE(otter);
+  constexpr double kShare = 0.6;
+  for (const double sway_mps : {-1.0, -0.3, 0.0, 0.3, 1.0}) {
+    for (const double yaw_rate : {-0.4, 0.0, 0.4}) {
+      State state;
+      state << 3.0, -2.0, 0.7, 1.7, sway_mps, yaw_rate;
+      const FlatPoint path =
+          pathFromState(state, kShare * 2.0 * otter->thrusters.ahead_max_n, *otter, {});
+      const Thrusts thrusts = thrustsOnto(path, state, *otter);
+      EXPECT_LE(shareOfLimit(thrusts, otter->thrusters), kShare + 1e-3)
+          << sway_mps << " m/s abeam, " << yaw_rate << " rad/s";
+      EXPECT_GT(thrusts.sum(), 0.0);
+    }
+  }
+}
+
 TEST(TurnLaw, TellsWhenAHeadingIsReached) {
   for (const double lag_s : {0.05, 0.5, 5.0}) {
     for (const double angle_rad : {0.01, 0.2, 3.0}) {
