@@ -142,8 +142,10 @@ double Safety::freeThrustShare() const {
 
 double Safety::waveShare() const {
   // With less than most of the thrust the hull runs before the wind so slowly that it is carried.
+  // Where the water is wide a wave may take the heading for a moment.
   constexpr double kMost = 0.3;
-  return std::min(kMost, weather_.waveShare());
+  constexpr double kMostInWideWater = 0.25;
+  return std::min(levels_.level() == 0 ? kMostInWideWater : kMost, weather_.waveShare());
 }
 
 double Safety::speedInWaves() const {

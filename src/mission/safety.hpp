@@ -131,7 +131,7 @@ class Safety {
   void tryLevel(std::size_t level) { levels_.begin(level); }
 
  private:
-  // Of the thrust, what waves take from plans.
+  // Of the thrust, what waves take from plans on this level.
   [[nodiscard]] double waveShare() const;
   // What room that takes, m.
   [[nodiscard]] double wandersAt(std::size_t level) const;

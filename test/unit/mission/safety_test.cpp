@@ -142,8 +142,9 @@ TEST(Safety, ReckonsWithWanderingInAFirmLoad) {
 // What plans may take of the thrust in a load, with the hull swaying by so much beside a steady
 // sway.
 double shareInWaves(const vessel::Parameters& vessel, double load_n, double sway_mps,
-                    double steady_mps = 0.0) {
+                    double steady_mps = 0.0, std::size_t level = 0) {
   Safety safety(SupervisorOptions{}, vessel);
+  safety.tryLevel(level);
   for (int k = 0; k < 600; ++k) {
     vessel::Disturbance load;
     load.force_n = {-load_n, 0.0};
@@ -159,10 +160,12 @@ TEST(Safety, LeavesThrustToHoldTheHeadingInWaves) {
   const double most = SupervisorOptions{}.thrust_share;
   EXPECT_DOUBLE_EQ(shareInWaves(otter(), kFirmN, 0.0), most);
   EXPECT_DOUBLE_EQ(shareInWaves(otter(), kFirmN, 0.0, 0.5), most);  // a crab angle is no wave
-  // 0.2 m/s rms: 74.8 kg * 0.2 m/s * (0.7 of 3.1 m/s) turn by 32 N m, 41 N a side.
-  EXPECT_NEAR(shareInWaves(otter(), kFirmN, 0.28), 0.68, 0.051);
-  EXPECT_NEAR(shareInWaves(otter(), kFirmN, 0.56), 0.7, 0.051);  // no less is left to run with
-  EXPECT_NEAR(shareInWaves(otter(), 1.0, 0.28), 0.68, 0.051);    // in a light load as well
+  // 0.1 m/s rms: 74.8 kg * 0.1 m/s * (0.83 of 3.1 m/s) turn by 19 N m, 24 N a side.
+  EXPECT_NEAR(shareInWaves(otter(), kFirmN, 0.14), 0.82, 0.051);
+  EXPECT_NEAR(shareInWaves(otter(), kFirmN, 0.56), 0.75, 1e-9);  // no less is left to run with
+  EXPECT_NEAR(shareInWaves(otter(), kFirmN, 0.56, 0.0, 1), 0.7, 1e-9);  // with less room
+  EXPECT_NEAR(shareInWaves(otter(), kFirmN, 0.28, 0.0, 1), 0.68, 0.051);
+  EXPECT_NEAR(shareInWaves(otter(), 1.0, 0.14), 0.82, 0.051);  // in a light load as well
   EXPECT_DOUBLE_EQ(shareInWaves(otter(), 1.0, 0.0), most);
   vessel::Parameters without = otter();
   without.manoeuvring.munk_kg = 0.0;
