@@ -31,8 +31,9 @@ void push(const ManoeuvringModel& model, const Disturbance& disturbance, const S
           double surge_n, double surge_rate_nps, FlatPoint& motion);
 
 // A state as a point of a path: heading and yaw rate as they are, surge force to hold the speed or
-// `force_max_n`. By the model that plans are made with; by the manoeuvring model the force is no
-// less than gives the path a heading.
+// `force_max_n`. By the model that plans are made with; by the manoeuvring model the force gives
+// the path a heading, as far as the moment that keeps the yaw rate leaves it. Where no thrusters
+// within that share of their limits have such a moment, the yaw rate changes.
 [[nodiscard]] FlatPoint pathFromState(const State& state, double force_max_n,
                                       const Parameters& vessel, const Disturbance& disturbance);
 
