@@ -79,6 +79,7 @@ PredictiveController::PredictiveController(const Options& options, const vessel:
       period_s_(options.period_s),
       thrust_rate_nps_(options.thrust_rate_nps),
       lag_s_(vessel.thrusters.lag_s),
+      corridor_(vessel),
       heading_share_(headingShare(vessel)),
       solver_(problemOf(options, vessel, heading_share_), iterationOf(), vessel.manoeuvring,
               vessel.thrusters) {
@@ -102,6 +103,8 @@ void PredictiveController::prepareFor(double start_s, double psi_rad, const vess
   solver_.setDisturbance(navigator.disturbance());
   solver_.limitRates(last, thrust_rate_nps_);
   source.fill(start_s, prediction_.step_s, stages_, psi_rad, navigator.disturbance(), reference_);
+  corridor_.feel(start_s, navigator.disturbance().wind_mps);
+  reference_.corridor = flatness_ ? corridor_.about(psi_rad) : HeadingCorridor{};
   if (plan_valid_) {
     solver_.shift((start_s - solved_for_s_) / prediction_.step_s);
   } else {

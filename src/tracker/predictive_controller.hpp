@@ -8,6 +8,7 @@
 #include "tracker/navigator.hpp"
 #include "tracker/ocp/rti_solver.hpp"
 #include "tracker/reference.hpp"
+#include "tracker/wind_corridor.hpp"
 
 namespace otter_nav::tracker {
 
@@ -42,6 +43,7 @@ class PredictiveController {
   double period_s_;
   double thrust_rate_nps_;
   double lag_s_;
+  WindCorridor corridor_;
   double heading_share_;
   RtiSolver solver_;
   OcpReference reference_;

@@ -9,6 +9,7 @@ otter_nav_test(unit_tracker
     ${CMAKE_CURRENT_LIST_DIR}/tracker/station_keeper_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/tracker_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/wave_frequency_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracker/wind_corridor_test.cpp
   ROOMS tracker)
 otter_nav_test(unit_tracker_allocation
                SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/allocation_test.cpp ROOMS tracker)

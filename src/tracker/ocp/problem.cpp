@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "otter_nav/base/angles.hpp"
+
 namespace otter_nav::tracker {
 namespace {
 
@@ -54,6 +56,14 @@ void ControlProblem::expand(const Plan& plan, const OcpReference& reference, qp:
       cost.weight_q[2] += curvature.y();
       cost.gradient_q[1] += weight * over * along.x();
       cost.gradient_q[2] += weight * over * along.y();
+    }
+    const HeadingCorridor& corridor = reference.corridor;
+    const double off = wrapAngle(plan.states[k][vessel::kPsi] - corridor.psi_rad);
+    const double astray = std::abs(off) - corridor.half_width_rad;
+    if (astray > 0.0) {
+      const double weight = options_.astray * options_.step_s;
+      cost.weight_q[0] += weight;
+      cost.gradient_q[0] += weight * std::copysign(astray, off);
     }
     for (int i = 0; i < 2; ++i) {
       cost.weight_p[i] = w[i];

@@ -32,6 +32,13 @@ struct OcpOptions {
   vessel::Thrusts upper_n = vessel::Thrusts::Constant(50.0);
   double far_m = 1e3;
   double overspeed = 3e4;  // per (m/s)^2 and second, as the weights before their step
+  double astray = 400.0;   // per rad^2 and second, of a heading outside its corridor
+};
+
+// Headings that are to be kept to, whatever the reference says.
+struct HeadingCorridor {
+  double psi_rad = 0.0;
+  double half_width_rad = std::numeric_limits<double>::infinity();
 };
 
 // psi of all states is continuous along the horizon and near the measured one. `attitude` in [0, 1]
@@ -46,6 +53,7 @@ struct OcpReference {
   std::array<double, kMaxStages + 1> attitude;
   std::array<double, kMaxStages + 1> speed_max_mps;  // over ground; beyond it costs
   std::array<vessel::Thrusts, kMaxStages> thrusts;
+  HeadingCorridor corridor;
 };
 
 // States and thrusts over the horizon.
