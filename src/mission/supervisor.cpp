@@ -320,6 +320,12 @@ class Decider final : public Supervisor {
     constexpr double kStrongShare = 0.4;
     return weather().greatestMoment() > kStrongShare * vessel::greatestMoment(vessel_.thrusters);
   }
+  // Bow or stern to it, nearly: where its moment is small.
+  bool isHeldInWind(double psi_rad) {
+    constexpr double kHeldRad = 0.6;
+    const double bow = vessel::headingIntoLoad(vessel_.manoeuvring, weather().mean(), psi_rad);
+    return std::abs(std::sin(psi_rad - bow)) < std::sin(kHeldRad);
+  }
   // It had to stop hereabouts before: in such a wind it waits longer each time, for less of it.
   bool waitsForLessWind(const Moment& m) { return mayLoseItsHeading() && m.now_s < calmer_by_s_; }
   // Off its trajectory, where nothing was verified, for longer than a plan takes, or towards
@@ -371,6 +377,9 @@ class Decider final : public Supervisor {
     }
     return sea_room_m_ != 0.0;
   }
+  // So in strong wind, whether it lies still or not: holding the place against a gust takes the
+  // moment that holds the heading, and to windward there is a way out.
+  bool isDrivenAshore(const Moment& m) { return mayLoseItsHeading() && liesOffALeeShore(m); }
   // All but at rest, and another vessel comes over her; there is a way out.
   bool isRunDown(const Moment& m) {
     constexpr double kSlowMps = 0.6;
@@ -383,7 +392,8 @@ class Decider final : public Supervisor {
     }
     return aside_.has_value();
   }
-  // Plans from rest begin bow to a firm load. The tracker turns the resting hull there.
+  // Plans from rest begin bow to a firm load. The tracker turns the resting hull there. Nor is one
+  // begun from a heading lost in strong wind, bow and stern off it: the next gust would have it.
   bool liesAcrossTheLoad(const Moment& m) {
     constexpr double kPatienceS = 20.0;
     constexpr double kStillMps = 0.5;
@@ -391,8 +401,10 @@ class Decider final : public Supervisor {
     const vessel::State& x = m.situation.state;
     const bool still =
         vessel::speedOf(x) < kStillMps && std::abs(x[vessel::kYawRate]) < kStillRadps;
-    if (!safety().plansWithWeather() ||
-        (still && std::abs(safety().turnIntoLoad(x[vessel::kPsi])) < kIntoLoadRad)) {
+    const bool lies = safety().plansWithWeather()
+                          ? std::abs(safety().turnIntoLoad(x[vessel::kPsi])) < kIntoLoadRad
+                          : isHeldInWind(x[vessel::kPsi]);
+    if ((still && lies) || !(safety().plansWithWeather() || mayLoseItsHeading())) {
       across_since_s_.reset();
       return false;
     }
@@ -428,14 +440,21 @@ class Decider final : public Supervisor {
            sailed_.left(m.now_s) > kLeftS &&
            safety().speedInWaves() < kWorthShare * fastestAhead(m.now_s);
   }
-  // The plan was made before it showed how far gusts and waves set the vessel aside.
+  // The plan was made before it showed how far gusts and waves set the vessel aside; or where
+  // something far off left no room for all that a lost heading takes to leeward.
   bool passesTooNear(const Moment& m) {
     constexpr double kAgainS = 5.0;
     constexpr double kLeftS = 4.0;
     constexpr double kShare = 0.85;  // for a little more it is not worth another plan
     constexpr double kAheadS = 30.0;
-    return safety().plansWithWeather() && m.now_s - wider_asked_s_ >= kAgainS &&
-           sailed_.left(m.now_s) > kLeftS && !leavesRoom(m, sailed_, kShare, kAheadS);
+    if (m.now_s - wider_asked_s_ < kAgainS || sailed_.left(m.now_s) <= kLeftS) {
+      return false;
+    }
+    if (safety().plansWithWeather()) {
+      return !leavesRoom(m, sailed_, kShare, kAheadS);
+    }
+    return mayLoseItsHeading() && planned_level_ > 0 &&
+           leewardRoom(m, sailed_, kAheadS) < kShare * weather().drift().norm();
   }
   // The plan ends on a heading that can't be held there, or not on the goal's though it can.
   bool endsOnAWrongHeading(const Moment& m) {
@@ -490,8 +509,15 @@ class Decider final : public Supervisor {
   bool isStillMoving(const Moment& m) {
     constexpr double kPatienceS = 15.0;
     const bool rests = knowsPlace(m) && atRest(m.situation.state);
-    return (!sailed_.trajectory.empty() && !isAtTheEnd(m)) ||
-           (!rests && m.now_s - stop_time_s_ < kPatienceS);
+    const bool waits = !rests && m.now_s - stop_time_s_ < kPatienceS;
+    return sailed_.trajectory.empty() ? waits && !isDriven(m) : waits || !isAtTheEnd(m);
+  }
+  // While it stops by itself, with way off: it need not come to rest before it makes room.
+  bool isDriven(const Moment& m) {
+    constexpr double kSlowMps = 1.0;
+    constexpr double kFirstS = 1.0;
+    return phase_ == Phase::kStopping && m.now_s - stop_time_s_ >= kFirstS && knowsPlace(m) &&
+           vessel::speedOf(m.situation.state) < kSlowMps && isDrivenAshore(m);
   }
   bool isLost(const Moment& m) { return !knowsPlace(m); }
 
@@ -585,7 +611,9 @@ class Decider final : public Supervisor {
   // The widest way first; then one like that being sailed, with more beside the hull.
   Orders planWider(const Moment& m) {
     wider_asked_s_ = m.now_s;
-    safety().tryLevel(std::exchange(asks_widest_, !asks_widest_) ? 0 : planned_level_);
+    const std::size_t like_it =
+        safety().plansWithWeather() || planned_level_ == 0 ? planned_level_ : planned_level_ - 1;
+    safety().tryLevel(std::exchange(asks_widest_, !asks_widest_) ? 0 : like_it);
     return improve(m, Gain::kRoom);
   }
   Orders planToImprove(const Moment& m) {
@@ -810,6 +838,7 @@ class Decider final : public Supervisor {
       {kWaiting, &Decider::doesNotKnowTheWeather, &Decider::keepOn},
       {kWaiting, &Decider::isOverTheEdge, &Decider::turnBack},
       {kWaiting, &Decider::isBeyondThrust, &Decider::waitForCalm},
+      {kWaiting, &Decider::isDrivenAshore, &Decider::makeSeaRoom},
       {kWaiting, &Decider::liesAcrossTheLoad, &Decider::turnIntoTheLoad},
       {kWaiting, &Decider::liesOffALeeShore, &Decider::makeSeaRoom},
       {kWaiting, &Decider::waitsForLessWind, &Decider::keepThePlace},
@@ -933,12 +962,40 @@ class Decider final : public Supervisor {
     return longer;
   }
   // Bow to what pushes.
-  static Trajectory legAhead(const Moment& m, double ahead_m) {
+  Trajectory legAhead(const Moment& m, double ahead_m) {
     constexpr double kSpeedMps = 0.5;
     constexpr double kLeastS = 4.0;
-    const vessel::State& x = m.situation.state;
-    return Trajectory({stopping::straightLeg(x.head<2>(), x[vessel::kPsi], ahead_m,
+    return Trajectory({stopping::straightLeg(m.situation.state.head<2>(), windward(m), ahead_m,
                                              std::max(kLeastS, std::abs(ahead_m) / kSpeedMps))});
+  }
+  // The hull's heading, or in strong wind the one into it, as far as turning there needs no room.
+  double windward(const Moment& m) {
+    constexpr double kTurnMostRad = 0.35;
+    const double psi = m.situation.state[vessel::kPsi];
+    const double turn = wrapAngle(angleOf(-weather().drift()) - psi);
+    return mayLoseItsHeading() ? psi + std::clamp(turn, -kTurnMostRad, kTurnMostRad) : psi;
+  }
+  // How far to leeward of a place nothing lies, m, at most `far_m`.
+  double leewardRoom(const Moment& m, const Eigen::Vector2d& position, double far_m) {
+    constexpr double kStepM = 0.5;
+    const Eigen::Vector2d leeward = weather().drift().normalized();
+    double room = 0.0;
+    while (room < far_m && m.obstacles.clearance(position + (room + kStepM) * leeward, m.now_s) >=
+                               safety().critical()) {
+      room += kStepM;
+    }
+    return std::min(room, far_m);
+  }
+  // The least on the stretch of the way from now on, up to what a lost heading takes.
+  double leewardRoom(const Moment& m, const TimedTrajectory& path, double ahead_s) {
+    constexpr double kStepS = 1.0;
+    const double from = path.elapsed(m.now_s);
+    const double to = std::min(path.trajectory.duration(), from + ahead_s);
+    double room = weather().drift().norm();
+    for (double t = from; t < to; t += kStepS) {
+      room = leewardRoom(m, path.trajectory.flat(t).position, room);
+    }
+    return room;
   }
   // How far ahead of a vessel that lies into what pushes, m (negative: astern), there is enough
   // room round it and to leeward, or most; 0 where it has that already, or there is no better
@@ -946,7 +1003,8 @@ class Decider final : public Supervisor {
   double seaRoomToMake(const Moment& m) {
     constexpr double kLeewardM = 4.0;
     constexpr double kRoundM = 1.0;
-    constexpr double kRoundAgainM = 0.7;  // more, each time it had to stop again hereabouts
+    constexpr double kRoundInStrongM = 3.0;  // a gust sets aside to all sides
+    constexpr double kRoundAgainM = 0.7;     // more, each time it had to stop again hereabouts
     constexpr double kRoundMostM = 4.0;
     constexpr double kFarthestM = 6.0;
     constexpr double kStepM = 0.5;
@@ -955,19 +1013,17 @@ class Decider final : public Supervisor {
     const Eigen::Vector2d drift = weather().drift();
     const double far = std::min(drift.norm(), kLeewardM);
     const vessel::State& x = m.situation.state;
-    const Eigen::Vector2d bow = unitVector(x[vessel::kPsi]);
-    const double round = std::min(kRoundMostM, kRoundM + kRoundAgainM * retries_.stops());
-    if (far < kRoundM || -bow.dot(drift) < kIntoCosine * drift.norm()) {
+    const Eigen::Vector2d bow = unitVector(windward(m));
+    const double at_first = mayLoseItsHeading() ? kRoundInStrongM : kRoundM;
+    const double round = std::min(kRoundMostM, at_first + kRoundAgainM * retries_.stops());
+    const double into = -unitVector(x[vessel::kPsi]).dot(drift);
+    if (far < kRoundM || into < kIntoCosine * drift.norm()) {
       return 0.0;
     }
     const auto clear = [&](const Eigen::Vector2d& p) { return m.obstacles.clearance(p, m.now_s); };
     const auto room = [&](const Eigen::Vector2d& position) {
-      double leeward = 0.0;
-      while (leeward < far &&
-             clear(position + (leeward + kStepM) * drift.normalized()) >= safety().critical()) {
-        leeward += kStepM;
-      }
-      return std::min(leeward, far) + std::min(clear(position) - safety().narrowest(), round);
+      return leewardRoom(m, position, far) +
+             std::min(clear(position) - safety().narrowest(), round);
     };
     const double enough = far + round;
     const double here = clear(x.head<2>());
@@ -1200,6 +1256,7 @@ class Decider final : public Supervisor {
     constexpr double kFurtherM = 2.0;       // or leads so much nearer to the goal
     constexpr double kRoomShare = 0.95;     // or leaves that much room
     constexpr double kRoomS = 40.0;         // for so long
+    constexpr double kMoreRoomM = 1.0;      // or so much more to leeward
     TimedTrajectory next{plan.trajectory, asked.request.start_time_s};
     if (!asked.lead.trajectory.empty()) {
       std::vector<trajectory::Piece> pieces = asked.lead.trajectory.pieces();
@@ -1217,8 +1274,13 @@ class Decider final : public Supervisor {
         late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.left(m.now_s);
     const bool leads_on = asked.left_m < planned_left_m_ - kFurtherM ||
                           (asked.left_m == 0.0 && planned_left_m_ > 0.0);
-    const bool is_better = saves_time || asked.gain == Gain::kThrust ||
-                           (asked.gain == Gain::kRoom && leavesRoom(m, next, kRoomShare, kRoomS));
+    const auto has_room = [&] {
+      return safety().plansWithWeather()
+                 ? leavesRoom(m, next, kRoomShare, kRoomS)
+                 : leewardRoom(m, next, kRoomS) >= leewardRoom(m, sailed_, kRoomS) + kMoreRoomM;
+    };
+    const bool is_better =
+        saves_time || asked.gain == Gain::kThrust || (asked.gain == Gain::kRoom && has_room());
     if (asked.gain && !leads_on && (asked.left_m > planned_left_m_ || !is_better)) {
       return {};
     }

@@ -714,6 +714,128 @@ TEST(SupervisorInWind, SlowsDownForGustsThatTakeTheMoment) {
   }
 }
 
+// Of otter_gazebo's kind: the wind's moment goes with the sine of twice the angle to the bow.
+ScriptedMission inWind(double towards_east_mps) {
+  vessel::Parameters windy;
+  windy.manoeuvring.wind_surge_kgpm = 0.5;
+  windy.manoeuvring.wind_sway_kgpm = 0.5;
+  windy.manoeuvring.wind_yaw_kg = -0.66;
+  ScriptedMission mission;
+  mission.supervisor = Supervisor::create(mission.options, windy, 1);
+  mission.disturbance.wind_mps = {towards_east_mps, 0.0};
+  mission.knowWeather();
+  return mission;
+}
+
+// The next gust would have it.
+TEST(SupervisorInWind, BeginsNoPlanFromAHeadingLostInStrongWind) {
+  for (const double wind_mps : {5.0, 8.0}) {
+    ScriptedMission mission = inWind(wind_mps);
+    const bool strong = wind_mps > 6.0;
+    mission.rest[vessel::kPsi] = 0.5 * kPi;
+    const auto lost = mission.goTo({20.0, 0.0});
+    ASSERT_TRUE(lost);
+    EXPECT_EQ(lost->plan.has_value(), !strong);
+    if (strong) {
+      EXPECT_FALSE(mission.update(1.0).plan);
+      mission.rest[vessel::kPsi] = kPi - 0.3;
+      EXPECT_TRUE(mission.update(1.0).plan);
+    }
+  }
+}
+
+// With 2 m beside it, though all is free to leeward.
+TEST(SupervisorInWind, MakesMoreRoomInStrongWind) {
+  for (const double wind_mps : {5.0, 8.0}) {
+    ScriptedMission mission = inWind(wind_mps);
+    mission.put({-2.0, 2.5}, {0.0, 5.0});
+    mission.rest[vessel::kPsi] = kPi;
+    mission.rest.x() = 0.0;
+    const auto orders = mission.goTo({-20.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    (void)mission.refuse(*orders->plan, "no");
+    (void)mission.update(0.1);
+    EXPECT_EQ(mission.supervisor->phase() == Phase::kBackingOff, wind_mps > 6.0);
+  }
+}
+
+// A gust drives it on while it stops, bow to the wind: it counts as a stop, but isn't waited for.
+TEST(SupervisorInWind, MakesRoomBeforeItRestsInStrongWind) {
+  for (const bool shore : {false, true}) {
+    ScriptedMission mission = inWind(8.0);
+    mission.setOut(6.0);
+    Situation driven = mission.situation();
+    driven.tracking_error_m = 2.0;
+    driven.state[vessel::kPsi] = kPi;
+    driven.state.tail<3>() << -0.6, 0.0, 0.0;
+    if (shore) {
+      const Vector2d here = driven.state.head<2>();
+      mission.put(here + Vector2d(2.5, -5.0), here + Vector2d(4.0, 5.0));
+    }
+    double stopping_s = 0.0;
+    for (int k = 0; k < 60 && mission.supervisor->phase() != Phase::kBackingOff; ++k) {
+      mission.now_s += 0.1;
+      driven.odometry_stamp_s = mission.now_s;
+      const Orders orders = mission.supervisor->update(mission.now_s, driven, mission.field);
+      if (orders.plan) {
+        (void)mission.refuse(*orders.plan, "no");
+      }
+      stopping_s += mission.supervisor->phase() == Phase::kStopping ? 0.1 : 0.0;
+    }
+    EXPECT_EQ(mission.supervisor->phase(), shore ? Phase::kBackingOff : Phase::kStopping);
+    EXPECT_EQ(mission.supervisor->stops(), shore ? 1 : 0);
+    EXPECT_GT(stopping_s, 0.8);
+  }
+}
+
+// The wide way was refused for something far off; on the narrow one a shore lies 3 m to leeward.
+TEST(SupervisorInWind, LooksForMoreRoomToLeewardInStrongWind) {
+  for (const double wind_mps : {5.0, 8.0}) {
+    ScriptedMission mission = inWind(wind_mps);
+    mission.disturbance.wind_mps = {0.0, wind_mps};
+    mission.knowWeather();
+    mission.put({-20.0, 4.0}, {20.0, 6.0});
+    mission.rest << -40.0, 0.0, -0.5 * kPi, 0.0, 0.0, 0.0;
+    auto orders = mission.goTo({40.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    Orders narrower = mission.refuse(*orders->plan, "no");
+    while (!narrower.plan) {
+      narrower = mission.update(0.1);
+    }
+    (void)mission.answer(*narrower.plan, test::eastward({-40.0, 0.0}, 80.0, 0.8));
+    ASSERT_EQ(mission.supervisor->phase(), Phase::kSailing);
+    std::optional<PlanRequest> wider;
+    for (int k = 0; k < 250 && !wider; ++k) {
+      wider = mission.update(0.1).plan;
+    }
+    ASSERT_EQ(wider.has_value(), wind_mps > 6.0);
+    if (!wider) {
+      continue;
+    }
+    EXPECT_TRUE(wider->moving);
+    EXPECT_GT(wider->query.limits.drift_m.norm(), 1.5 * narrower.plan->query.limits.drift_m.norm());
+    const auto way = [&](const PlanRequest& request, double to_y_m) {
+      const trajectory::TimedTrajectory& sailed = mission.supervisor->sailed();
+      const vessel::FlatPoint from =
+          sailed.trajectory.flat(request.start_time_s - sailed.start_time_s);
+      vessel::FlatPoint beside;
+      beside.position = from.position + Vector2d(8.0, to_y_m);
+      beside.velocity = from.velocity;
+      vessel::FlatPoint end;
+      end.position = {40.0, 0.0};
+      return trajectory::Trajectory({trajectory::hermitePiece(from, beside, 12.0),
+                                     trajectory::hermitePiece(beside, end, 95.0)});
+    };
+    EXPECT_FALSE(mission.answer(*wider, way(*wider, 0.2)).sail);
+    wider.reset();
+    for (int k = 0; k < 80 && !wider; ++k) {
+      wider = mission.update(0.1).plan;
+    }
+    ASSERT_TRUE(wider);
+    EXPECT_TRUE(mission.answer(*wider, way(*wider, -6.0)).sail);
+  }
+}
+
 // 60 N from astern leave the path 20 N to point the bow with: it may lie as it likes.
 TEST(SupervisorInWind, NoHeadingIsLostWhereThePathWantsNone) {
   for (const double push_n : {0.0, 60.0}) {
