@@ -1,4 +1,4 @@
-#include "lidar.hpp"
+#include "otter_nav/plant/lidar.hpp"
 
 #include <algorithm>
 #include <cmath>

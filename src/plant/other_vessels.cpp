@@ -1,4 +1,4 @@
-#include "other_vessels.hpp"
+#include "otter_nav/plant/other_vessels.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,10 @@
 
 #include "ais_transmitters.hpp"
 #include "environment.hpp"
-#include "lidar.hpp"
 #include "odometry_sensor.hpp"
-#include "other_vessels.hpp"
 #include "otter_nav/plant/hull_contact.hpp"
+#include "otter_nav/plant/lidar.hpp"
+#include "otter_nav/plant/other_vessels.hpp"
 #include "otter_nav/plant/plant_model.hpp"
 #include "otter_nav/plant/world_map.hpp"
 #include "radar.hpp"

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/attitude.hpp"
 #include "otter_nav/base/parts.hpp"
-#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/plant/hull_contact.hpp"
 #include "otter_nav/vessel/hull.hpp"
@@ -17,6 +16,15 @@ namespace {
 using mission::Phase;
 using trajectory::TimedTrajectory;
 
+// No noise, and four times as many sight lines as the lidar has beams, so that no cell is left out
+// that it meets.
+plant::LidarOptions sharpest(plant::LidarOptions options) {
+  options.beams *= 4;
+  options.range_noise_m = 0.0;
+  options.dropout_probability = 0.0;
+  return options;
+}
+
 std::string at(const char* what, const Eigen::Vector2d& p) {
   return text("%s at (%.2f m, %.2f m)", what, p.x(), p.y());
 }
@@ -26,11 +34,13 @@ std::string at(const char* what, const Eigen::Vector2d& p) {
 Monitor::Monitor(const Waters& waters, const LoopOptions& options)
     : world_(waters.world),
       vessel_(options.vessel),
-      range_m_(options.plant.lidar.range_max_m),
+      lidar_(sharpest(options.plant.lidar), 0),
+      band_(options.map.band),
       period_s_(1.0 / options.plant.lidar.rate_hz),
-      eye_ahead_m_(options.plant.lidar.position_m.x()),
+      lidar_in_base_(options.plant.lidar.position_m),
       seen_(waters.world.cells.size(), false),
       known_(waters.world.cells.size(), false) {
+  others_.set(waters.vessels, 0.0);
   const map::GridGeometry& g = world_.geometry();
   const map::GridGeometry& chart = waters.chart.geometry;
   for (std::size_t i = 0; options.map.trust_chart && i < known_.size(); ++i) {
@@ -43,26 +53,31 @@ Monitor::Monitor(const Waters& waters, const LoopOptions& options)
   }
 }
 
-// Four times as many sight lines as the lidar has beams, so that no cell is left out that it meets.
-void Monitor::look(const Eigen::Vector2d& from) {
-  constexpr int kLines = 2880;
+void Monitor::look(const plant::Truth& truth) {
   const map::GridGeometry& g = world_.geometry();
   const double step = 0.5 * g.resolution_m;
-  const auto see = [&](const Eigen::Vector2d& p) {
-    if (g.contains(p)) {
-      const Eigen::Vector2i cell = g.cellAt(p);
+  const auto see = [&](const Eigen::Vector3d& p) {
+    if (p.z() >= band_.min_m && p.z() <= band_.max_m && g.contains(p.head<2>())) {
+      const Eigen::Vector2i cell = g.cellAt(p.head<2>());
       seen_[g.index(cell.x(), cell.y())] = true;
       known_[g.index(cell.x(), cell.y())] = true;
     }
   };
-  for (int k = 0; k < kLines; ++k) {
-    const double bearing = 2.0 * kPi * k / kLines;
-    const Eigen::Vector2d along = unitVector(bearing);
-    const double free = std::min(world_.castRay(from, along, range_m_), range_m_);
-    for (double d = 0.0; d < free; d += step) {
-      see(from + d * along);
+  others_.advance(truth.stamp_s);
+  const Scan& scan = lidar_.scan(world_, others_, truth);
+  const Eigen::Matrix3d rotation =
+      attitude(truth.roll_rad, truth.pitch_rad, truth.yaw_rad).toRotationMatrix();
+  const Eigen::Vector3d eye = truth.position + rotation * lidar_in_base_;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (!scan.metSomething(i) && !scan.metNothing(i)) {
+      continue;
     }
-    see(from + (free + 1e-6) * along);
+    const Eigen::Vector3d along = rotation * scan.direction(i);
+    const double free = scan.metSomething(i) ? scan.ranges_m[i] : scan.range_max_m;
+    for (double d = 0.0; d < free; d += step) {
+      see(eye + d * along);
+    }
+    see(eye + (free + 1e-4) * along);
   }
 }
 
@@ -134,12 +149,11 @@ std::string Monitor::faultOf(const ClosedLoop& loop) const {
 void Monitor::watch(const ClosedLoop& loop) {
   const scenario::MotionSample now = loop.motion();
   const Eigen::Vector2d here = now.state.head<2>();
-  const double psi = now.state[vessel::kPsi];
   // The decision of this step could go by what was in sight before it.
   if (now.t_s >= next_look_s_) {
     next_look_s_ = now.t_s + period_s_ - 1e-6;
     stop_fault_ = faultOf(loop);
-    look(here + eye_ahead_m_ * unitVector(psi));
+    look(loop.truth());
   }
   result_.margin_m =
       result_.steps == 0 ? now.clearance_m : std::min(result_.margin_m, now.clearance_m);

@@ -74,6 +74,7 @@ class ClosedLoop {
   [[nodiscard]] const mission::Supervisor& supervisor() const { return *supervisor_; }
   // The true motion and the reference now.
   [[nodiscard]] scenario::MotionSample motion() const;
+  [[nodiscard]] const plant::Truth& truth() const { return plant_.truth(); }
   // Other vessels as they are known, and as they truly are.
   [[nodiscard]] const std::vector<traffic::Track>& tracks() const;
   [[nodiscard]] const std::vector<plant::OtherVessel>& others() const { return plant_.others(); }

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "otter_nav/map/chart.hpp"
+#include "otter_nav/plant/lidar.hpp"
+#include "otter_nav/plant/other_vessels.hpp"
+#include "otter_nav/plant/signals.hpp"
 #include "otter_nav/plant/world_map.hpp"
 #include "otter_nav/scenario/recorder.hpp"
 #include "otter_nav/simulation/closed_loop.hpp"
@@ -24,8 +28,9 @@ class Monitor {
   void watch(const ClosedLoop& loop);
   [[nodiscard]] const scenario::Monitored& result() const { return result_; }
 
-  // What watch() is made of. From a place on, all within the lidar's range and in sight is known.
-  void look(const Eigen::Vector2d& from);
+  // What watch() is made of. All that is in sight is known from now on: what a lidar as tilted as
+  // the hull meets behind no other vessel, at heights over the water that matter.
+  void look(const plant::Truth& truth);
   // What is wrong with a way to rest from `now_s` on; empty if nothing is.
   [[nodiscard]] std::string fault(const trajectory::TimedTrajectory& stop, double now_s) const;
 
@@ -34,10 +39,12 @@ class Monitor {
   [[nodiscard]] std::string faultAt(const Eigen::Vector2d& position, double psi_rad) const;
 
   plant::WorldMap world_;
+  plant::OtherVessels others_;
   vessel::Parameters vessel_;
-  double range_m_;
+  plant::Lidar lidar_;
+  map::HeightBand band_;
   double period_s_;
-  double eye_ahead_m_;
+  Eigen::Vector3d lidar_in_base_;
   double next_look_s_ = 0.0;
   std::vector<bool> seen_;   // of the world's cells
   std::vector<bool> known_;  // seen, or free by the chart

@@ -1,5 +1,5 @@
 // Ray casting and hull contact against slow, plain versions of themselves.
-#include "plant/lidar.hpp"
+#include "otter_nav/plant/lidar.hpp"
 
 #include <gtest/gtest.h>
 

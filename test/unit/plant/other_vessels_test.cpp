@@ -1,5 +1,5 @@
 // Other vessels in the plant: moved as they are written, seen, heard, and touched.
-#include "plant/other_vessels.hpp"
+#include "otter_nav/plant/other_vessels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -31,6 +31,13 @@ LoopOptions trusting(bool chart) {
   return options;
 }
 
+// The hull's middle at the origin, bow to the east.
+plant::Truth aboard(double pitch_rad = 0.0) {
+  plant::Truth truth;
+  truth.pitch_rad = pitch_rad;
+  return truth;
+}
+
 // A rest `length_m` ahead.
 TimedTrajectory restAhead(double length_m) {
   return {test::eastward({0.0, 0.0}, length_m, 0.5), 0.0};
@@ -38,16 +45,43 @@ TimedTrajectory restAhead(double length_m) {
 
 TEST(Monitor, PassesAStopShortOfTheWall) {
   Monitor monitor(waters(map::Cell::kUnknown), trusting(false));
-  monitor.look({0.0, 0.0});
+  monitor.look(aboard());
   EXPECT_EQ(monitor.fault(restAhead(6.5), 0.0), "");
 }
 
 TEST(Monitor, FindsAStopThatTouchesWhatWasInSight) {
   Monitor monitor(waters(map::Cell::kFree), trusting(true));
   EXPECT_EQ(monitor.fault(restAhead(7.3), 0.0), "");  // uncharted, and not seen yet
-  monitor.look({0.0, 0.0});
+  monitor.look(aboard());
   EXPECT_NE(monitor.fault(restAhead(7.3), 0.0).find("in sight"), std::string::npos);
   EXPECT_EQ(monitor.fault(restAhead(6.9), 0.0), "");
+}
+
+// With the bow up the sight lines ahead pass over the wall at 3 m.
+TEST(Monitor, LooksAsTheHullIsTilted) {
+  constexpr double kBowUpRad = -0.3;
+  Monitor monitor(waters(map::Cell::kFree), trusting(true));
+  monitor.look(aboard(kBowUpRad));
+  EXPECT_EQ(monitor.fault(restAhead(7.3), 0.0), "");
+  monitor.look(aboard());
+  EXPECT_NE(monitor.fault(restAhead(7.3), 0.0).find("in sight"), std::string::npos);
+}
+
+// One that lies ahead, and one that has gone on by then.
+TEST(Monitor, DoesNotLookThroughOtherVessels) {
+  Waters w = waters(map::Cell::kFree);
+  vessel::ScriptedVessel other;
+  other.hull = {12.0, 2.0};
+  other.waypoints = {{5.0, 0.0}, {5.0, 60.0}};
+  other.speeds_mps = {2.0};
+  w.vessels = {other};
+  Monitor monitor(w, trusting(true));
+  plant::Truth now = aboard();
+  monitor.look(now);
+  EXPECT_EQ(monitor.fault(restAhead(7.3), 0.0), "");
+  now.stamp_s = 20.0;
+  monitor.look(now);
+  EXPECT_NE(monitor.fault(restAhead(7.3), 0.0).find("in sight"), std::string::npos);
 }
 
 TEST(Monitor, FindsAStopInWaterThatNobodySaw) {
@@ -56,7 +90,7 @@ TEST(Monitor, FindsAStopInWaterThatNobodySaw) {
   EXPECT_NE(blind.fault(stop, 0.0).find("not seen"), std::string::npos);
   Monitor doubting(waters(map::Cell::kFree), trusting(false));
   EXPECT_NE(doubting.fault(stop, 0.0).find("not seen"), std::string::npos);
-  doubting.look({0.0, 0.0});
+  doubting.look(aboard());
   EXPECT_EQ(doubting.fault(stop, 0.0), "");
   // Behind the wall nothing was in sight.
   const TimedTrajectory behind{test::eastward({12.0, 0.0}, 6.0, 0.5), 0.0};

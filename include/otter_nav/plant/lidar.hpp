@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "other_vessels.hpp"
 #include "otter_nav/base/random.hpp"
 #include "otter_nav/base/scan.hpp"
 #include "otter_nav/plant/options.hpp"
+#include "otter_nav/plant/other_vessels.hpp"
 #include "otter_nav/plant/signals.hpp"
 #include "otter_nav/plant/world_map.hpp"
 
