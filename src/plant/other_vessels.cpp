@@ -90,4 +90,10 @@ std::optional<OtherVessels::Nearest> OtherVessels::nearest(const vessel::Hull& h
   return nearest;
 }
 
+double OtherVessels::distance(const vessel::Hull& a, const vessel::Pose& at, const vessel::Hull& b,
+                              const vessel::Pose& there) {
+  return Rectangle(a, at.position, at.psi_rad)
+      .distance(Rectangle(b, there.position, there.psi_rad));
+}
+
 }  // namespace otter_nav::plant

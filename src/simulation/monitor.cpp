@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/attitude.hpp"
 #include "otter_nav/base/parts.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/plant/hull_contact.hpp"
 #include "otter_nav/vessel/hull.hpp"
@@ -41,6 +43,7 @@ Monitor::Monitor(const Waters& waters, const LoopOptions& options)
       seen_(waters.world.cells.size(), false),
       known_(waters.world.cells.size(), false) {
   others_.set(waters.vessels, 0.0);
+  followed_.resize(waters.vessels.size());
   const map::GridGeometry& g = world_.geometry();
   const map::GridGeometry& chart = waters.chart.geometry;
   for (std::size_t i = 0; options.map.trust_chart && i < known_.size(); ++i) {
@@ -79,6 +82,28 @@ void Monitor::look(const plant::Truth& truth) {
     }
     see(eye + (free + 1e-4) * along);
   }
+  follow(truth.stamp_s, eye.head<2>());
+}
+
+// By her middle: one that is half behind an island may be seen or not.
+void Monitor::follow(double now_s, const Eigen::Vector2d& eye) {
+  constexpr double kSameRad = 1e-3;
+  constexpr double kSameMps = 1e-3;
+  for (std::size_t k = 0; k < followed_.size(); ++k) {
+    Followed& her = followed_[k];
+    const vessel::ScriptedMotion& now = others_.now()[k].motion;
+    const Eigen::Vector2d off = now.pose.position - eye;
+    const bool in_sight = off.norm() < lidar_.rangeMax() &&
+                          world_.castRay(eye, off.normalized(), off.norm()) >= off.norm();
+    const bool same = std::abs(wrapAngle(now.pose.psi_rad - her.motion.pose.psi_rad)) < kSameRad &&
+                      std::abs(now.speed_mps - her.motion.speed_mps) < kSameMps;
+    her.motion = now;
+    if (!in_sight) {
+      her.since_s = std::numeric_limits<double>::infinity();
+    } else if (!same || std::isinf(her.since_s)) {
+      her.since_s = now_s;
+    }
+  }
 }
 
 // The hull's squares: what of them was seen to be occupied, or is known to nobody.
@@ -105,6 +130,21 @@ std::string Monitor::faultAt(const Eigen::Vector2d& position, double psi_rad) co
   return {};
 }
 
+// Whom the tracker must know by now, where she would be with her course kept.
+bool Monitor::meets(const vessel::Pose& own, double now_s, double later_s) const {
+  constexpr double kKnownS = 3.0;
+  for (std::size_t k = 0; k < followed_.size(); ++k) {
+    const Followed& her = followed_[k];
+    vessel::Pose there = her.motion.pose;
+    there.position += later_s * her.motion.speed_mps * unitVector(there.psi_rad);
+    if (now_s - her.since_s >= kKnownS &&
+        plant::OtherVessels::distance(vessel_.hull, own, others_.now()[k].hull, there) == 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::string Monitor::fault(const TimedTrajectory& stop, double now_s) const {
   constexpr double kStepS = 0.05;
   const double end = stop.trajectory.duration();
@@ -116,6 +156,10 @@ std::string Monitor::fault(const TimedTrajectory& stop, double now_s) const {
     std::string fault = faultAt(x.head<2>(), x[vessel::kPsi]);
     if (!fault.empty()) {
       return fault;
+    }
+    if (vessel::speedOf(x) > vessel::kRestMps &&
+        meets({x.head<2>(), x[vessel::kPsi]}, now_s, t - from)) {
+      return at("the stop meets another vessel under way", x.head<2>());
     }
   }
   const vessel::State last = stop.trajectory.sample(end, vessel_).state;

@@ -22,6 +22,8 @@ class Lidar {
   // water surface first returns nothing: water swallows it.
   const Scan& scan(const WorldMap& world, const OtherVessels& others, const Truth& truth);
 
+  [[nodiscard]] double rangeMax() const { return options_.range_max_m; }
+
  private:
   // A noiseless return turned into what the instrument reports.
   [[nodiscard]] float report(double range_m);

@@ -33,6 +33,10 @@ class OtherVessels {
                                                const Eigen::Vector2d& position,
                                                double psi_rad) const;
 
+  // The exact distance between two outlines.
+  [[nodiscard]] static double distance(const vessel::Hull& a, const vessel::Pose& at,
+                                       const vessel::Hull& b, const vessel::Pose& there);
+
  private:
   std::vector<vessel::ScriptedVessel> scripts_;
   std::vector<OtherVessel> now_;

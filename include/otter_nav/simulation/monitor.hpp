@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,15 @@ class Monitor {
   // What watch() is made of. All that is in sight is known from now on: what a lidar as tilted as
   // the hull meets behind no other vessel, at heights over the water that matter.
   void look(const plant::Truth& truth);
-  // What is wrong with a way to rest from `now_s` on; empty if nothing is.
+  // What is wrong with a way to rest from `now_s` on; empty if nothing is. Other vessels count that
+  // have been in sight on the same course for a while, and count as keeping it, until we rest.
   [[nodiscard]] std::string fault(const trajectory::TimedTrajectory& stop, double now_s) const;
 
  private:
   [[nodiscard]] std::string faultOf(const ClosedLoop& loop) const;
   [[nodiscard]] std::string faultAt(const Eigen::Vector2d& position, double psi_rad) const;
+  [[nodiscard]] bool meets(const vessel::Pose& own, double now_s, double later_s) const;
+  void follow(double now_s, const Eigen::Vector2d& eye);
 
   plant::WorldMap world_;
   plant::OtherVessels others_;
@@ -48,7 +52,13 @@ class Monitor {
   double next_look_s_ = 0.0;
   std::vector<bool> seen_;   // of the world's cells
   std::vector<bool> known_;  // seen, or free by the chart
-  std::string stop_fault_;   // of the last look
+  // Of each other vessel: how she moves, and since when that and she herself are in sight.
+  struct Followed {
+    vessel::ScriptedMotion motion;
+    double since_s = std::numeric_limits<double>::infinity();
+  };
+  std::vector<Followed> followed_;
+  std::string stop_fault_;  // of the last look
   scenario::Monitored result_;
 };
 

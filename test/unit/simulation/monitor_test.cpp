@@ -97,6 +97,40 @@ TEST(Monitor, FindsAStopInWaterThatNobodySaw) {
   EXPECT_NE(doubting.fault(behind, 0.0).find("not seen"), std::string::npos);
 }
 
+// She crosses ahead of us, at right angles, while the stop still makes way.
+TEST(Monitor, FindsAStopThatMeetsAnotherVessel) {
+  constexpr double kCrossesM = 3.5;
+  constexpr double kStartsS = 4.0;
+  const double turns_at_m = -5.0;
+  for (const bool turns : {false, true}) {
+    Waters w = waters(map::Cell::kFree);
+    vessel::ScriptedVessel other;
+    other.hull = {6.0, 2.0};
+    other.waypoints = {{kCrossesM, -20.0}, {kCrossesM, turns_at_m}};
+    other.waypoints.emplace_back(turns ? 40.0 : kCrossesM, turns ? turns_at_m : 40.0);
+    other.speeds_mps = {2.0};
+    w.vessels = {other};
+    const TimedTrajectory stop{restAhead(6.5).trajectory, kStartsS};
+    Monitor monitor(w, trusting(true));
+    plant::Truth now = aboard();
+    now.stamp_s = kStartsS;
+    monitor.look(now);
+    EXPECT_EQ(monitor.fault(stop, kStartsS), "");  // nobody knows her course yet
+    Monitor longer(w, trusting(true));
+    for (now.stamp_s = 0.0; now.stamp_s <= kStartsS; now.stamp_s += 1.0) {
+      longer.look(now);
+    }
+    EXPECT_NE(longer.fault(stop, kStartsS).find("another vessel"), std::string::npos);
+    // At rest she may come over us: that is no fault of the stop.
+    EXPECT_EQ(longer.fault({restAhead(1.0).trajectory, kStartsS}, kStartsS), "");
+    // Once she has turned it is her new course that counts, when it is known.
+    now.stamp_s = 7.6;
+    longer.look(now);
+    EXPECT_EQ(longer.fault({restAhead(6.5).trajectory, now.stamp_s - 3.0}, now.stamp_s).empty(),
+              turns);
+  }
+}
+
 TEST(Monitor, FindsAStopThatDoesNotEnd) {
   Monitor monitor(waters(map::Cell::kFree), trusting(true));
   const trajectory::Trajectory whole = test::eastward({-40.0, 0.0}, 40.0, kSpeed);
