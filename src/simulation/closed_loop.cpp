@@ -87,6 +87,7 @@ void ClosedLoop::sense() {
   if (!plant_.scanDue()) {
     return;
   }
+  scanned_from_ = plant_.truth();
   if (const Status status = sensing_->insert(plant_.scan(), odometry); !status) {
     finish(scenario::Outcome::kError, status.error().message);
     return;

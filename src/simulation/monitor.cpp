@@ -18,10 +18,11 @@ namespace {
 using mission::Phase;
 using trajectory::TimedTrajectory;
 
-// No noise, and four times as many sight lines as the lidar has beams, so that no cell is left out
-// that it meets.
+// No noise, and sight lines between the lidar's beams, so that no cell is left out that one might
+// have passed: what is only met between them was not in sight.
+constexpr int kLinesEachBeam = 4;
 plant::LidarOptions sharpest(plant::LidarOptions options) {
-  options.beams *= 4;
+  options.beams *= kLinesEachBeam;
   options.range_noise_m = 0.0;
   options.dropout_probability = 0.0;
   return options;
@@ -38,7 +39,6 @@ Monitor::Monitor(const Waters& waters, const LoopOptions& options)
       vessel_(options.vessel),
       lidar_(sharpest(options.plant.lidar), 0),
       band_(options.map.band),
-      period_s_(1.0 / options.plant.lidar.rate_hz),
       lidar_in_base_(options.plant.lidar.position_m),
       seen_(waters.world.cells.size(), false),
       known_(waters.world.cells.size(), false) {
@@ -59,11 +59,12 @@ Monitor::Monitor(const Waters& waters, const LoopOptions& options)
 void Monitor::look(const plant::Truth& truth) {
   const map::GridGeometry& g = world_.geometry();
   const double step = 0.5 * g.resolution_m;
-  const auto see = [&](const Eigen::Vector3d& p) {
+  const auto see = [&](const Eigen::Vector3d& p, bool is_beam) {
     if (p.z() >= band_.min_m && p.z() <= band_.max_m && g.contains(p.head<2>())) {
       const Eigen::Vector2i cell = g.cellAt(p.head<2>());
-      seen_[g.index(cell.x(), cell.y())] = true;
-      known_[g.index(cell.x(), cell.y())] = true;
+      const std::size_t index = g.index(cell.x(), cell.y());
+      seen_[index] = seen_[index] || is_beam;
+      known_[index] = true;
     }
   };
   others_.advance(truth.stamp_s);
@@ -76,11 +77,12 @@ void Monitor::look(const plant::Truth& truth) {
       continue;
     }
     const Eigen::Vector3d along = rotation * scan.direction(i);
+    const bool is_beam = i % kLinesEachBeam == 0;
     const double free = scan.metSomething(i) ? scan.ranges_m[i] : scan.range_max_m;
     for (double d = 0.0; d < free; d += step) {
-      see(eye + d * along);
+      see(eye + d * along, is_beam);
     }
-    see(eye + (free + 1e-4) * along);
+    see(eye + (free + 1e-4) * along, is_beam);
   }
   follow(truth.stamp_s, eye.head<2>());
 }
@@ -193,11 +195,11 @@ std::string Monitor::faultOf(const ClosedLoop& loop) const {
 void Monitor::watch(const ClosedLoop& loop) {
   const scenario::MotionSample now = loop.motion();
   const Eigen::Vector2d here = now.state.head<2>();
-  // The decision of this step could go by what was in sight before it.
-  if (now.t_s >= next_look_s_) {
-    next_look_s_ = now.t_s + period_s_ - 1e-6;
+  // The decision on a scan could go by what was in sight before it.
+  if (loop.scannedFrom().stamp_s > looked_s_) {
+    looked_s_ = loop.scannedFrom().stamp_s;
     stop_fault_ = faultOf(loop);
-    look(loop.truth());
+    look(loop.scannedFrom());
   }
   result_.margin_m =
       result_.steps == 0 ? now.clearance_m : std::min(result_.margin_m, now.clearance_m);

@@ -74,7 +74,8 @@ class ClosedLoop {
   [[nodiscard]] const mission::Supervisor& supervisor() const { return *supervisor_; }
   // The true motion and the reference now.
   [[nodiscard]] scenario::MotionSample motion() const;
-  [[nodiscard]] const plant::Truth& truth() const { return plant_.truth(); }
+  // How the hull lay when the lidar looked last.
+  [[nodiscard]] const plant::Truth& scannedFrom() const { return scanned_from_; }
   // Other vessels as they are known, and as they truly are.
   [[nodiscard]] const std::vector<traffic::Track>& tracks() const;
   [[nodiscard]] const std::vector<plant::OtherVessel>& others() const { return plant_.others(); }
@@ -104,6 +105,7 @@ class ClosedLoop {
   vessel::Pose goal_;
   scenario::Recorder recorder_;
   tracker::Command command_;
+  plant::Truth scanned_from_;
   bool started_ = false;
   bool stop_ordered_ = false;
   // The answer to the last request, and when the vessel gets it.

@@ -47,11 +47,10 @@ class Monitor {
   vessel::Parameters vessel_;
   plant::Lidar lidar_;
   map::HeightBand band_;
-  double period_s_;
   Eigen::Vector3d lidar_in_base_;
-  double next_look_s_ = 0.0;
-  std::vector<bool> seen_;   // of the world's cells
-  std::vector<bool> known_;  // seen, or free by the chart
+  double looked_s_ = -1.0;
+  std::vector<bool> seen_;   // of the world's cells: met by a beam of the lidar's
+  std::vector<bool> known_;  // in sight, or free by the chart
   // Of each other vessel: how she moves, and since when that and she herself are in sight.
   struct Followed {
     vessel::ScriptedMotion motion;

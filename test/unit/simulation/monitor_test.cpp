@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../mission/waters.hpp"
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/stopping/braking.hpp"
 
 namespace otter_nav::simulation {
@@ -65,6 +66,22 @@ TEST(Monitor, LooksAsTheHullIsTilted) {
   EXPECT_EQ(monitor.fault(restAhead(7.3), 0.0), "");
   monitor.look(aboard());
   EXPECT_NE(monitor.fault(restAhead(7.3), 0.0).find("in sight"), std::string::npos);
+}
+
+// 5 deg to either side of a post 1 m wide and 10 m off beams pass by 0.4 m.
+TEST(Monitor, SeesNothingBetweenTheBeams) {
+  Waters w = waters(map::Cell::kFree);
+  w.world = test::openWater();
+  test::block(w.world, {10.0, -0.5}, {11.0, 0.5});
+  LoopOptions options = trusting(true);
+  options.plant.lidar.beams = 36;
+  Monitor monitor(w, options);
+  plant::Truth now = aboard();
+  now.yaw_rad = kPi / 36.0;
+  monitor.look(now);
+  EXPECT_EQ(monitor.fault(restAhead(9.5), 0.0), "");
+  monitor.look(aboard());
+  EXPECT_NE(monitor.fault(restAhead(9.5), 0.0).find("in sight"), std::string::npos);
 }
 
 // One that lies ahead, and one that has gone on by then.
