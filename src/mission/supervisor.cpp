@@ -364,8 +364,8 @@ class Decider final : public Supervisor {
     }
     return false;
   }
-  // Bow to it, with something near, or to leeward nearer than a lost heading takes, and a better
-  // place ahead or astern.
+  // Bow or stern to it, with something near, or to leeward nearer than a lost heading takes, and a
+  // better place ahead or astern.
   bool liesOffALeeShore(const Moment& m) {
     constexpr double kShorterM = 0.5;
     const Obstacles now = m.obstacles.startingAt(m.now_s);
@@ -964,15 +964,21 @@ class Decider final : public Supervisor {
   // Bow to what pushes.
   Trajectory legAhead(const Moment& m, double ahead_m) {
     constexpr double kSpeedMps = 0.5;
+    constexpr double kInStrongMps = 1.0;  // with way on it can make good what sets it aside
     constexpr double kLeastS = 4.0;
+    const double speed = mayLoseItsHeading() ? kInStrongMps : kSpeedMps;
     return Trajectory({stopping::straightLeg(m.situation.state.head<2>(), windward(m), ahead_m,
-                                             std::max(kLeastS, std::abs(ahead_m) / kSpeedMps))});
+                                             std::max(kLeastS, std::abs(ahead_m) / speed))});
   }
-  // The hull's heading, or in strong wind the one into it, as far as turning there needs no room.
+  // The hull's heading, or in strong wind the one into it, bow or stern, as far as turning there
+  // needs no room.
   double windward(const Moment& m) {
     constexpr double kTurnMostRad = 0.35;
     const double psi = m.situation.state[vessel::kPsi];
-    const double turn = wrapAngle(angleOf(-weather().drift()) - psi);
+    const Eigen::Vector2d& wind = weather().mean().wind_mps;
+    const Eigen::Vector2d leeward = wind.isZero(0.0) ? weather().drift() : wind;
+    const double to_bow = wrapAngle(angleOf(-leeward) - psi);
+    const double turn = std::abs(to_bow) > 0.5 * kPi ? wrapAngle(to_bow + kPi) : to_bow;
     return mayLoseItsHeading() ? psi + std::clamp(turn, -kTurnMostRad, kTurnMostRad) : psi;
   }
   // How far to leeward of a place nothing lies, m, at most `far_m`.
@@ -997,7 +1003,7 @@ class Decider final : public Supervisor {
     }
     return room;
   }
-  // How far ahead of a vessel that lies into what pushes, m (negative: astern), there is enough
+  // How far ahead of a vessel that lies along what pushes, m (negative: astern), there is enough
   // room round it and to leeward, or most; 0 where it has that already, or there is no better
   // place.
   double seaRoomToMake(const Moment& m) {
@@ -1016,8 +1022,8 @@ class Decider final : public Supervisor {
     const Eigen::Vector2d bow = unitVector(windward(m));
     const double at_first = mayLoseItsHeading() ? kRoundInStrongM : kRoundM;
     const double round = std::min(kRoundMostM, at_first + kRoundAgainM * retries_.stops());
-    const double into = -unitVector(x[vessel::kPsi]).dot(drift);
-    if (far < kRoundM || into < kIntoCosine * drift.norm()) {
+    const double along = std::abs(unitVector(x[vessel::kPsi]).dot(drift));
+    if (far < kRoundM || along < kIntoCosine * drift.norm()) {
       return 0.0;
     }
     const auto clear = [&](const Eigen::Vector2d& p) { return m.obstacles.clearance(p, m.now_s); };

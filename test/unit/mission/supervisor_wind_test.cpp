@@ -759,6 +759,26 @@ TEST(SupervisorInWind, MakesMoreRoomInStrongWind) {
   }
 }
 
+// To windward, whether that is ahead or astern.
+TEST(SupervisorInWind, MakesRoomSternToTheWindToo) {
+  for (const double psi : {kPi, 0.0, 0.2}) {
+    ScriptedMission mission = inWind(8.0);
+    mission.put({2.0, -5.0}, {5.0, 5.0});
+    mission.rest[vessel::kPsi] = psi;
+    const auto orders = mission.goTo({-20.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    (void)mission.refuse(*orders->plan, "no");
+    const Orders next = mission.update(0.1);
+    EXPECT_EQ(mission.supervisor->phase(), Phase::kBackingOff);
+    ASSERT_TRUE(next.sail);
+    const trajectory::Trajectory& path = next.sail->trajectory;
+    const trajectory::Sample end = path.sample(path.duration(), vessel::Parameters{});
+    EXPECT_LT(end.state.x(), -2.4);
+    EXPECT_NEAR(end.state.y(), 0.0, 1e-6);
+    EXPECT_NEAR(path.duration(), std::max(4.0, -end.state.x()), 1e-6);
+  }
+}
+
 // A gust drives it on while it stops, bow to the wind: it counts as a stop, but isn't waited for.
 TEST(SupervisorInWind, MakesRoomBeforeItRestsInStrongWind) {
   for (const bool shore : {false, true}) {
