@@ -516,7 +516,8 @@ class Decider final : public Supervisor {
   bool isDriven(const Moment& m) {
     constexpr double kSlowMps = 1.0;
     constexpr double kFirstS = 1.0;
-    return phase_ == Phase::kStopping && m.now_s - stop_time_s_ >= kFirstS && knowsPlace(m) &&
+    return phase_ == Phase::kStopping && hasMission() && !suspended_ &&
+           m.now_s - stop_time_s_ >= kFirstS && knowsPlace(m) &&
            vessel::speedOf(m.situation.state) < kSlowMps && isDrivenAshore(m);
   }
   bool isLost(const Moment& m) { return !knowsPlace(m); }
