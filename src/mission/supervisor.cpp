@@ -962,7 +962,7 @@ class Decider final : public Supervisor {
     }
     return longer;
   }
-  // Bow to what pushes.
+  // Bow to what pushes, or stern in strong wind.
   Trajectory legAhead(const Moment& m, double ahead_m) {
     constexpr double kSpeedMps = 0.5;
     constexpr double kInStrongMps = 1.0;  // with way on it can make good what sets it aside

@@ -24,9 +24,10 @@ WindCorridor::WindCorridor(const vessel::Parameters& vessel)
       moment_nm_(vessel::greatestMoment(vessel.thrusters)) {}
 
 void WindCorridor::feel(double time_s, const Eigen::Vector2d& wind_mps) {
-  const double dt = std::clamp(time_s - felt_at_s_, 0.0, kGapS);
+  const double dt = felt_ ? std::clamp(time_s - felt_at_s_, 0.0, kGapS) : kGapS;
   wind_mps_ = wind_mps;
-  mean_mps_ += (felt_ ? dt / kGustMemoryS : 1.0) * (wind_mps.norm() - mean_mps_);
+  felt_s_ = std::min(felt_s_ + dt, kGustMemoryS);  // of all that was felt, until that is so long
+  mean_mps_ += dt / felt_s_ * (wind_mps.norm() - mean_mps_);
   felt_at_s_ = time_s;
   felt_ = true;
 }

@@ -27,6 +27,7 @@ class WindCorridor {
   double moment_nm_;
   Eigen::Vector2d wind_mps_ = Eigen::Vector2d::Zero();
   double mean_mps_ = 0.0;
+  double felt_s_ = 0.0;
   double felt_at_s_ = 0.0;
   bool felt_ = false;
 };

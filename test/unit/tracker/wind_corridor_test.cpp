@@ -51,6 +51,17 @@ TEST(WindCorridor, AHarderGustThatBlowsNowCounts) {
             after(feelingWind(), 8.5, 8.5, 0.0).half_width_rad - 0.1);
 }
 
+// An estimate begins at nothing.
+TEST(WindCorridor, KnowsTheMeanOfTheFirstSecondsToo) {
+  WindCorridor corridor(feelingWind());
+  const Eigen::Vector2d towards = unitVector(0.5);
+  for (int k = 0; k <= 500; ++k) {
+    corridor.feel(0.01 * k, std::min(10.0, 0.2 * k) * towards);
+  }
+  const double lasting = after(feelingWind(), 10.0, 10.0, 0.0).half_width_rad;
+  EXPECT_NEAR(corridor.about(0.0).half_width_rad, lasting, 0.2 * lasting);
+}
+
 TEST(WindCorridor, SternToTheWindIsAsGood) {
   const HeadingCorridor corridor = after(feelingWind(), 9.0, 9.0, 0.8);
   EXPECT_NEAR(wrapAngle(corridor.psi_rad - 0.5), 0.0, 1e-9);
