@@ -5,7 +5,9 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/model.hpp"
+#include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::vessel {
 namespace {
@@ -286,6 +288,7 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
   const double before = psi;
   double slope_n = 0.0;
   const bool windy = m.feelsWind() && !disturbance.wind_mps.isZero(0.0);
+  const bool lies = windy && canLie(m, disturbance, psi_path_rad);
   for (int i = 0; i < kSwayIterations; ++i) {
     const Turned<kByPsi, double> turned(std::cos(psi), std::sin(psi));
     const auto lacking = thrustDemand(m, disturbance, turned.cosine, turned.sine,
@@ -296,7 +299,7 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
     const bool vague = slope_n < least_slope_n || turns > kRoundingMps * m.sway_inertia_kg;
     const double step =
         vague ? 0.0 : (turns * (psi - before) / dt_s + lacking.value) / (turns / dt_s - slope_n);
-    if (windy && (vague || std::abs(step) > kFarSwayStepRad)) {
+    if (windy && !(lies && vague) && (vague || std::abs(step) > kFarSwayStepRad)) {
       const FirmHeading firm = firmHeading(m, disturbance, velocity, acceleration, before);
       const bool holds = firm.slope_n >= least_slope_n;
       psi = holds ? firm.psi_rad : psi_path_rad;
@@ -311,6 +314,12 @@ SwayHeading swayHeading(const Parameters& vessel, const Disturbance& disturbance
     if (std::abs(step) < kSmallSwayStepRad) {
       break;
     }
+  }
+  // Slowly a little wind would have it turn half round within a leg, and back at its end.
+  if (lies) {
+    const double share =
+        std::clamp((velocity - disturbance.current_mps).norm() / kWalkingMps - 1.0, 0.0, 1.0);
+    psi = unwrapNear(psi_path_rad + share * wrapAngle(psi - psi_path_rad), before);
   }
   const bool loaded = !disturbance.wind_mps.isZero(0.0) || !disturbance.force_n.isZero(0.0);
   const OutsideLoad load = loaded ? outsideLoad(psi, m, disturbance) : OutsideLoad{};

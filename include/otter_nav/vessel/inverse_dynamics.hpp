@@ -305,7 +305,8 @@ class InverseDynamics {
 // The paper's model has D = 0 and the equation is its flatness; a hull with more sway inertia than
 // the turn feels has D < 0 and relaxes to that solution. Where the balance hardly depends on the
 // heading (at rest, coasting, braking, wind from astern as strong as the drag), or D > 0, it is
-// `psi_path_rad`.
+// `psi_path_rad`. In a wind in which the hull can lie on that (vessel/rest.hpp) it keeps it at
+// walking pace, and leaves it for the balance's own gradually up to twice that.
 struct SwayHeading {
   double psi_rad;
   double trust;  // 0 to 1: whether the position says firmly where the bow should point

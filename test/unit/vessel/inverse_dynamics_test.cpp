@@ -301,6 +301,27 @@ TEST(SwayHeading, StaysNearTheWindThroughItsEye) {
   }
 }
 
+// At the ends of a short leg the path says next to nothing of the heading. In a wind in which the
+// hull can lie on its own it isn't turned into it, however firm that would be.
+TEST(SwayHeading, KeepsThePathsWhereTheHullCanLieOnIt) {
+  Parameters vessel;
+  vessel.manoeuvring = ManoeuvringModel::fromPaper(vessel.paper);
+  vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  Disturbance weather;
+  weather.wind_mps = {0.0, 3.0};
+  for (double psi = -3.0; psi <= 3.0; psi += 0.25) {
+    const Vector2d ahead(std::cos(psi), std::sin(psi));
+    for (const double speed : {0.01, 0.03, 0.06, 0.1}) {
+      for (const double acceleration : {0.0, -0.1, -0.2}) {
+        const SwayHeading heading =
+            swayHeading(vessel, weather, speed * ahead, acceleration * ahead, psi, psi, 0.1);
+        EXPECT_NEAR(heading.psi_rad, psi, 1e-9) << psi << ", " << speed << ", " << acceleration;
+      }
+    }
+  }
+}
+
 TEST(Thrusters, ShareOfTheLimitAheadOrAstern) {
   Thrusters t;
   t.astern_max_n = 20.0;
