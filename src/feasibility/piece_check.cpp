@@ -7,6 +7,7 @@
 #include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
+#include "otter_nav/feasibility/lean.hpp"
 #include "otter_nav/trajectory/polynomial/piece_polynomials.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -292,6 +293,39 @@ void PieceCheck::checkClearance(const Obstacles& obstacles, double start_s, Piec
     report.time_s = *walked.conflict_s;
     report.fault =
         walked.centre_m - limits.clearance_m < kLeastSlackM ? Fault::kClearance : Fault::kHull;
+  } else if (piece_.kind == trajectory::PieceKind::kSail && tolerances_.keep_hull_clear &&
+             leansInto(vessel_, limits_.felt)) {
+    checkLeaning(obstacles, start_s, bow, report);
+  }
+}
+
+// Where the hull touches at the piece's start already, what leads away is no worse.
+template <typename Bow>
+void PieceCheck::checkLeaning(const Obstacles& obstacles, double start_s, const Bow& bow,
+                              PieceReport& report) const {
+  constexpr double kStepS = 0.05;
+  constexpr double kMarginM = 0.02;  // at most: waves are the planned attitude's to leave room for
+  const HullCover hull(limits_.hull, std::min(kMarginM, limits_.hull_margin_m));
+  const int steps = partsOf(piece_.duration_s, kStepS, 2);
+  double least_m = 0.0;
+  for (int k = 0; k <= steps; ++k) {
+    const double t = piece_.duration_s * k / steps;
+    double centre_m = 0.0;
+    const double slack = hull.slack(
+        obstacles, evaluate<8>(piece_.position, t), start_s + t, 0.0,
+        [&] {
+          return leaningBow(vessel_, limits_.felt, evaluate<7>(velocity_, t),
+                            evaluate<6>(acceleration_, t), bow(t));
+        },
+        centre_m);
+    if (k == 0) {
+      least_m = std::min(least_m, slack - kLeastSlackM);
+    }
+    if (slack < least_m) {
+      report.time_s = t;
+      report.fault = Fault::kHull;
+      return;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/text.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
@@ -69,7 +70,7 @@ stopping::StopLimits Safety::stop(const feasibility::SafetyLimits& planned) cons
 
 stopping::StopLimits Safety::leastStop(const feasibility::SafetyLimits& planned) const {
   return {centreClearance(vessel_.hull, options_.critical_side_clearance_m), kOffTrajectoryM,
-          planned.disturbance};
+          planned.disturbance, planned.felt};
 }
 
 feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
@@ -85,6 +86,9 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   limits.drift_m =
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
   limits.disturbance = planDisturbance();
+  if (times_refused_ < kRefusedMost) {
+    limits.felt = lightLoad();
+  }
   // What it wanders, as far as the level has room for it; half as much each time there was no plan.
   const double most = std::max(kWanderM, options_.side_clearances_m[levels_.level()]);
   limits.hull_margin_m = std::max(
@@ -104,7 +108,15 @@ double Safety::paceAt(std::size_t level, double usual_mps) const {
     return usual_mps;
   }
   const double slower = kSlower * usual_mps;
-  return in_unknown_water_ ? std::min(slower, kCrawlingPerS * vessel_.hull.length_m) : slower;
+  const double pace =
+      in_unknown_water_ ? std::min(slower, kCrawlingPerS * vessel_.hull.length_m) : slower;
+  return std::min(usual_mps, std::max(pace, leastPace()));
+}
+
+double Safety::leastPace() const {
+  constexpr double kLeanRad = 0.25;
+  return vessel::InverseDynamics(vessel_, lightLoad()).greatestLoadAbeam() /
+         (std::tan(kLeanRad) * vessel_.paper.d2_kgps);
 }
 
 double Safety::sailingSpeed(double usual_mps) const {
@@ -123,6 +135,13 @@ bool Safety::mayPlanWithWeather() const {
 
 bool Safety::plansWithWeather() const {
   return mayPlanWithWeather() && weather_.isKnown() && vessel::isFirmLoad(vessel_, weather_.mean());
+}
+
+vessel::Disturbance Safety::lightLoad() const {
+  const vessel::Disturbance& mean = weather_.mean();
+  const bool light = vessel::InverseDynamics(vessel_, mean).greatestLoadAbeam() <=
+                     vessel::kRestMps * vessel_.manoeuvring.sway_drag_kgps;
+  return weather_.isKnown() && !plansWithWeather() && light ? mean : vessel::Disturbance{};
 }
 
 vessel::Disturbance Safety::planDisturbance() const {
@@ -167,7 +186,8 @@ double Safety::slowShare() const {
   if (plansWithWeather()) {
     return 1.0;  // slower, it would be carried by what pushes, and hold no heading
   }
-  return std::max(kLeast, std::pow(0.5, times_refused_));
+  const double usual_mps = feasibility::SafetyLimits::of(vessel_, 0.0).speed_max_mps;
+  return std::max({kLeast, std::pow(0.5, times_refused_), std::min(1.0, leastPace() / usual_mps)});
 }
 
 double Safety::restHeading(double psi_rad) const {

@@ -131,6 +131,11 @@ class Safety {
   void tryLevel(std::size_t level) { levels_.begin(level); }
 
  private:
+  // At less a light load from abeam turns a hull that keeps to its path by more than a little.
+  [[nodiscard]] double leastPace() const;
+  // What the hull leans into on the way and plans are not made with: one in which it can lie on any
+  // heading.
+  [[nodiscard]] vessel::Disturbance lightLoad() const;
   // Of the thrust, what waves take from plans on this level.
   [[nodiscard]] double waveShare() const;
   // What room that takes, m.

@@ -10,6 +10,7 @@
 #include "optimizer/solve/initial_spline.hpp"
 #include "optimizer/solve/spline_solver.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/feasibility/lean.hpp"
 #include "otter_nav/optimizer/ends.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
@@ -145,6 +146,9 @@ class GlobalOptimizer::Solver {
     problem_.targets.kept_n.clear();
     problem_.targets.clock = 1.0 / slow_;
     problem_.setDisturbance(inSlowMotion(limits_.disturbance, slow_));
+    leaning_ =
+        vessel::InverseDynamics(inSlowMotion(vessel_, slow_), inSlowMotion(limits_.felt, slow_));
+    problem_.targets.leaning = feasibility::leansInto(vessel_, limits_.felt) ? &leaning_ : nullptr;
     initial_.options = attempt.initial;
     end_options_ = attempt.ends;
   }
@@ -320,6 +324,7 @@ class GlobalOptimizer::Solver {
       const double missing = limits_.clearance_m - v.clearance_m;
       problem_.targets.limits.clearance_m += std::clamp(missing + 0.02, 0.02, 0.2);
       problem_.targets.limits.hull_clearance_m += 0.03;
+      problem_.targets.limits.leaning_clearance_m += 0.03;
       problem_.targets.weights.clearance *= kWeightGrowth;
       problem_.targets.weights.dynamics *= kWeightGrowth;
     }
@@ -455,6 +460,7 @@ class GlobalOptimizer::Solver {
   vessel::Parameters vessel_;
   double slow_ = 1.0;
   SplineProblem problem_;
+  vessel::InverseDynamics leaning_{vessel_};
   InitialSpline initial_;
   SplineSolver solver_;
   Spline spline_;

@@ -229,6 +229,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
                           const StopLimits& stop) {
   feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(vessel, stop.clearance_m);
   limits.hull_margin_m = stop.hull_margin_m;
+  limits.felt = stop.felt;
   limits.speed_max_mps = 2.0 * vessel.top_speed_mps;
   feasibility::Tolerances tolerances;
   tolerances.heading_force_share = kLeastForceShare;

@@ -56,6 +56,10 @@ class PieceCheck {
   // Of a piece of the kind this one is; sets the fault and, in a spin, what sets it aside.
   void checkSway(double sway_n, double allowed_n, PieceReport& report) const;
   [[nodiscard]] Eigen::Vector2d bowAt(double t_s) const;
+  // The clearance of the hull as it leans into limits.felt.
+  template <typename Bow>
+  void checkLeaning(const Obstacles& obstacles, double start_s, const Bow& bow,
+                    PieceReport& report) const;
 
   const trajectory::Piece& piece_;
   const vessel::Parameters& vessel_;

@@ -40,6 +40,10 @@ struct SafetyLimits {
   // What the thrusters work against besides, all along: every demand of a plan is made and verified
   // with it (docs/planner.md).
   vessel::Disturbance disturbance;
+  // A light load that the plan is not made with. Under way the tracked hull leans into it, the more
+  // the less pushes it along its path; near obstacles it keeps clear in that attitude too
+  // (feasibility/lean.hpp).
+  vessel::Disturbance felt;
   // How far these set a hull aside that loses its heading: nothing may lie there
   // (feasibility/lee_shore.hpp). Earth frame, m.
   Eigen::Vector2d drift_m = Eigen::Vector2d::Zero();

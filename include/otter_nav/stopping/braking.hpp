@@ -21,6 +21,7 @@ struct StopLimits {
   double clearance_m = 0.0;
   double hull_margin_m = 0.0;
   vessel::Disturbance disturbance = {};  // that the sailed trajectory was planned with
+  vessel::Disturbance felt = {};         // and what it leans into besides
 };
 
 // The quickest stop from `at_s` (s from the trajectory's start) that keeps to its limits and asks

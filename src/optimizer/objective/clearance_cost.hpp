@@ -31,21 +31,31 @@ class ClearanceCost final : public Cost {
     }
     const Eigen::Vector2d w = point.dynamics.headingForce(z.col(1), z.col(2));
     const vessel::Bow bow = point.dynamics.bow(w, w, point.force_floor_n);
-    for (const double offset : {-limits.hull_offset_m, limits.hull_offset_m}) {
-      const map::DistanceField::Smooth end =
-          targets.obstacles->smooth(p + offset * bow.ahead, point.time_s);
-      point.addHinge(
-          targets.weights.clearance, limits.hull_clearance_m - end.distance_m, kKneeM, [&] {
-            Rows rows;
-            rows.col(0) = -end.gradient;
-            rows.rightCols<4>() =
-                -offset * point.dynamics.byPath(point.dynamics.bowGradient(bow, end.gradient));
-            return rows;
-          });
+    addEnds(targets, point, bow, limits.hull_clearance_m);
+    if (targets.leaning != nullptr) {
+      const Eigen::Vector2d leans = targets.leaning->headingForce(z.col(1), z.col(2));
+      addEnds(targets, point, targets.leaning->bow(leans, leans, point.force_floor_n),
+              limits.leaning_clearance_m);
     }
   }
 
  private:
+  static void addEnds(const Targets& targets, Point& point, const vessel::Bow& bow,
+                      double clearance_m) {
+    const double offset_m = targets.limits.hull_offset_m;
+    for (const double offset : {-offset_m, offset_m}) {
+      const map::DistanceField::Smooth end =
+          targets.obstacles->smooth(point.position() + offset * bow.ahead, point.time_s);
+      point.addHinge(targets.weights.clearance, clearance_m - end.distance_m, kKneeM, [&] {
+        Rows rows;
+        rows.col(0) = -end.gradient;
+        rows.rightCols<4>() = -offset * point.dynamics.byPath(vessel::InverseDynamics::bowGradient(
+                                            bow, end.gradient));
+        return rows;
+      });
+    }
+  }
+
   static constexpr double kKneeM = 1.0;
 };
 

@@ -230,5 +230,36 @@ TEST_F(VerificationTest, ASpinSlidesOnlyAsTheModelLetsIt) {
   EXPECT_NE(v.reason.find("(limit 0.1"), std::string::npos) << v.reason;
 }
 
+// Slowly past a rock beside the bow: lying along its path the hull passes it, leaning into a wind
+// from the other side it doesn't. Where it touches at the start, what leads away is no worse.
+TEST(Verifier, LooksAtTheHullAsItLeansIntoALightWind) {
+  vessel::Parameters vessel;
+  vessel.manoeuvring = vessel::ManoeuvringModel::fromPaper(vessel.paper);
+  vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  const map::DistanceField rock = rockField();
+  const auto eastward = [](double x, double speed_mps) {
+    vessel::FlatPoint from;
+    vessel::FlatPoint to;
+    from.position = {x, 29.25 + 1.0};
+    from.velocity = to.velocity = {speed_mps, 0.0};
+    to.position = from.position + Eigen::Vector2d(4.0, 0.0);
+    return Trajectory({trajectory::hermitePiece(from, to, 4.0 / speed_mps)});
+  };
+  SafetyLimits limits = SafetyLimits::of(vessel, 0.7);
+  limits.hull_margin_m = 0.05;
+  const auto passes = [&](const Trajectory& way) {
+    return verify(way, Obstacles(rock), vessel, limits).ok;
+  };
+  const Trajectory slow = eastward(28.0, 0.6);
+  EXPECT_TRUE(passes(slow));
+  limits.felt.wind_mps = {0.0, 3.0};
+  EXPECT_FALSE(passes(slow));
+  EXPECT_TRUE(passes(eastward(28.0, 3.0)));
+  EXPECT_TRUE(passes(eastward(31.0, 0.6)));
+  limits.felt.wind_mps = {3.0, 0.0};
+  EXPECT_TRUE(passes(slow));
+}
+
 }  // namespace
 }  // namespace otter_nav::feasibility

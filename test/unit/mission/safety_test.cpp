@@ -100,6 +100,37 @@ TEST(Safety, CrawlsInUnknownWaterWhereItWanders) {
   EXPECT_EQ(limits().speed_max_mps, fast);
 }
 
+// Slower than a light wind allows, a hull would sail half across its way; so it crawls no slower.
+TEST(Safety, SailsNoSlowerThanALightWindFromAbeamAllows) {
+  vessel::Parameters vessel;
+  vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  for (const double wind_mps : {0.0, 3.0}) {
+    Safety safety(SupervisorOptions{}, vessel);
+    safety.inUnknownWater(true);
+    vessel::Disturbance weather;
+    weather.wind_mps = {0.0, wind_mps};
+    for (int k = 0; k < 50; ++k) {
+      safety.feel(0.1 * k, weather);
+    }
+    while (safety.refused()) {
+    }
+    while (safety.refused()) {
+    }
+    safety.tryLevel(2);
+    const feasibility::SafetyLimits limits = safety.limits(0.95, kWideWater);
+    const double load_n = 0.5 * wind_mps * wind_mps;
+    EXPECT_TRUE(limits.felt.wind_mps.isZero(0.0));  // the last round does without
+    if (wind_mps > 0.0) {
+      EXPECT_GT(limits.speed_max_mps, load_n / (vessel.paper.d2_kgps * std::tan(0.26)));
+    } else {
+      EXPECT_LE(limits.speed_max_mps, 0.4 * vessel.hull.length_m);
+    }
+    safety.planTaken();
+    EXPECT_NEAR(safety.limits(0.95, kWideWater).felt.wind_mps.norm(), wind_mps, 0.1);
+  }
+}
+
 // In the first seconds under way nobody knows how far it wanders.
 TEST(Safety, ReckonsWithWanderingInUnknownWater) {
   Safety safety(SupervisorOptions{}, vessel::Parameters{});
