@@ -32,6 +32,8 @@ constexpr double kWanderM = 0.2;
 // into sight takes some.
 constexpr double kCrawlingPerS = 0.4;
 constexpr double kTimesWander = 2.0;
+// The most that the hull's corners swing at rest in a light wind and waves.
+constexpr double kSwingsM = 0.3;
 
 }  // namespace
 
@@ -70,7 +72,7 @@ stopping::StopLimits Safety::stop(const feasibility::SafetyLimits& planned) cons
 
 stopping::StopLimits Safety::leastStop(const feasibility::SafetyLimits& planned) const {
   return {centreClearance(vessel_.hull, options_.critical_side_clearance_m), kOffTrajectoryM,
-          planned.disturbance, planned.felt};
+          planned.disturbance, planned.felt, std::min(kSwingsM, kTimesWander * reach())};
 }
 
 feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {

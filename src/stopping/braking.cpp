@@ -212,6 +212,16 @@ bool goesOnFrom(const trajectory::Sample& here, const Trajectory& stop,
   return std::abs(wrapAngle(psi - here.state[vessel::kPsi])) < kTurnRad;
 }
 
+// Beside the hull's outline where it comes to rest, m.
+double roomAtRest(const Trajectory& stop, const feasibility::Obstacles& obstacles,
+                  const vessel::Parameters& vessel) {
+  const double end = stop.duration();
+  const vessel::State rests = stop.sample(end, vessel).state;
+  return feasibility::outlineClearance(
+      vessel.hull, rests.head<2>(), rests[vessel::kPsi],
+      [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, end); });
+}
+
 // What it gets faster than it begins, m/s.
 double gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
   constexpr double kStepS = 0.1;
@@ -272,6 +282,17 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     }
     return false;
   };
+  // Clear, but for the hull's swinging at rest: the one with most room for it.
+  Braking cramped;
+  double cramped_room_m = -std::numeric_limits<double>::infinity();
+  const auto hasRoom = [&](Trajectory& candidate) {
+    const double room_m = stop.rest_room_m > 0.0 ? roomAtRest(candidate, ahead, vessel) : 0.0;
+    if (room_m < stop.rest_room_m && room_m > cramped_room_m) {
+      cramped_room_m = room_m;
+      cramped = {std::move(candidate), true, stop.clearance_m};
+    }
+    return room_m >= stop.rest_room_m;
+  };
   const bool under_way = here.flat.velocity.norm() > kUnderWayMps;
   if (!under_way) {
     Trajectory held = halt(sailed, at_s, vessel, stop.disturbance);
@@ -307,7 +328,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     }
     const bool own = k + 1 == candidates.count();
     if (keeps(candidate, own)) {
-      if (staysFree(candidate)) {
+      if (staysFree(candidate) && hasRoom(candidate)) {
         return {std::move(candidate), true, stop.clearance_m};
       }
       continue;
@@ -329,6 +350,9 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
       best_path_m = path_m;
       best_touch = touch;
     }
+  }
+  if (cramped.clear) {
+    return cramped;
   }
   for (Trajectory& candidate : faster) {
     if (keeps(candidate, false) && staysFree(candidate)) {

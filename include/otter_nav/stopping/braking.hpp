@@ -22,6 +22,9 @@ struct StopLimits {
   double hull_margin_m = 0.0;
   vessel::Disturbance disturbance = {};  // that the sailed trajectory was planned with
   vessel::Disturbance felt = {};         // and what it leans into besides
+  // At rest wind and waves swing a hull that has no thruster against them: a stop that ends with so
+  // much beside the outline is preferred.
+  double rest_room_m = 0.0;
 };
 
 // The quickest stop from `at_s` (s from the trajectory's start) that keeps to its limits and asks

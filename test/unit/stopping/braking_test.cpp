@@ -87,6 +87,33 @@ TEST(Braking, IsHardInFrontOfAWall) {
   EXPECT_TRUE(verify(stop.trajectory, field).ok);
 }
 
+// The usual stop would end clear, with a hand's breadth ahead of the bow, where waves would swing
+// the hull against the wall; a harder one leaves room for that. Where none does, the one that
+// leaves most is taken.
+TEST(Braking, LeavesRoomToSwingAtRest) {
+  map::OccupancyGrid grid = openWater();
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  const vessel::Parameters vessel;
+  const double bow = 0.5 * vessel.hull.length_m;
+  const Eigen::Vector2d here = sailed.flat(6.0).position;
+  const Braking usual = brakingTrajectory(sailed, 6.0, fieldOf(grid), vessel, {kClearanceM, 0.02});
+  const double way = usual.trajectory.flat(100.0).position.x() - here.x();
+  block(grid, {here.x() + way + bow + 0.3, -10.0}, {here.x() + way + 4.0, 10.0});
+  const map::DistanceField field = fieldOf(grid);
+  StopLimits limits = {kClearanceM, 0.02};
+  const auto room = [&] {
+    const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel, limits);
+    EXPECT_TRUE(stop.clear);
+    expectRest(stop.trajectory);
+    return field.clearance(stop.trajectory.flat(100.0).position) - bow;
+  };
+  const double least = room();
+  limits.rest_room_m = least + 0.3;
+  EXPECT_GE(room(), least + 0.29);
+  limits.rest_room_m = 100.0;
+  EXPECT_GT(room(), least + 0.3);
+}
+
 // The usual stop would end 11.8 m on, after 5.5 s; a disc comes over that place at 8 s.
 TEST(Braking, EndsWhereNothingComesOverIt) {
   const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
