@@ -16,16 +16,24 @@ constexpr std::array<int, 4> kNorth = {0, 1, 0, -1};
 
 }  // namespace
 
+Eigen::Vector2d Flood::corner(int x, int y) const {
+  const map::GridGeometry& g = field_->geometry();
+  return g.origin + g.resolution_m / parts_ * Eigen::Vector2d(x, y);
+}
+
+bool Flood::isClear(int x, int y) const {
+  return parts_ == 1 ? field_->cornerClearance(x, y) >= corner_clearance_m_
+                     : field_->isClear(corner(x, y), corner_clearance_m_);
+}
+
 void Flood::seed(Side& side, const Eigen::Vector2d& p, std::uint8_t mark) {
   const map::GridGeometry& g = field_->geometry();
   side.queue.clear();
   side.next = 0;
-  const Eigen::Vector2i cell = g.cellAt(p);
+  const Eigen::Vector2i cell = ((p - g.origin) / (g.resolution_m / parts_)).cast<int>();
   for (int y = std::max(0, cell.y() - 1); y <= std::min(rows_ - 1, cell.y() + 2); ++y) {
     for (int x = std::max(0, cell.x() - 1); x <= std::min(columns_ - 1, cell.x() + 2); ++x) {
-      const Eigen::Vector2d corner = g.origin + g.resolution_m * Eigen::Vector2d(x, y);
-      if (field_->cornerClearance(x, y) >= corner_clearance_m_ &&
-          map::segmentIsClear(*field_, p, corner, clearance_m_)) {
+      if (isClear(x, y) && map::segmentIsClear(*field_, p, corner(x, y), clearance_m_)) {
         const std::int32_t id = y * columns_ + x;
         if ((marks_[static_cast<std::size_t>(id)] & kSides) != 0) {
           meeting_start_ = id;
@@ -63,7 +71,7 @@ bool Flood::grow(Side& side, std::uint8_t mark) {
       meeting_goal_ = mark == kFromStart ? next : id;
       return true;
     }
-    if (field_->cornerClearance(nx, ny) >= corner_clearance_m_) {
+    if (isClear(nx, ny)) {
       seen = static_cast<std::uint8_t>(mark | k);
       side.queue.push_back(next);
     }
@@ -72,17 +80,18 @@ bool Flood::grow(Side& side, std::uint8_t mark) {
 }
 
 bool Flood::connects(const map::DistanceField& field, const Eigen::Vector2d& start,
-                     const Eigen::Vector2d& goal, double clearance_m) {
+                     const Eigen::Vector2d& goal, double clearance_m, int parts) {
   field_ = &field;
+  parts_ = parts;
   start_ = start;
   goal_ = goal;
   clearance_m_ = clearance_m;
   const map::GridGeometry& g = field.geometry();
   // Between two corners that keep this, all keeps the clearance.
-  corner_clearance_m_ =
-      std::sqrt(clearance_m * clearance_m + 0.25 * g.resolution_m * g.resolution_m);
-  columns_ = g.width + 1;
-  rows_ = g.height + 1;
+  const double step_m = g.resolution_m / parts;
+  corner_clearance_m_ = std::sqrt(clearance_m * clearance_m + 0.25 * step_m * step_m);
+  columns_ = parts * g.width + 1;
+  rows_ = parts * g.height + 1;
   marks_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
   meeting_start_ = -1;
   meeting_goal_ = -1;
@@ -97,11 +106,10 @@ bool Flood::connects(const map::DistanceField& field, const Eigen::Vector2d& sta
 }
 
 void Flood::collect(std::vector<Eigen::Vector2d>& path) const {
-  const map::GridGeometry& g = field_->geometry();
   path.clear();
   const auto trace = [&](std::int32_t id) {
     while (true) {
-      path.push_back(g.origin + g.resolution_m * Eigen::Vector2d(id % columns_, id / columns_));
+      path.push_back(corner(id % columns_, id / columns_));
       const std::uint8_t mark = marks_[static_cast<std::size_t>(id)];
       if ((mark & kSeed) != 0) {
         return;

@@ -88,7 +88,7 @@ bool GuidePathFinder::searchWhole(const map::DistanceField& field, double least_
     return true;
   }
   if (!ws.flood.connects(field, start.position, goal.position, least_m)) {
-    return false;
+    return searchFinely(field, least_m, start, goal);
   }
   query.max_expansions = kNoLimit;
   for (; query.block > 1; query.block /= 2) {
@@ -97,6 +97,23 @@ bool GuidePathFinder::searchWhole(const map::DistanceField& field, double least_
     }
   }
   ws.flood.collect(ws.best);
+  return true;
+}
+
+// Where the map's corners lead nowhere a channel may slant across the cells. Only where the map is
+// small: elsewhere it would take longer than a plan may.
+bool GuidePathFinder::searchFinely(const map::DistanceField& field, double least_m,
+                                   const Pose& start, const Pose& goal) {
+  constexpr int kParts = 4;
+  constexpr double kMostSteps = 1e6;
+  Workspace& ws = *workspace_;
+  const map::GridGeometry& g = field.geometry();
+  if (kParts * kParts * static_cast<double>(g.width) * g.height > kMostSteps ||
+      !ws.flood.connects(field, start.position, goal.position, least_m, kParts)) {
+    return false;
+  }
+  ws.flood.collect(ws.best);
+  ws.shortener.run(field, least_m, ws.best);
   return true;
 }
 

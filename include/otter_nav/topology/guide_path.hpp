@@ -79,6 +79,8 @@ class GuidePathFinder {
   struct Workspace;
   bool searchWhole(const map::DistanceField& field, double least_m, double clearance_m,
                    const Pose& start, const Pose& goal);
+  bool searchFinely(const map::DistanceField& field, double least_m, const Pose& start,
+                    const Pose& goal);
   void improve(const map::DistanceField& field, double clearance_m, const Pose& start,
                const Pose& goal);
 

@@ -167,5 +167,41 @@ TEST(TopologyOptions, ShippedFileHoldsTheDefaults) {
   EXPECT_EQ(config::toYaml(*options), config::toYaml(Options{}));
 }
 
+// A channel that slants across the cells: steps along these pass it only where it is several
+// centimetres wider than the clearance, in cells of 0.1 m.
+TEST(GuidePathFinder, PassesNarrowChannelsAtAnySlant) {
+  for (const double slope : {0.0, 0.2, 0.35, 0.5, 0.7, 1.0}) {
+    OccupancyGrid grid;
+    grid.geometry = {80, 80, 0.1, {-4.0, -4.0}};
+    grid.cells.assign(80UL * 80UL, Cell::kFree);
+    const Eigen::Vector2d along = Eigen::Vector2d(1.0, slope).normalized();
+    const Eigen::Vector2d side(-along.y(), along.x());
+    const auto offAxis = [&](const Eigen::Vector2d& p) {
+      return std::abs(side.dot(p - Eigen::Vector2d(0.03, 0.01)));
+    };
+    for (int row = 0; row < 80; ++row) {
+      for (int column = 0; column < 80; ++column) {
+        const Eigen::Vector2d p = grid.geometry.centreOf(column, row);
+        if (std::abs(p.x()) < 1.5 && offAxis(p) > 0.6) {
+          grid.cells[grid.geometry.index(column, row)] = Cell::kOccupied;
+        }
+      }
+    }
+    const map::DistanceField field(grid, {});
+    double room = std::numeric_limits<double>::infinity();
+    const auto onAxis = [&](double s) -> Eigen::Vector2d {
+      return Eigen::Vector2d(0.03, 0.01) + s * along;
+    };
+    for (double s = -2.2; s <= 2.2; s += 0.01) {
+      room = std::min(room, field.clearance(onAxis(s)));
+    }
+    GuidePathFinder finder({});
+    const double clearance = room - 0.02;
+    const auto path = finder.find(field, {onAxis(-2.2), 0.0}, {onAxis(2.2), 0.0}, clearance);
+    ASSERT_TRUE(path) << slope << ": " << path.error().message;
+    expectClear(field, *path, clearance - 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace otter_nav::topology
