@@ -304,8 +304,7 @@ template <typename Bow>
 void PieceCheck::checkLeaning(const Obstacles& obstacles, double start_s, const Bow& bow,
                               PieceReport& report) const {
   constexpr double kStepS = 0.05;
-  constexpr double kMarginM = 0.02;  // at most: waves are the planned attitude's to leave room for
-  const HullCover hull(limits_.hull, std::min(kMarginM, limits_.hull_margin_m));
+  const HullCover hull(limits_.hull, std::min(kLeaningMarginM, limits_.hull_margin_m));
   const int steps = partsOf(piece_.duration_s, kStepS, 2);
   double least_m = 0.0;
   for (int k = 0; k <= steps; ++k) {

@@ -11,6 +11,10 @@
 
 namespace otter_nav::feasibility {
 
+// What is kept beside the leaning outline, at most: waves are the planned attitude's to leave room
+// for.
+inline constexpr double kLeaningMarginM = 0.02;
+
 // Whether a hull leans into it by anything that counts.
 [[nodiscard]] bool leansInto(const vessel::Parameters& vessel, const vessel::Disturbance& felt);
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "otter_nav/feasibility/hull_cover.hpp"
+#include "otter_nav/feasibility/lean.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/rest.hpp"
@@ -52,9 +53,8 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   const feasibility::HullCover hull(safety.hull, safety.hull_margin_m);
   limits.hull_offset_m = hull.offset_m;
   limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
-  constexpr double kLeaningMarginM = 0.02;  // as it is verified
-  const feasibility::HullCover leaning(safety.hull,
-                                       std::min(kLeaningMarginM, safety.hull_margin_m));
+  const feasibility::HullCover leaning(
+      safety.hull, std::min(feasibility::kLeaningMarginM, safety.hull_margin_m));
   limits.leaning_clearance_m = leaning.radius_m + kHullMarginM + kSquareCells * cell_m;
   const double share = kThrustShare * safety.thrust_share * care.thrust_factor;
   limits.thrust_ahead_n = share * vessel.thrusters.ahead_max_n;
