@@ -89,7 +89,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
   limits.disturbance = planDisturbance();
   if (times_refused_ < kRefusedMost) {
-    limits.felt = lightLoad();
+    limits.felt = leansInto();
   }
   // What it wanders, as far as the level has room for it; half as much each time there was no plan.
   const double most = std::max(kWanderM, options_.side_clearances_m[levels_.level()]);
@@ -139,11 +139,15 @@ bool Safety::plansWithWeather() const {
   return mayPlanWithWeather() && weather_.isKnown() && vessel::isFirmLoad(vessel_, weather_.mean());
 }
 
+vessel::Disturbance Safety::leansInto() const {
+  return weather_.isKnown() && !plansWithWeather() ? weather_.mean() : vessel::Disturbance{};
+}
+
 vessel::Disturbance Safety::lightLoad() const {
-  const vessel::Disturbance& mean = weather_.mean();
-  const bool light = vessel::InverseDynamics(vessel_, mean).greatestLoadAbeam() <=
+  const vessel::Disturbance load = leansInto();
+  const bool light = vessel::InverseDynamics(vessel_, load).greatestLoadAbeam() <=
                      vessel::kRestMps * vessel_.manoeuvring.sway_drag_kgps;
-  return weather_.isKnown() && !plansWithWeather() && light ? mean : vessel::Disturbance{};
+  return light ? load : vessel::Disturbance{};
 }
 
 vessel::Disturbance Safety::planDisturbance() const {

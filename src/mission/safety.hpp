@@ -133,8 +133,9 @@ class Safety {
  private:
   // At less a light load from abeam turns a hull that keeps to its path by more than a little.
   [[nodiscard]] double leastPace() const;
-  // What the hull leans into on the way and plans are not made with: one in which it can lie on any
-  // heading.
+  // What the hull leans into on the way and plans are not made with.
+  [[nodiscard]] vessel::Disturbance leansInto() const;
+  // The same where it can lie on any heading in it.
   [[nodiscard]] vessel::Disturbance lightLoad() const;
   // Of the thrust, what waves take from plans on this level.
   [[nodiscard]] double waveShare() const;

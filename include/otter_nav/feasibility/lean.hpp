@@ -1,7 +1,7 @@
-// The attitude of a hull that keeps to a path in a light load from abeam. It has no thruster
-// against that: the tracker turns it until what pushes it along takes the load up, by more than
-// half a radian at a crawl. A plan for still water knows nothing of it, and its corners are where
-// it matters.
+// The attitude of a hull that keeps to a path in a load from abeam. It has no thruster against
+// that: the tracker turns it until what pushes it along takes the load up, in a light one by more
+// than half a radian at a crawl, in strong wind nearly to the bow into it. A plan for still water
+// knows nothing of it, and its corners are where it matters.
 #pragma once
 
 #include <Eigen/Core>

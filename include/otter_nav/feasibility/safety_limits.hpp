@@ -40,7 +40,7 @@ struct SafetyLimits {
   // What the thrusters work against besides, all along: every demand of a plan is made and verified
   // with it (docs/planner.md).
   vessel::Disturbance disturbance;
-  // A light load that the plan is not made with. Under way the tracked hull leans into it, the more
+  // A load that the plan is not made with. Under way the tracked hull leans into it, the more
   // the less pushes it along its path; near obstacles it keeps clear in that attitude too
   // (feasibility/lean.hpp).
   vessel::Disturbance felt;

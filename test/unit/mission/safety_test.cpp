@@ -131,6 +131,20 @@ TEST(Safety, SailsNoSlowerThanALightWindFromAbeamAllows) {
   }
 }
 
+// Strong wind lays the hull across its way.
+TEST(Safety, PlansKnowWhatTheHullLeansIntoInStrongWindToo) {
+  vessel::Parameters vessel;
+  vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  Safety safety(SupervisorOptions{}, vessel);
+  vessel::Disturbance weather;
+  weather.wind_mps = {0.0, 8.0};
+  for (int k = 0; k < 50; ++k) {
+    safety.feel(0.1 * k, weather);
+  }
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).felt.wind_mps.y(), 8.0, 0.1);
+}
+
 // In the first seconds under way nobody knows how far it wanders.
 TEST(Safety, ReckonsWithWanderingInUnknownWater) {
   Safety safety(SupervisorOptions{}, vessel::Parameters{});
