@@ -36,7 +36,7 @@ struct SplineLimits {
   double clearance_m = 0.0;          // by Obstacles::smooth, of the hull's centre
   double hull_offset_m = 0.0;        // of two circles ahead and astern of it; 0: not watched
   double hull_clearance_m = 0.0;     // of those circles' centres
-  double leaning_clearance_m = 0.0;  // the same of a hull that leans into a light load
+  double leaning_clearance_m = 0.0;  // the same of the hull as it leans
   double thrust_ahead_n = 0.0;       // per side
   double thrust_astern_n = 0.0;
   double speed_mps = 0.0;
@@ -54,7 +54,7 @@ struct Targets {
   // Not owned; null: no such term.
   const feasibility::Obstacles* obstacles = nullptr;
   const Originals* originals = nullptr;
-  const vessel::InverseDynamics* leaning = nullptr;  // a light load that isn't planned with
+  const vessel::InverseDynamics* leaning = nullptr;  // into a load that isn't planned with
   // Of each thruster's limits, kept back for what the objective's model leaves out; one a
   // quadrature point of each piece, or empty.
   std::vector<std::array<double, trajectory::kLobattoPoints>> kept_n;

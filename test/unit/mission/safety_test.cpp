@@ -100,11 +100,16 @@ TEST(Safety, CrawlsInUnknownWaterWhereItWanders) {
   EXPECT_EQ(limits().speed_max_mps, fast);
 }
 
-// Slower than a light wind allows, a hull would sail half across its way; so it crawls no slower.
-TEST(Safety, SailsNoSlowerThanALightWindFromAbeamAllows) {
+vessel::Parameters feelingWind() {
   vessel::Parameters vessel;
   vessel.manoeuvring.wind_surge_kgpm = 0.5;
   vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  return vessel;
+}
+
+// Slower than a light wind allows, a hull would sail half across its way; so it crawls no slower.
+TEST(Safety, SailsNoSlowerThanALightWindFromAbeamAllows) {
+  const vessel::Parameters vessel = feelingWind();
   for (const double wind_mps : {0.0, 3.0}) {
     Safety safety(SupervisorOptions{}, vessel);
     safety.inUnknownWater(true);
@@ -133,9 +138,7 @@ TEST(Safety, SailsNoSlowerThanALightWindFromAbeamAllows) {
 
 // Strong wind lays the hull across its way.
 TEST(Safety, PlansKnowWhatTheHullLeansIntoInStrongWindToo) {
-  vessel::Parameters vessel;
-  vessel.manoeuvring.wind_surge_kgpm = 0.5;
-  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  const vessel::Parameters vessel = feelingWind();
   Safety safety(SupervisorOptions{}, vessel);
   vessel::Disturbance weather;
   weather.wind_mps = {0.0, 8.0};

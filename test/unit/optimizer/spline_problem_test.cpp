@@ -96,6 +96,26 @@ TEST_F(SplineProblemTest, GradientIsThatOfTheCost) {
   }
 }
 
+TEST_F(SplineProblemTest, GradientOfALeaningHullIsThatOfTheCost) {
+  vessel::Disturbance felt;
+  felt.force_n = {3.0, -4.0};
+  const vessel::InverseDynamics leaning(vessel::Parameters(), felt);
+  Random random(7);
+  const Spline spline = bentSpline(random);
+  problem.targets.limits.leaning_clearance_m = 1.8;
+  const double upright = problem.evaluate(spline, nullptr);
+  problem.targets.leaning = &leaning;
+  System system;
+  EXPECT_GT(problem.evaluate(spline, &system), upright + 1.0);
+  for (std::size_t k = 1; k + 1 < spline.knots.size(); ++k) {
+    for (int row = 0; row < kBlockSize; ++row) {
+      const double slope = slopeOfTheCost(spline, k, row);
+      EXPECT_NEAR(system.right[k][row], -slope, 1e-4 * (1.0 + std::abs(slope)))
+          << "knot " << k << " row " << row;
+    }
+  }
+}
+
 TEST_F(SplineProblemTest, GradientOfAnEndThatMovesWithItsManoeuvreIsThatOfTheCost) {
   Random random(13);
   Spline spline = bentSpline(random);

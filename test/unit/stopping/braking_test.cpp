@@ -114,6 +114,26 @@ TEST(Braking, LeavesRoomToSwingAtRest) {
   EXPECT_GT(room(), least + 0.3);
 }
 
+// Between walls that the planned hull keeps clear of, and leaning into a wind from abeam doesn't.
+TEST(Braking, KeepsTheLeaningHullClear) {
+  map::OccupancyGrid grid = openWater();
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, 1.5);
+  const Eigen::Vector2d here = sailed.flat(10.0).position;
+  for (const double side : {-1.0, 1.0}) {
+    const double y = here.y() + 1.3 * side;
+    block(grid, {here.x() + 1.2, y - 0.5}, {here.x() + 12.0, y + 0.5});
+  }
+  const map::DistanceField field = fieldOf(grid);
+  vessel::Parameters vessel;
+  vessel.manoeuvring = vessel::ManoeuvringModel::fromPaper(vessel.paper);
+  vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  StopLimits limits = {0.6, 0.02};
+  EXPECT_TRUE(brakingTrajectory(sailed, 10.0, field, vessel, limits).clear);
+  limits.felt.wind_mps = {0.0, 3.0};
+  EXPECT_FALSE(brakingTrajectory(sailed, 10.0, field, vessel, limits).clear);
+}
+
 // The usual stop would end 11.8 m on, after 5.5 s; a disc comes over that place at 8 s.
 TEST(Braking, EndsWhereNothingComesOverIt) {
   const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);

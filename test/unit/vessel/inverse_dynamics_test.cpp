@@ -274,14 +274,19 @@ TEST(SwayHeading, NeedsNoForceFromTheSideAlongACircle) {
   }
 }
 
-// Slow across a wind whose load abeam goes with the square of what comes from there: the bow stays
-// near the wind, from whichever side it comes, though right in it nothing is firm to the first
-// order.
-TEST(SwayHeading, StaysNearTheWindThroughItsEye) {
+Parameters feelingWind() {
   Parameters vessel;
   vessel.manoeuvring = ManoeuvringModel::fromPaper(vessel.paper);
   vessel.manoeuvring.wind_surge_kgpm = 0.5;
   vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  return vessel;
+}
+
+// Slow across a wind whose load abeam goes with the square of what comes from there: the bow stays
+// near the wind, from whichever side it comes, though right in it nothing is firm to the first
+// order.
+TEST(SwayHeading, StaysNearTheWindThroughItsEye) {
+  const Parameters vessel = feelingWind();
   Disturbance weather;
   weather.wind_mps = {-8.0, 0.0};
   for (const double speed : {0.3, 0.6}) {
@@ -304,10 +309,7 @@ TEST(SwayHeading, StaysNearTheWindThroughItsEye) {
 // At the ends of a short leg the path says next to nothing of the heading. In a wind in which the
 // hull can lie on its own it isn't turned into it, however firm that would be.
 TEST(SwayHeading, KeepsThePathsWhereTheHullCanLieOnIt) {
-  Parameters vessel;
-  vessel.manoeuvring = ManoeuvringModel::fromPaper(vessel.paper);
-  vessel.manoeuvring.wind_surge_kgpm = 0.5;
-  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  const Parameters vessel = feelingWind();
   Disturbance weather;
   weather.wind_mps = {0.0, 3.0};
   for (double psi = -3.0; psi <= 3.0; psi += 0.25) {
