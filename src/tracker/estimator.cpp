@@ -27,6 +27,8 @@ constexpr double kForceSigmaNpm2 = 10.0 / 2.16;
 constexpr double kForceSigmaBesideCurrentNpm2 = 5.0 / 2.16;
 constexpr double kMomentWalkNpm2 = 10.0 / 4.32;
 constexpr double kMomentWalkInWindNpm2 = 2.0 / 4.32;  // what the wind's own moment leaves
+// Of the moment's walk, where the water that turns the hull is known.
+constexpr double kMomentWalkInWater = 0.3;
 constexpr double kMomentSigmaNpm2 = 5.0 / 4.32;
 constexpr double kForceMostNpm2 = 80.0 / 2.16;  // more is not believed
 constexpr double kMomentMostNpm2 = 60.0 / 4.32;
@@ -67,11 +69,8 @@ using vessel::kSurge;
 using vessel::kSway;
 using vessel::kYawRate;
 
-Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel)
-    : options_(options),
-      length_m_(vessel.hull.length_m),
-      model_(vessel.manoeuvring),
-      thrusters_(vessel.thrusters) {
+Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel, Waves waves)
+    : options_(options), waves_(waves), vessel_(vessel), model_(vessel.manoeuvring) {
   const auto& o = options_;
   measurement_variance_ << o.position_sigma_m, o.position_sigma_m, o.heading_sigma_rad,
       o.velocity_sigma_mps, o.velocity_sigma_mps, o.yaw_rate_sigma_radps;
@@ -82,8 +81,10 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   force_most_n_ = kForceMostNpm2 * area_m2;
   moment_most_nm_ = kMomentMostNpm2 * area_moment_m3;
   const double force_walk = kForceWalkNpm2 * area_m2;
-  const double moment_walk =
-      (model_.feelsWind() ? kMomentWalkInWindNpm2 : kMomentWalkNpm2) * area_moment_m3;
+  const bool in_water = waves_ == Waves::kInTheWater;
+  const double moment_walk = (in_water ? kMomentWalkInWater : 1.0) *
+                             (model_.feelsWind() ? kMomentWalkInWindNpm2 : kMomentWalkNpm2) *
+                             area_moment_m3;
   if (model_.feelsWind()) {
     moment_fade_per_s_ = 1.0 / kMomentFadesInWindS;
   }
@@ -92,13 +93,17 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   if (current_walk > 0.0) {
     current_fade_per_s_ = 1.0 / kCurrentFadesS;
   }
-  walk_variance_ << 0.0, 0.0, 0.0, kVelocityWalkMps, kVelocityWalkMps, kYawRateWalkRadps,
-      force_walk, force_walk, moment_walk, current_walk, current_walk, kWindWalkM2ps2,
-      kWindWalkM2ps2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  walk_variance_.setZero();
+  walk_variance_.head<kWave>() << 0.0, 0.0, 0.0, kVelocityWalkMps, kVelocityWalkMps,
+      kYawRateWalkRadps, force_walk, force_walk, moment_walk, current_walk, current_walk,
+      kWindWalkM2ps2, kWindWalkM2ps2;
   walk_variance_ = walk_variance_.cwiseAbs2().eval();
   least_walk_variance_ = walk_variance_.segment<3>(kSurge);
   wave_rate_variance_ =
       Eigen::Vector3d(o.wave_velocity_mps, o.wave_velocity_mps, o.wave_yaw_rate_radps).cwiseAbs2();
+  if (in_water) {
+    wave_rate_variance_.head<2>().setZero();
+  }
   const double force_sigma =
       (current_walk > 0.0 ? kForceSigmaBesideCurrentNpm2 : kForceSigmaNpm2) * area_m2;
   if (o.enabled) {
@@ -120,14 +125,19 @@ void Estimator::reset(const vessel::State& measured) {
   covariance_.topRows<6>().setZero();
   covariance_.leftCols<6>().setZero();
   covariance_.diagonal().head<6>() = measurement_variance_;
-  covariance_.bottomRows<6>().setZero();
-  covariance_.rightCols<6>().setZero();
+  constexpr int kOfWaves = kSize - kWave;
+  covariance_.bottomRows<kOfWaves>().setZero();
+  covariance_.rightCols<kOfWaves>().setZero();
   correction_.setZero();
   wave_.setZero();
   wave_rate_.setZero();
   const double w = wave_frequency_.radps();
   covariance_.diagonal().segment<3>(kWaveRate) = wave_rate_variance_;
   covariance_.diagonal().segment<3>(kWave) = wave_rate_variance_ / (w * w);
+  water_.reset();
+  if (waves_ == Waves::kInTheWater) {
+    covariance_.diagonal().segment<OrbitalMotion::kSize>(kWater) = water_.variance();
+  }
 }
 
 // A driven oscillator's velocity has the variance intensity / (4 damping frequency).
@@ -159,7 +169,7 @@ vessel::State Estimator::innovation(const vessel::State& measured) const {
 }
 
 double Estimator::sailingShare() const {
-  const double pace = std::abs(state_[kSurge]) / length_m_;
+  const double pace = std::abs(state_[kSurge]) / vessel_.hull.length_m;
   const double x = std::clamp((pace - kCrawlingPerS) / (kSailingPerS - kCrawlingPerS), 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
 }
@@ -206,8 +216,10 @@ Eigen::Matrix<double, 3, 2> Estimator::fromWind() const {
 
 // I + dt * Jacobian: over 10 ms the next order is below the noise.
 Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, double dt_s) const {
+  vessel::Disturbance with_water = disturbance_;
+  with_water.current_mps += water_.at(0.0).velocity_mps;
   const vessel::Linearization l =
-      vessel::linearize(state_, thrusts, model_, thrusters_, disturbance_);
+      vessel::linearize(state_, thrusts, model_, vessel_.thrusters, with_water);
   Eigen::Matrix2d body_from_earth;
   const double c = std::cos(state_[kPsi]);
   const double s = std::sin(state_[kPsi]);
@@ -227,6 +239,14 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   f.block<3, 3>(kWave, kWaveRate).diagonal().setConstant(dt_s);
   f.block<3, 3>(kWaveRate, kWave).diagonal().setConstant(-dt_s * w * w);
   f.block<3, 3>(kWaveRate, kWaveRate).diagonal().array() -= 2.0 * dt_s * kWaveDamping * w;
+  if (waves_ == Waves::kInTheWater) {
+    constexpr int kOfWater = OrbitalMotion::kSize;
+    f.block<3, kOfWater>(kSurge, kWater) =
+        dt_s * l.current_jacobian * OrbitalMotion::velocitySlope();
+    f.block<2, kOfWater>(kSurge, kWater) +=
+        dt_s * body_from_earth * OrbitalMotion::accelerationSlope();
+    f.block<kOfWater, kOfWater>(kWater, kWater) = OrbitalMotion::transition(dt_s);
+  }
   return f;
 }
 
@@ -244,6 +264,12 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   // At speed nothing is taken for waves: told apart from the vessel's own motion they would only
   // come late to what is steered against.
   covariance_.diagonal().segment<3>(kWaveRate) += dt_s * (1.0 - sailingShare()) * waveDrive();
+  const WaterMotion water = water_.at(0.5 * dt_s);
+  if (waves_ == Waves::kInTheWater) {
+    auto variance = covariance_.diagonal().segment<OrbitalMotion::kSize>(kWater);
+    water_.advance(dt_s, variance);
+    variance += dt_s * water_.drive();
+  }
   disturbance_.force_n *= 1.0 - dt_s * force_fade_per_s_;
   disturbance_.moment_nm *= 1.0 - dt_s * moment_fade_per_s_;
   disturbance_.current_mps *= 1.0 - dt_s * current_fade_per_s_;
@@ -253,7 +279,7 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   wave_ += dt_s * wave_rate_;
   state_ = rk4Step(
       [&](double, const vessel::State& x) {
-        return vessel::stateDerivative(x, thrusts, model_, thrusters_, disturbance_);
+        return derivativeInWater(x, thrusts, vessel_, disturbance_, water);
       },
       0.0, state_, dt_s);
 }
@@ -272,6 +298,9 @@ void Estimator::update(const vessel::State& measured) {
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
   wave_ += step.segment<3>(kWave);
   wave_rate_ += step.segment<3>(kWaveRate);
+  if (waves_ == Waves::kInTheWater) {
+    water_.add(step.segment<OrbitalMotion::kSize>(kWater));
+  }
   state_ += step.head<6>();
   learnWalk(step.segment<3>(kSurge));
   if (options_.enabled) {
@@ -296,8 +325,9 @@ void Estimator::learnWalk(const Eigen::Vector3d& step) {
   correction_intensity_ +=
       std::min(1.0, predicted_s_ / kMemoryS) * (intensity - correction_intensity_);
   // At crawling pace the waves have states of their own.
+  const double share = waves_ == Waves::kInTheWater ? 1.0 : sailingShare();
   walk_variance_.segment<3>(kSurge) =
-      (sailingShare() * kWalkShare * correction_intensity_).cwiseMax(least_walk_variance_);
+      (share * kWalkShare * correction_intensity_).cwiseMax(least_walk_variance_);
   predicted_s_ = 0.0;
 }
 

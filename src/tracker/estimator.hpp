@@ -6,6 +6,9 @@
 // both: over a prediction of seconds they act alike. In waves the model leaves more open than in
 // calm water; how much is learned from how the filter has to correct the velocities
 // (docs/tracker.md).
+//
+// Waves are either a motion on top of the hull's own, which is how a hull at rest is best left to
+// swing with them, or one of the water that takes the hull along, which can be foreseen.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +16,17 @@
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "tracker/orbital_motion.hpp"
 #include "tracker/wave_frequency.hpp"
 
 namespace otter_nav::tracker {
 
+enum class Waves { kOnTop, kInTheWater };
+
 class Estimator {
  public:
-  Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel);
+  Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel,
+            Waves waves = Waves::kOnTop);
 
   // Starts at a measured state; keeps what is known of the disturbance.
   void reset(const vessel::State& measured);
@@ -37,6 +44,12 @@ class Estimator {
   [[nodiscard]] const vessel::Disturbance& disturbance() const { return disturbance_; }
   // The same with its covariance; that of the wind, whose state is another, to first order.
   [[nodiscard]] vessel::DisturbanceEstimate disturbanceEstimate() const;
+  // Beside the current; nothing unless waves are in the water.
+  [[nodiscard]] const OrbitalMotion& water() const { return water_; }
+  // Current and force are told apart.
+  [[nodiscard]] bool estimatesCurrent() const { return current_fade_per_s_ > 0.0; }
+  // From 0 at crawling pace to 1 at speed.
+  [[nodiscard]] double sailingShare() const;
   // measured minus estimate, heading in [-pi, pi].
   [[nodiscard]] vessel::State innovation(const vessel::State& measured) const;
 
@@ -46,7 +59,8 @@ class Estimator {
   static constexpr int kForce = 6, kMoment = 8, kCurrent = 9, kWind = 11;
   // Motion with the waves, x, y, psi, and its rates: an oscillator each, driven by noise (Fossen
   // 2021, section 13.3).
-  static constexpr int kWave = 13, kWaveRate = 16, kSize = 19;
+  static constexpr int kWave = 13, kWaveRate = 16;
+  static constexpr int kWater = 19, kSize = kWater + OrbitalMotion::kSize;
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
 
   // What odometry shows of the state vector.
@@ -54,8 +68,6 @@ class Estimator {
   [[nodiscard]] Covariance transition(const vessel::Thrusts& thrusts, double dt_s) const;
   // Of surge, sway and yaw acceleration over q.
   [[nodiscard]] Eigen::Matrix<double, 3, 2> fromWind() const;
-  // From 0 at crawling pace to 1 at speed.
-  [[nodiscard]] double sailingShare() const;
   // What drives the waves' oscillators, per second, at the frequency known now.
   [[nodiscard]] Eigen::Vector3d waveDrive() const;
   // Of surge, sway and yaw rate, by what an update changed them by.
@@ -63,9 +75,9 @@ class Estimator {
   void limit();
 
   EstimatorOptions options_;
-  double length_m_;
+  Waves waves_;
+  vessel::Parameters vessel_;
   vessel::ManoeuvringModel model_;
-  vessel::Thrusters thrusters_;
   vessel::State state_ = vessel::State::Zero();
   vessel::Disturbance disturbance_;
   Eigen::Vector2d wind_pressure_ = Eigen::Vector2d::Zero();  // q, m^2/s^2
@@ -73,6 +85,7 @@ class Estimator {
   Eigen::Vector3d wave_rate_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d wave_rate_variance_;
   WaveFrequency wave_frequency_;
+  OrbitalMotion water_;
   Covariance covariance_ = Covariance::Zero();
   vessel::State measurement_variance_;
   double force_most_n_;

@@ -12,6 +12,18 @@ namespace {
 constexpr double kJumpM = 1.0;
 constexpr double kJumpRad = 0.5;
 constexpr double kBelieveJumpAfterS = 0.3;
+// Under way, until the waves are told from the current; and how soon that is out of date at
+// crawling pace, where a hull is left to swing with them.
+constexpr double kSeawayAfterS = 8.0;
+constexpr double kSeawayComesS = 2.0;
+constexpr double kSeawayFades = 0.3;  // s a second
+
+void blend(double share, const vessel::Disturbance& other, vessel::Disturbance& d) {
+  d.force_n += share * (other.force_n - d.force_n);
+  d.moment_nm += share * (other.moment_nm - d.moment_nm);
+  d.wind_mps += share * (other.wind_mps - d.wind_mps);
+  d.current_mps += share * (other.current_mps - d.current_mps);
+}
 
 }  // namespace
 
@@ -19,7 +31,10 @@ Navigator::Navigator(const Options& options, const vessel::Parameters& vessel)
     : options_(options.odometry),
       period_s_(options.period_s),
       vessel_(vessel),
-      estimator_(options.estimator, vessel) {}
+      estimator_(options.estimator, vessel),
+      seaway_(options.estimator, vessel, Waves::kInTheWater),
+      foresees_waves_(options.estimator.enabled && options.estimator.wave_velocity_mps > 0.0 &&
+                      estimator_.estimatesCurrent()) {}
 
 void Navigator::addCommand(double stamp_s, const vessel::Thrusts& thrusts) {
   sent_[static_cast<std::size_t>(sent_count_ % kHistory)] = {stamp_s, thrusts};
@@ -77,6 +92,24 @@ bool Navigator::believable(double stamp_s, const vessel::State& state) {
   return stamp_s - jump_since_s_ >= kBelieveJumpAfterS;
 }
 
+void Navigator::reset(const vessel::State& measured) {
+  estimator_.reset(measured);
+  seaway_.reset(measured);
+  under_way_s_ = 0.0;
+  jumping_ = false;
+}
+
+void Navigator::weighSeaway(double since_s) {
+  disturbance_ = estimator_.disturbance();
+  if (!foresees_waves_) {
+    return;
+  }
+  const double gained = estimator_.sailingShare() > 0.0 ? since_s : -kSeawayFades * since_s;
+  under_way_s_ = std::clamp(under_way_s_ + gained, 0.0, kSeawayAfterS + kSeawayComesS);
+  seaway_share_ = std::max(0.0, (under_way_s_ - kSeawayAfterS) / kSeawayComesS);
+  blend(seaway_share_, seaway_.disturbance(), disturbance_);
+}
+
 void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
   if (!std::isfinite(stamp_s) || !state.allFinite()) {
     reason_ = "odometry is not finite";
@@ -86,7 +119,7 @@ void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
   if (!started_) {
     started_ = true;
     stamp_s_ = stamp;
-    estimator_.reset(state);
+    reset(state);
     reason_ = {};
     return;
   }
@@ -98,22 +131,28 @@ void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
   if (!gap) {
     forEachPiece(stamp, acting_, [&](const vessel::Thrusts& thrusts, double dt) {
       estimator_.predict(thrusts, dt);
+      if (foresees_waves_) {
+        seaway_.predict(thrusts, dt);
+      }
     });
   }
+  const double since = stamp - stamp_s_;
   stamp_s_ = stamp;
   if (gap) {
-    jumping_ = false;
-    estimator_.reset(state);
+    reset(state);
   } else if (believable(stamp, state)) {
     if (jumping_) {
-      estimator_.reset(state);
-      jumping_ = false;
+      reset(state);
     }
     estimator_.update(state);
+    if (foresees_waves_) {
+      seaway_.update(state);
+    }
   } else {
     reason_ = "odometry jumps";
     return;
   }
+  weighSeaway(since);
   reason_ = {};
 }
 
@@ -130,17 +169,30 @@ Fix Navigator::fix(double now_s) const {
 
 vessel::State Navigator::predict(double time_s) const {
   vessel::State x = estimator_.steered();
+  x += seaway_share_ * (seaway_.steered() - x);
   vessel::Thrusts acting = acting_;
   const double until = std::min(time_s, stamp_s_ + 5.0);
+  double t = stamp_s_;
   forEachPiece(until, acting, [&](const vessel::Thrusts& thrusts, double dt) {
+    const WaterMotion moved = water(t + 0.5 * dt);
     x = rk4Step(
         [&](double, const vessel::State& y) {
-          return vessel::stateDerivative(y, thrusts, vessel_.manoeuvring, vessel_.thrusters,
-                                         estimator_.disturbance());
+          return derivativeInWater(y, thrusts, vessel_, disturbance_, moved);
         },
         0.0, x, dt);
+    t += dt;
   });
   return x;
+}
+
+WaterMotion Navigator::water(double time_s) const {
+  if (seaway_share_ == 0.0) {
+    return {};
+  }
+  WaterMotion water = seaway_.water().at(time_s - stamp_s_);
+  water.velocity_mps *= seaway_share_;
+  water.acceleration_mps2 *= seaway_share_;
+  return water;
 }
 
 }  // namespace otter_nav::tracker

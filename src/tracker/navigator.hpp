@@ -31,7 +31,9 @@ class Navigator {
   [[nodiscard]] Fix fix(double now_s) const;
   // The state at `time_s`, psi continuous, thrusts following the last command.
   [[nodiscard]] vessel::State predict(double time_s) const;
-  [[nodiscard]] const vessel::Disturbance& disturbance() const { return estimator_.disturbance(); }
+  [[nodiscard]] const vessel::Disturbance& disturbance() const { return disturbance_; }
+  // How waves will move the water, beside the current: still as long as it isn't foreseen.
+  [[nodiscard]] WaterMotion water(double time_s) const;
   [[nodiscard]] vessel::DisturbanceEstimate disturbanceEstimate() const {
     return estimator_.disturbanceEstimate();
   }
@@ -50,11 +52,21 @@ class Navigator {
   template <typename Step>
   void forEachPiece(double until_s, vessel::Thrusts& acting, Step step) const;
   [[nodiscard]] bool believable(double stamp_s, const vessel::State& state);
+  void reset(const vessel::State& measured);
+  // After `since_s` under what was felt last.
+  void weighSeaway(double since_s);
 
   OdometryOptions options_;
   double period_s_;
   vessel::Parameters vessel_;
   Estimator estimator_;
+  // The same with waves in the water: what is steered by under way, once it had time to tell them
+  // from the current.
+  Estimator seaway_;
+  bool foresees_waves_;
+  double under_way_s_ = 0.0;
+  double seaway_share_ = 0.0;
+  vessel::Disturbance disturbance_;
   vessel::Thrusts acting_ = vessel::Thrusts::Zero();
   double stamp_s_ = 0.0;
   bool started_ = false;

@@ -101,6 +101,11 @@ void PredictiveController::start(bool keep_plan) {
 void PredictiveController::prepareFor(double start_s, double psi_rad, const vessel::Thrusts& last,
                                       const Navigator& navigator, ReferenceSource& source) {
   solver_.setDisturbance(navigator.disturbance());
+  std::array<WaterMotion, kMaxStages> water;
+  for (int k = 0; k < stages_; ++k) {
+    water[static_cast<std::size_t>(k)] = navigator.water(start_s + (k + 0.5) * prediction_.step_s);
+  }
+  solver_.setWater(water);
   solver_.limitRates(last, thrust_rate_nps_);
   source.fill(start_s, prediction_.step_s, stages_, psi_rad, navigator.disturbance(), reference_);
   corridor_.feel(start_s, navigator.disturbance().wind_mps);

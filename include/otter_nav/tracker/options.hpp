@@ -64,7 +64,7 @@ struct EstimatorOptions {
     fields("current_walk_mps", o.current_walk_mps, kNotNegative,
            "per sqrt(s), for hulls whose drag ahead and abeam differ; 0: the force carries it");
     fields("wave_velocity_mps", o.wave_velocity_mps, kNotNegative,
-           "of motion with the waves, which the propellers leave alone at crawling pace; 0: none");
+           "of motion with the waves, left alone at crawling pace and foreseen under way; 0: none");
     fields("wave_yaw_rate_radps", o.wave_yaw_rate_radps, kNotNegative, "of the same");
   }
 };

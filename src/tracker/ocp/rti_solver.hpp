@@ -35,6 +35,7 @@ class RtiSolver {
             const vessel::ManoeuvringModel& model, const vessel::Thrusters& thrusters);
 
   void setDisturbance(const vessel::Disturbance& disturbance);
+  void setWater(const std::array<WaterMotion, kMaxStages>& water) { model_.setWater(water); }
   void setWeights(const OcpWeights& weights) { problem_.setWeights(weights); }
   void limitRates(const vessel::Thrusts& acting, double rate_nps);  // see ControlProblem
   // Start from the reference (clamped to the bounds).

@@ -27,8 +27,26 @@ struct StageModel::Sensitivity {
   Pack x[kColumns], y[kColumns], q[4][kColumns];
 };
 
+// Velocity and acceleration, earth frame.
+struct StageModel::Water {
+  Pack x, y, x_rate, y_rate;
+};
+
+StageModel::Water StageModel::waterOf(const int (&index)[kLanes]) const {
+  Water water;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const WaterMotion& moved = water_[static_cast<std::size_t>(index[lane])];
+    water.x[lane] = moved.velocity_mps.x();
+    water.y[lane] = moved.velocity_mps.y();
+    water.x_rate[lane] = moved.acceleration_mps2.x();
+    water.y_rate[lane] = moved.acceleration_mps2.y();
+  }
+  return water;
+}
+
 // The law on dual numbers: what it does not depend on costs nothing.
-void StageModel::differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, Derivative& d) const {
+void StageModel::differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, const Water& water,
+                               Derivative& d) const {
   sinCos(q[kRowPsi], d.sine, d.cosine);
   const vessel::Turned<kRowPsi, Pack> psi(d.cosine, d.sine);
   const auto u = variable<kRowU>(q[kRowU]);
@@ -36,15 +54,17 @@ void StageModel::differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, De
   const auto r = variable<kRowR>(q[kRowR]);
   const Eigen::Vector2d& current = disturbance_.current_mps;
   const auto position = vessel::positionRate(psi.cosine, psi.sine, u, v);
-  const auto acceleration =
-      vessel::bodyAcceleration(model_, mobility_, psi.cosine, psi.sine,
-                               vessel::outsideForce(psi.cosine, psi.sine, model_, disturbance_),
-                               current.x(), current.y(), u, v, r, surge_n, yaw_nm);
+  const auto acceleration = vessel::bodyAcceleration(
+      model_, mobility_, psi.cosine, psi.sine,
+      vessel::outsideForce(psi.cosine, psi.sine, model_, disturbance_), current.x() + water.x,
+      current.y() + water.y, u, v, r, surge_n, yaw_nm);
+  const auto taken_ahead = vessel::aheadPart(psi.cosine, psi.sine, water.x_rate, water.y_rate);
+  const auto taken_to_port = vessel::portPart(psi.cosine, psi.sine, water.x_rate, water.y_rate);
   d.rate[0] = position.x.value;
   d.rate[1] = position.y.value;
   d.rate[2] = q[kRowR];
-  d.rate[3] = acceleration.surge.value;
-  d.rate[4] = acceleration.sway.value;
+  d.rate[3] = acceleration.surge.value + taken_ahead.value;
+  d.rate[4] = acceleration.sway.value + taken_to_port.value;
   d.rate[5] = acceleration.yaw.value;
   d.x_psi = slope<kRowPsi>(position.x);
   d.y_psi = slope<kRowPsi>(position.y);
@@ -57,6 +77,8 @@ void StageModel::differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, De
   setRow(acceleration.surge, d.u);
   setRow(acceleration.sway, d.v);
   setRow(acceleration.yaw, d.r);
+  d.u[kRowPsi] += slope<kRowPsi>(taken_ahead);
+  d.v[kRowPsi] += slope<kRowPsi>(taken_to_port);
   if (finite_turn_rad_ > 0.0 && model_.wind_sway_kgpm != 0.0) {
     d.v[kRowPsi] += bowInWind(d.cosine, d.sine);
   }
@@ -134,6 +156,7 @@ void StageModel::linearize(const vessel::State* states, const vessel::Thrusts* t
       start[row] = gather(states, index, row);
     }
 
+    const Water water = waterOf(index);
     Derivative d;
     Sensitivity rate;
     Sensitivity sum{};
@@ -149,7 +172,7 @@ void StageModel::linearize(const vessel::State* states, const vessel::Thrusts* t
           s.q[row][c] = k == 0 ? unit : unit + node * rate.q[row][c];
         }
       }
-      differentiate(q, surge_n, yaw_nm, d);
+      differentiate(q, surge_n, yaw_nm, water, d);
       propagate(d, s, rate);
       const double weight = kWeights[k] * step_s;
       for (int row = 0; row < 6; ++row) {

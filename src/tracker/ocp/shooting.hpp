@@ -2,9 +2,13 @@
 // (paper, equation 7), four stages at a time.
 #pragma once
 
+#include <array>
+
+#include "otter_nav/tracker/options.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 #include "otter_nav/vessel/types.hpp"
+#include "tracker/orbital_motion.hpp"
 #include "tracker/qp/riccati.hpp"
 
 namespace otter_nav::tracker {
@@ -21,6 +25,8 @@ class StageModel {
         lever_m_(thrusters.lever_arm_m),
         finite_turn_rad_(finite_turn_rad) {}
   void setDisturbance(const vessel::Disturbance& disturbance) { disturbance_ = disturbance; }
+  // How waves move the water over each stage.
+  void setWater(const std::array<WaterMotion, kMaxStages>& water) { water_ = water; }
 
   // Stages 0 to `count` - 1 from `states` (count + 1) and `thrusts` (count); step in s. `stages`
   // has room for `count` rounded up to a multiple of kLanes.
@@ -30,7 +36,10 @@ class StageModel {
  private:
   struct Derivative;
   struct Sensitivity;
-  void differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, Derivative& d) const;
+  struct Water;
+  [[nodiscard]] Water waterOf(const int (&index)[kLanes]) const;
+  void differentiate(const Pack (&q)[4], Pack surge_n, Pack yaw_nm, const Water& water,
+                     Derivative& d) const;
   [[nodiscard]] Pack bowInWind(const Pack& cosine, const Pack& sine) const;
   void propagate(const Derivative& d, const Sensitivity& s, Sensitivity& rate) const;
 
@@ -39,6 +48,7 @@ class StageModel {
   double lever_m_;
   double finite_turn_rad_;
   vessel::Disturbance disturbance_;
+  std::array<WaterMotion, kMaxStages> water_;
 };
 
 }  // namespace otter_nav::tracker

@@ -214,6 +214,62 @@ TEST(Estimator, FollowsACurrentThatTurns) {
   EXPECT_LT(largest_n, 20.0);  // there is none
 }
 
+// Root mean square of what the water's velocity half a second later is foreseen wrong by, and of
+// that velocity: a hull at speed in a current and in waves that take it along.
+struct Foreseen {
+  double off_mps = 0.0;
+  double of_mps = 0.0;
+  double current_off_mps = 0.0;  // at the end
+};
+
+Foreseen foreseenBy(Waves waves) {
+  constexpr double kAheadS = 0.5;
+  constexpr double kOrbitalMps = 0.2;
+  constexpr double kRadps = 1.8;
+  Sea sea;
+  sea.vessel = otter();
+  sea.disturbance.current_mps = {0.3, -0.2};
+  const auto water = [&](double t) -> WaterMotion {
+    return {{kOrbitalMps * std::sin(kRadps * t), 0.5 * kOrbitalMps * std::sin(kRadps * t)},
+            kRadps * Eigen::Vector2d(kOrbitalMps * std::cos(kRadps * t),
+                                     0.5 * kOrbitalMps * std::cos(kRadps * t))};
+  };
+  const vessel::Thrusts thrusts(58.0, 62.0);
+  Estimator estimator(shipped(), sea.vessel, waves);
+  estimator.reset(sea.x);
+  Foreseen result;
+  int count = 0;
+  for (int i = 0; i < 9000; ++i) {
+    sea.x = rk4Step(
+        [&](double t, const vessel::State& s) {
+          return derivativeInWater(s, thrusts, sea.vessel, sea.disturbance, water(t));
+        },
+        sea.t, sea.x, kStepS);
+    sea.t += kStepS;
+    estimator.predict(thrusts, kStepS);
+    estimator.update(sea.x);
+    if (i > 6000) {
+      const Eigen::Vector2d then = water(sea.t + kAheadS).velocity_mps;
+      result.off_mps += (estimator.water().at(kAheadS).velocity_mps - then).squaredNorm();
+      result.of_mps += then.squaredNorm();
+      ++count;
+    }
+  }
+  result.off_mps = std::sqrt(result.off_mps / count);
+  result.of_mps = std::sqrt(result.of_mps / count);
+  result.current_off_mps =
+      (estimator.disturbance().current_mps - sea.disturbance.current_mps).norm();
+  return result;
+}
+
+TEST(Estimator, ForeseesTheWater) {
+  const Foreseen seaway = foreseenBy(Waves::kInTheWater);
+  EXPECT_LT(seaway.off_mps, 0.5 * seaway.of_mps);
+  EXPECT_LT(seaway.current_off_mps, 0.15);
+  const Foreseen on_top = foreseenBy(Waves::kOnTop);
+  EXPECT_EQ(on_top.off_mps, on_top.of_mps);
+}
+
 // Largest error of the estimated velocity against the motion without its waves, at crawling pace.
 double worstVelocityError(const EstimatorOptions& options) {
   Sea sea;

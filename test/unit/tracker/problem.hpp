@@ -14,6 +14,7 @@ struct Problem {
   OcpOptions options;
   RtiOptions rti;
   vessel::Disturbance disturbance;
+  std::array<WaterMotion, kMaxStages> water;
   vessel::State measured;
   std::unique_ptr<OcpReference> reference = std::make_unique<OcpReference>();
 };

@@ -17,6 +17,7 @@ std::unique_ptr<RtiSolver> converge(const Problem& p, int& bounds_met) {
   auto solver =
       std::make_unique<RtiSolver>(p.options, p.rti, p.vessel.manoeuvring, p.vessel.thrusters);
   solver->setDisturbance(p.disturbance);
+  solver->setWater(p.water);
   solver->initialize(*p.reference);
   for (int i = 0; i < 200; ++i) {
     EXPECT_EQ(solver->prepare(*p.reference), SolverStatus::kSolved);
@@ -157,19 +158,41 @@ INSTANTIATE_TEST_SUITE_P(Problems, AgainstIpopt,
                                            std::pair{40, 0.0}, std::pair{40, 2.0},
                                            std::pair{7, 2.0}));
 
-TEST(RtiSolver, PlanFollowsTheModel) {
-  const Problem p = circle(20, 2.0);
+TEST(RtiSolver, PlanFollowsTheModelInWaves) {
+  Problem p = circle(20, 2.0);
+  for (int k = 0; k < p.options.stages; ++k) {
+    p.water[static_cast<std::size_t>(k)] = {{0.2 * std::sin(k), 0.1 * std::cos(k)},
+                                            {0.2 * std::cos(k), -0.1 * std::sin(k)}};
+  }
   int bounds_met = 0;
   const auto solver = converge(p, bounds_met);
   for (int k = 0; k < p.options.stages; ++k) {
     const vessel::State next = rk4Step(
         [&](double, const vessel::State& x) {
-          return vessel::stateDerivative(x, solver->thrusts()[k], p.vessel.manoeuvring,
-                                         p.vessel.thrusters, p.disturbance);
+          return derivativeInWater(x, solver->thrusts()[k], p.vessel, p.disturbance,
+                                   p.water[static_cast<std::size_t>(k)]);
         },
         0.0, solver->states()[k], p.options.step_s);
     EXPECT_LT((next - solver->states()[k + 1]).cwiseAbs().maxCoeff(), 1e-8);
   }
+}
+
+// The step converges as it does in still water: the slopes know how the heading turns the water's
+// acceleration.
+TEST(RtiSolver, WavesAreInItsSlopes) {
+  Problem p = circle(20, 0.0);
+  for (WaterMotion& water : p.water) {
+    water.acceleration_mps2 = {3.0, -4.0};
+  }
+  RtiSolver solver(p.options, p.rti, p.vessel.manoeuvring, p.vessel.thrusters);
+  solver.setDisturbance(p.disturbance);
+  solver.setWater(p.water);
+  solver.initialize(*p.reference);
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
+    ASSERT_EQ(solver.feedback(p.measured), SolverStatus::kSolved);
+  }
+  EXPECT_LT(solver.lastStep(), 1e-6);
 }
 
 // Each of the three ways to an active set comes to the same plan.

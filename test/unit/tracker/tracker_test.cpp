@@ -8,6 +8,7 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/rk4.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
+#include "tracker/orbital_motion.hpp"
 
 namespace otter_nav::tracker {
 namespace {
@@ -208,6 +209,54 @@ TEST_P(TrackerOfAnOtter, KeepsItsHeadingOnAMomentAstern) {
 }
 
 INSTANTIATE_TEST_SUITE_P(GivenOnceAndAgain, TrackerOfAnOtter, ::testing::Bool());
+
+// Largest distance from a straight way across waves that take the hull along, once it has been
+// under way for a while.
+double worstAcrossWaves(bool foresees) {
+  auto options = config::load<Options>(kSource + "/config/tracker.yaml");
+  const auto vessel = vessel::loadParameters(kSource + "/config/vessels/otter.yaml");
+  EXPECT_TRUE(options && vessel);
+  if (!foresees) {
+    options->estimator.wave_velocity_mps = 0.0;
+  }
+  const auto tracker = Tracker::create(*options, *vessel);
+  vessel::FlatPoint from;
+  from.velocity.x() = 1.6;
+  vessel::FlatPoint to = from;
+  to.position.x() = 96.0;
+  const trajectory::Trajectory path({trajectory::hermitePiece(from, to, 60.0)});
+  const auto waterAt = [](double t) -> WaterMotion {
+    constexpr double kRadps = 1.9;
+    constexpr double kOrbitalMps = 0.25;
+    const Eigen::Vector2d to_leeward(0.5, 0.8);
+    return {kOrbitalMps * std::sin(kRadps * t) * to_leeward,
+            kRadps * kOrbitalMps * std::cos(kRadps * t) * to_leeward};
+  };
+  vessel::State state = vessel::State::Zero();
+  state[vessel::kSurge] = 1.6;
+  tracker->addOdometry(0.0, state);
+  EXPECT_TRUE(tracker->setTrajectory({path, 0.0}));
+  double worst = 0.0;
+  for (double now_s = 0.0; now_s < 59.0; now_s += 0.01) {
+    tracker->addOdometry(now_s, state);
+    const Command command = tracker->step(now_s);
+    state = rk4Step(
+        [&](double t, const vessel::State& x) {
+          return derivativeInWater(x, command.thrusts, *vessel, {}, waterAt(t));
+        },
+        now_s, state, 0.01);
+    if (now_s > 20.0) {
+      worst = std::max(worst, (state.head<2>() - path.flat(now_s + 0.01).position).norm());
+    }
+  }
+  return worst;
+}
+
+TEST(TrackerInWaves, KeepsNearerToItsWayWhereItForeseesThem) {
+  const double unforeseen = worstAcrossWaves(false);
+  EXPECT_GT(unforeseen, 0.05);
+  EXPECT_LT(worstAcrossWaves(true), 0.85 * unforeseen);
+}
 
 // What is sent is cut as the bow comes up (BowGuard says how), and what turns the hull is kept.
 TEST_F(TrackerTest, PushesNothingAheadWithTheBowHigh) {
