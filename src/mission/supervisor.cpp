@@ -299,6 +299,13 @@ class Decider final : public Supervisor {
   bool isFarOff(const Moment& m) {
     return m.situation.tracking_error_m > options_.tracking_error_max_m;
   }
+  // By less than far off: a plan that knows wind and current, made from where they have set the
+  // vessel, is one that it can follow again.
+  bool fallsBehind(const Moment& m) {
+    constexpr double kShare = 0.7;
+    return safety().plansWithWeather() &&
+           m.situation.tracking_error_m > kShare * options_.tracking_error_max_m;
+  }
   // Broadside to where it should point and carried off.
   bool hasLostItsHeading(const Moment& m) {
     // Crabbing in a firm load the bow is far off the course anyhow.
@@ -861,6 +868,7 @@ class Decider final : public Supervisor {
       {kUnderWay, &Decider::mustWait, &Decider::keepOn},
       {kUnderWay, &Decider::shouldMakeWay, &Decider::makeWay},
       {kUnderWay, &Decider::isFarOff, &Decider::planFromFarOff},
+      {kUnderWay, &Decider::fallsBehind, &Decider::planFromFarOff},
       {kUnderWay, &Decider::lacksThrust, &Decider::planForWeather},
       {kSailing, &Decider::isTooFastForGusts, &Decider::planForGusts},
       {kUnderWay, &Decider::endsOnAWrongHeading, &Decider::planForGoalHeading},

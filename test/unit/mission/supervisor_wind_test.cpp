@@ -210,6 +210,35 @@ std::optional<PlanRequest> sailAside(ScriptedMission& mission, double within_s, 
   return std::nullopt;
 }
 
+// Eastward against a firm load, set back by `off_m` after six seconds: whether the next plan starts
+// at the vessel.
+bool startsAtTheVessel(const SupervisorOptions& options, double off_m) {
+  ScriptedMission mission(openWater(), options);
+  const auto load = [](double) { return Vector2d(-20.0, 0.0); };
+  blow(mission, 10.0, load);
+  mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({40.0, 0.0});
+  EXPECT_TRUE(orders && orders->plan);
+  (void)mission.answer(*orders->plan, test::eastward({-40.0, 0.0}, 80.0, 1.5));
+  blow(mission, 6.0, load);
+  Situation behind = mission.situation();
+  behind.state[vessel::kX] -= off_m;
+  behind.tracking_error_m = off_m;
+  mission.now_s += 0.1;
+  (void)mission.supervisor->update(mission.now_s, behind, mission.field);
+  return mission.supervisor->reason().find("far off") != std::string::npos;
+}
+
+// A plan made with the load, from where that has set the vessel, can be followed again: it comes
+// sooner than one that knows nothing of it.
+TEST(SupervisorInWind, PlansFromTheVesselSoonerWithWhatPushesIt) {
+  const double most_m = SupervisorOptions{}.tracking_error_max_m;
+  EXPECT_FALSE(startsAtTheVessel(knowing(), 0.65 * most_m));
+  EXPECT_TRUE(startsAtTheVessel(knowing(), 0.75 * most_m));
+  EXPECT_FALSE(startsAtTheVessel(forStillWater(), 0.95 * most_m));
+  EXPECT_TRUE(startsAtTheVessel(forStillWater(), 1.05 * most_m));
+}
+
 // Eastward past a wall with 0.7 m beside the hull, against a firm load that sets the vessel aside
 // by `off_m`: what it asks for within 15 s.
 std::optional<PlanRequest> passAWall(ScriptedMission& mission, double off_m) {
