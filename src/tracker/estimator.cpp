@@ -250,6 +250,37 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   return f;
 }
 
+// f P f^T. What follows the hull's own rows goes on by itself, but for an oscillator's other half:
+// whole products would take five times as long.
+void Estimator::spread(const Covariance& f) {
+  constexpr int kHull = 6;
+  const auto otherHalf = [](int row) {
+    if (row < kWave) {
+      return row;
+    }
+    if (row < kWater) {
+      return row < kWaveRate ? row + 3 : row - 3;
+    }
+    return (row - kWater) % 4 < 2 ? row + 2 : row - 2;
+  };
+  const int used = waves_ == Waves::kInTheWater ? kSize : kWater;
+  const auto half = [&](const Covariance& p) {
+    Covariance moved = Covariance::Zero();
+    moved.topLeftCorner(kHull, used).noalias() =
+        f.topLeftCorner(kHull, used) * p.topLeftCorner(used, used);
+    for (int row = kHull; row < used; ++row) {
+      const int other = otherHalf(row);
+      moved.row(row).head(used) = f(row, row) * p.row(row).head(used);
+      if (other != row) {
+        moved.row(row).head(used) += f(row, other) * p.row(other).head(used);
+      }
+    }
+    return moved;
+  };
+  const Covariance moved = half(covariance_).transpose();
+  covariance_ = half(moved);
+}
+
 void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   predicted_s_ += dt_s;
   turning_radps_ += std::min(1.0, dt_s / kTurningMemoryS) * (state_[kYawRate] - turning_radps_);
@@ -257,9 +288,7 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
     force_fade_per_s_ =
         std::max(0.0, 1.0 - std::abs(turning_radps_) / kTurningRadps) / kForceFadesS;
   }
-  const Covariance f = transition(thrusts, dt_s);
-  const Covariance spread = f * covariance_;
-  covariance_.noalias() = spread * f.transpose();
+  spread(transition(thrusts, dt_s));
   covariance_.diagonal() += dt_s * walk_variance_;
   // At speed nothing is taken for waves: told apart from the vessel's own motion they would only
   // come late to what is steered against.

@@ -66,6 +66,8 @@ class Estimator {
   // What odometry shows of the state vector.
   [[nodiscard]] Eigen::Matrix<double, 6, kSize> measurement() const;
   [[nodiscard]] Covariance transition(const vessel::Thrusts& thrusts, double dt_s) const;
+  // The covariance over a step.
+  void spread(const Covariance& f);
   // Of surge, sway and yaw acceleration over q.
   [[nodiscard]] Eigen::Matrix<double, 3, 2> fromWind() const;
   // What drives the waves' oscillators, per second, at the frequency known now.
