@@ -263,7 +263,7 @@ void Estimator::spread(const Covariance& f) {
     }
     return (row - kWater) % 4 < 2 ? row + 2 : row - 2;
   };
-  const int used = waves_ == Waves::kInTheWater ? kSize : kWater;
+  const int used = usedSize();
   const auto half = [&](const Covariance& p) {
     Covariance moved = Covariance::Zero();
     moved.topLeftCorner(kHull, used).noalias() =
@@ -316,13 +316,18 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
 void Estimator::update(const vessel::State& measured) {
   wave_frequency_.add(measured[kSway], state_[kYawRate], 1.0 - sailingShare(), predicted_s_);
   const Eigen::Matrix<double, 6, kSize> h = measurement();
-  const Eigen::Matrix<double, 6, kSize> seen = h * covariance_;
-  Eigen::Matrix<double, 6, 6> innovation_covariance = seen * h.transpose();
+  const int used = usedSize();
+  Eigen::Matrix<double, 6, kSize> seen = Eigen::Matrix<double, 6, kSize>::Zero();
+  seen.leftCols(used).noalias() = h.leftCols(used) * covariance_.topLeftCorner(used, used);
+  Eigen::Matrix<double, 6, 6> innovation_covariance =
+      seen.leftCols<kWater>() * h.leftCols<kWater>().transpose();
   innovation_covariance.diagonal() += measurement_variance_;
   const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factor(innovation_covariance);
   const Eigen::Matrix<double, 6, kSize> gain = factor.solve(seen);
   const Eigen::Matrix<double, kSize, 1> step = gain.transpose() * innovation(measured);
-  const Covariance explained = gain.transpose() * seen;
+  Covariance explained = Covariance::Zero();
+  explained.topLeftCorner(used, used).noalias() =
+      gain.leftCols(used).transpose() * seen.leftCols(used);
   covariance_ -= explained;
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
   wave_ += step.segment<3>(kWave);

@@ -66,6 +66,10 @@ class Estimator {
   // What odometry shows of the state vector.
   [[nodiscard]] Eigen::Matrix<double, 6, kSize> measurement() const;
   [[nodiscard]] Covariance transition(const vessel::Thrusts& thrusts, double dt_s) const;
+  // Of the state vector, from its start: the water's part is nothing with waves on top.
+  [[nodiscard]] int usedSize() const {
+    return waves_ == Waves::kInTheWater ? kSize : static_cast<int>(kWater);
+  }
   // The covariance over a step.
   void spread(const Covariance& f);
   // Of surge, sway and yaw acceleration over q.
