@@ -5,9 +5,9 @@ set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$top/build-sanitized}
 # Line tables are all that the sanitizers' reports need; full debug information doubles the time.
-cmake -S "$top" -B "$build" -DOTTER_NAV_CORE_ONLY=ON -DOTTER_NAV_UNITY=ON -DOTTER_NAV_SANITIZE=ON -DOTTER_NAV_WERROR=ON \
+cmake -S "$top" -B "$build" -G Ninja -DOTTER_NAV_CORE_ONLY=ON -DOTTER_NAV_UNITY=ON -DOTTER_NAV_SANITIZE=ON -DOTTER_NAV_WERROR=ON \
   -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-g1 >"$build.configure.log" 2>&1 || { cat "$build.configure.log"; exit 1; }
-cmake --build "$build" --parallel "$(nproc)" --target unit_tests loop_tests -- --no-print-directory >"$build.build.log" 2>&1 ||
+cmake --build "$build" --parallel "$(nproc)" --target unit_tests loop_tests >"$build.build.log" 2>&1 ||
   { tail -n 60 "$build.build.log"; exit 1; }
 # Tests that count allocations replace the operators the sanitizer watches: they run in test.sh alone.
 ASAN_OPTIONS=detect_leaks=1 ctest --test-dir "$build" --output-on-failure -j "$(nproc)" -R '^(unit|loop)_' \

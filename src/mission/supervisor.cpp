@@ -299,12 +299,12 @@ class Decider final : public Supervisor {
   bool isFarOff(const Moment& m) {
     return m.situation.tracking_error_m > options_.tracking_error_max_m;
   }
-  // By less than far off: a plan that knows wind and current, made from where they have set the
-  // vessel, is one that it can follow again.
-  bool fallsBehind(const Moment& m) {
-    constexpr double kShare = 0.7;
-    return safety().plansWithWeather() &&
-           m.situation.tracking_error_m > kShare * options_.tracking_error_max_m;
+  // A plan that knows wind and current, made from where they have set the vessel, is one that it
+  // can follow again: it need not be far off for that.
+  bool isLeftBehind(const Moment& m) {
+    constexpr double kShareWithWeather = 0.7;
+    const double share = safety().plansWithWeather() ? kShareWithWeather : 1.0;
+    return m.situation.tracking_error_m > share * options_.tracking_error_max_m;
   }
   // Broadside to where it should point and carried off.
   bool hasLostItsHeading(const Moment& m) {
@@ -867,8 +867,7 @@ class Decider final : public Supervisor {
       {kReplanning, &Decider::isClearAgain, &Decider::keepThePlan, kGoesOn},
       {kUnderWay, &Decider::mustWait, &Decider::keepOn},
       {kUnderWay, &Decider::shouldMakeWay, &Decider::makeWay},
-      {kUnderWay, &Decider::isFarOff, &Decider::planFromFarOff},
-      {kUnderWay, &Decider::fallsBehind, &Decider::planFromFarOff},
+      {kUnderWay, &Decider::isLeftBehind, &Decider::planFromFarOff},
       {kUnderWay, &Decider::lacksThrust, &Decider::planForWeather},
       {kSailing, &Decider::isTooFastForGusts, &Decider::planForGusts},
       {kUnderWay, &Decider::endsOnAWrongHeading, &Decider::planForGoalHeading},

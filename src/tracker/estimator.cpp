@@ -70,7 +70,7 @@ using vessel::kSway;
 using vessel::kYawRate;
 
 Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel, Waves waves)
-    : options_(options), waves_(waves), vessel_(vessel), model_(vessel.manoeuvring) {
+    : options_(options), waves_(waves), vessel_(vessel) {
   const auto& o = options_;
   measurement_variance_ << o.position_sigma_m, o.position_sigma_m, o.heading_sigma_rad,
       o.velocity_sigma_mps, o.velocity_sigma_mps, o.yaw_rate_sigma_radps;
@@ -82,13 +82,13 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   moment_most_nm_ = kMomentMostNpm2 * area_moment_m3;
   const double force_walk = kForceWalkNpm2 * area_m2;
   const bool in_water = waves_ == Waves::kInTheWater;
-  const double moment_walk = (in_water ? kMomentWalkInWater : 1.0) *
-                             (model_.feelsWind() ? kMomentWalkInWindNpm2 : kMomentWalkNpm2) *
-                             area_moment_m3;
-  if (model_.feelsWind()) {
+  const double moment_walk =
+      (in_water ? kMomentWalkInWater : 1.0) *
+      (vessel_.manoeuvring.feelsWind() ? kMomentWalkInWindNpm2 : kMomentWalkNpm2) * area_moment_m3;
+  if (vessel_.manoeuvring.feelsWind()) {
     moment_fade_per_s_ = 1.0 / kMomentFadesInWindS;
   }
-  const double current_walk = tellsCurrent(model_) ? o.current_walk_mps : 0.0;
+  const double current_walk = tellsCurrent(vessel_.manoeuvring) ? o.current_walk_mps : 0.0;
   const double current_sigma = current_walk > 0.0 ? kCurrentSigmaMps : 0.0;
   if (current_walk > 0.0) {
     current_fade_per_s_ = 1.0 / kCurrentFadesS;
@@ -114,7 +114,7 @@ Estimator::Estimator(const EstimatorOptions& options, const vessel::Parameters& 
   } else {
     walk_variance_.segment<7>(kForce).setZero();
   }
-  if (!model_.feelsWind()) {
+  if (!vessel_.manoeuvring.feelsWind()) {
     walk_variance_.segment<2>(kWind).setZero();
     covariance_.diagonal().segment<2>(kWind).setZero();
   }
@@ -190,7 +190,7 @@ vessel::State Estimator::steered() const {
 // Loads k |q_i| q_i / |q| and k q_x q_y / |q| over q, seen from the body.
 Eigen::Matrix<double, 3, 2> Estimator::fromWind() const {
   constexpr double kCalm = 1.0;  // m^2/s^2: below, the loads count as k q_i
-  const vessel::ManoeuvringModel& m = model_;
+  const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
   const double c = std::cos(state_[kPsi]);
   const double s = std::sin(state_[kPsi]);
   Eigen::Matrix2d body_from_earth;
@@ -216,10 +216,13 @@ Eigen::Matrix<double, 3, 2> Estimator::fromWind() const {
 
 // I + dt * Jacobian: over 10 ms the next order is below the noise.
 Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, double dt_s) const {
+  const bool in_water = waves_ == Waves::kInTheWater;
   vessel::Disturbance with_water = disturbance_;
-  with_water.current_mps += water_.at(0.0).velocity_mps;
+  if (in_water) {
+    with_water.current_mps += water_.at(0.0).velocity_mps;
+  }
   const vessel::Linearization l =
-      vessel::linearize(state_, thrusts, model_, vessel_.thrusters, with_water);
+      vessel::linearize(state_, thrusts, vessel_.manoeuvring, vessel_.thrusters, with_water);
   Eigen::Matrix2d body_from_earth;
   const double c = std::cos(state_[kPsi]);
   const double s = std::sin(state_[kPsi]);
@@ -227,9 +230,11 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
 
   Covariance f = Covariance::Identity();
   f.topLeftCorner<6, 6>() += dt_s * l.state_jacobian;
-  f.block<1, 2>(kSurge, kForce) = dt_s / model_.surge_inertia_kg * body_from_earth.row(0);
-  f.block<1, 2>(kSway, kForce) = dt_s / model_.sway_inertia_kg * body_from_earth.row(1);
-  f(kYawRate, kMoment) = dt_s / model_.yaw_inertia_kgm2;
+  f.block<1, 2>(kSurge, kForce) =
+      dt_s / vessel_.manoeuvring.surge_inertia_kg * body_from_earth.row(0);
+  f.block<1, 2>(kSway, kForce) =
+      dt_s / vessel_.manoeuvring.sway_inertia_kg * body_from_earth.row(1);
+  f(kYawRate, kMoment) = dt_s / vessel_.manoeuvring.yaw_inertia_kgm2;
   f.block<3, 2>(kSurge, kCurrent) = dt_s * l.current_jacobian;
   f.block<3, 2>(kSurge, kWind) = dt_s * fromWind();
   f.block<2, 2>(kForce, kForce).diagonal().array() -= dt_s * force_fade_per_s_;
@@ -239,7 +244,7 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
   f.block<3, 3>(kWave, kWaveRate).diagonal().setConstant(dt_s);
   f.block<3, 3>(kWaveRate, kWave).diagonal().setConstant(-dt_s * w * w);
   f.block<3, 3>(kWaveRate, kWaveRate).diagonal().array() -= 2.0 * dt_s * kWaveDamping * w;
-  if (waves_ == Waves::kInTheWater) {
+  if (in_water) {
     constexpr int kOfWater = OrbitalMotion::kSize;
     f.block<3, kOfWater>(kSurge, kWater) =
         dt_s * l.current_jacobian * OrbitalMotion::velocitySlope();
@@ -251,7 +256,7 @@ Estimator::Covariance Estimator::transition(const vessel::Thrusts& thrusts, doub
 }
 
 // f P f^T. What follows the hull's own rows goes on by itself, but for an oscillator's other half:
-// whole products would take five times as long.
+// whole products are six times as many multiplications.
 void Estimator::spread(const Covariance& f) {
   constexpr int kHull = 6;
   const auto otherHalf = [](int row) {
@@ -293,8 +298,9 @@ void Estimator::predict(const vessel::Thrusts& thrusts, double dt_s) {
   // At speed nothing is taken for waves: told apart from the vessel's own motion they would only
   // come late to what is steered against.
   covariance_.diagonal().segment<3>(kWaveRate) += dt_s * (1.0 - sailingShare()) * waveDrive();
-  const WaterMotion water = water_.at(0.5 * dt_s);
+  WaterMotion water;
   if (waves_ == Waves::kInTheWater) {
+    water = water_.at(0.5 * dt_s);
     auto variance = covariance_.diagonal().segment<OrbitalMotion::kSize>(kWater);
     water_.advance(dt_s, variance);
     variance += dt_s * water_.drive();

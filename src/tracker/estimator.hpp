@@ -83,7 +83,6 @@ class Estimator {
   EstimatorOptions options_;
   Waves waves_;
   vessel::Parameters vessel_;
-  vessel::ManoeuvringModel model_;
   vessel::State state_ = vessel::State::Zero();
   vessel::Disturbance disturbance_;
   Eigen::Vector2d wind_pressure_ = Eigen::Vector2d::Zero();  // q, m^2/s^2

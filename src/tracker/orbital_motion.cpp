@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "otter_nav/vessel/motion_law.hpp"
+
 namespace otter_nav::tracker {
 namespace {
 
@@ -40,8 +42,8 @@ vessel::State derivativeInWater(const vessel::State& state, const vessel::Thrust
   const double c = std::cos(state[kPsi]);
   const double s = std::sin(state[kPsi]);
   const Eigen::Vector2d& a = water.acceleration_mps2;
-  rate[vessel::kSurge] += c * a.x() + s * a.y();
-  rate[vessel::kSway] += c * a.y() - s * a.x();
+  rate[vessel::kSurge] += vessel::aheadPart(c, s, a.x(), a.y());
+  rate[vessel::kSway] += vessel::portPart(c, s, a.x(), a.y());
   return rate;
 }
 
@@ -51,13 +53,16 @@ OrbitalMotion::OrbitalMotion() {
 
 void OrbitalMotion::advance(double dt_s, const Vector& variance) {
   for (int band = 0; band < kBands; ++band) {
+    const Eigen::Vector2d x = state_.segment<2>(4 * band);
     const Eigen::Vector2d rate = state_.segment<2>(4 * band + 2);
+    const Eigen::Matrix2d m = swing(kBandsRadps[static_cast<std::size_t>(band)], dt_s);
+    state_.segment<2>(4 * band) = m(0, 0) * x + m(0, 1) * rate;
+    state_.segment<2>(4 * band + 2) = m(1, 0) * x + m(1, 1) * rate;
     const double square = 0.5 * (rate.squaredNorm() + variance.segment<2>(4 * band + 2).sum());
     double& known = rate_variance_[band];
     known += std::min(1.0, dt_s / kSeaMemoryS) * (square - known);
     known = std::max(known, kBandLeastMps * kBandLeastMps);
   }
-  state_ = (transition(dt_s) * state_).eval();
 }
 
 WaterMotion OrbitalMotion::at(double in_s) const {
