@@ -36,7 +36,7 @@ if(OTTER_NAV_WERROR)
   add_compile_options(-Werror)
 endif()
 if(OTTER_NAV_SANITIZE)
-  add_compile_options(-O1 -fsanitize=address,undefined -fno-sanitize-recover=undefined
+  add_compile_options(-O2 -fsanitize=address,undefined -fno-sanitize-recover=undefined
                       -fno-omit-frame-pointer -Wno-mismatched-new-delete)
   add_link_options(-fsanitize=address,undefined)
 endif()
