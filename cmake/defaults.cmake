@@ -23,7 +23,7 @@ set(CMAKE_UNITY_BUILD ${OTTER_NAV_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 if(OTTER_NAV_UNITY)
   # What lies hidden in a source counts as a header's here.
-  add_compile_options(-Wno-subobject-linkage)
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 
 find_program(OTTER_NAV_CCACHE ccache)
@@ -37,7 +37,8 @@ if(OTTER_NAV_WERROR)
 endif()
 if(OTTER_NAV_SANITIZE)
   add_compile_options(-O2 -fsanitize=address,undefined -fno-sanitize-recover=undefined
-                      -fno-omit-frame-pointer -Wno-mismatched-new-delete)
+                      -fno-omit-frame-pointer
+                      $<$<CXX_COMPILER_ID:GNU>:-Wno-mismatched-new-delete>)
   add_link_options(-fsanitize=address,undefined)
 endif()
 if(OTTER_NAV_NATIVE)

@@ -19,7 +19,7 @@ class StandAside : public testing::Test {
   // A disc of 2 m at 1.5 m/s that comes over the vessel, from abeam, in 8 s.
   const MovingDisc comes_{{0.0, -14.0}, {0.0, 1.5}, 2.0};
   const MovingDisc passes_{{12.0, -14.0}, {0.0, 1.5}, 2.0};
-  const vessel::Parameters vessel_;
+  const vessel::Parameters vessel_{};
   const vessel::State state_ = vessel::State::Zero();
 };
 
