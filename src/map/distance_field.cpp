@@ -52,6 +52,32 @@ void DistanceField::update(const OccupancyGrid& grid, const CellRectangle& chang
     return;
   }
   markOccupied(grid, cells);
+  spread(cells);
+}
+
+void DistanceField::occupy(const Eigen::Vector2d& place, double radius_m) {
+  const Eigen::Vector2d at = (place - geometry_.origin) * inverse_resolution_;
+  const double radius = radius_m * inverse_resolution_;
+  const auto cell = [](double x, int most) {
+    return static_cast<int>(std::clamp(std::floor(x), 0.0, static_cast<double>(most)));
+  };
+  const Window cells{
+      cell(at.x() - radius, geometry_.width), cell(at.y() - radius, geometry_.height),
+      cell(at.x() + radius + 1.0, geometry_.width), cell(at.y() + radius + 1.0, geometry_.height)};
+  if (cells.x0 >= cells.x1 || cells.y0 >= cells.y1) {
+    return;
+  }
+  for (int y = cells.y0; y < cells.y1; ++y) {
+    for (int x = cells.x0; x < cells.x1; ++x) {
+      if ((Eigen::Vector2d(x + 0.5, y + 0.5) - at).norm() <= radius) {
+        occupied_[geometry_.index(x, y)] = 1;
+      }
+    }
+  }
+  spread(cells);
+}
+
+void DistanceField::spread(const Window& cells) {
   markCorners({cells.x0, cells.y0, cells.x1 + 1, cells.y1 + 1});
   transform(cells);
 }

@@ -193,6 +193,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
   request.query.limits = safety.limits(thrust_share, room);
   request.query.may_end_early = safety.atNarrowest();
+  request.query.dead_ends = dead_ends_;
   // A stop may have ended nearer to something than plans keep.
   const double around = std::min(roomAround(vessel_.hull, request.query.start, field),
                                  roomAround(vessel_.hull, request.query.goal, field));

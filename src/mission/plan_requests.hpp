@@ -93,6 +93,10 @@ class PlanRequests {
     return asked_ && asked_->request.id == id ? std::exchange(asked_, std::nullopt) : std::nullopt;
   }
 
+  // No way on was found there: for this goal, guide paths lead elsewhere where they can.
+  void addDeadEnd(const Eigen::Vector2d& place) { dead_ends_.push_back(place); }
+  void forgetDeadEnds() { dead_ends_.clear(); }
+
   Safety safety;
   PlanningLatency latency;
 
@@ -104,6 +108,7 @@ class PlanRequests {
   vessel::Parameters vessel_;
   std::uint64_t seed_;
   std::optional<Asked> asked_;
+  std::vector<Eigen::Vector2d> dead_ends_;
   int next_id_ = 1;
 };
 

@@ -82,6 +82,7 @@ class Decider final : public Supervisor {
       return failure(status.error().message);
     }
     goal_ = goal;
+    plans_.forgetDeadEnds();
     sailed_since_s_ = m.now_s;
     safety().newGoal();
     feel(m);
@@ -1324,6 +1325,7 @@ class Decider final : public Supervisor {
       if (std::optional<Trajectory> path =
               stopping::backOff(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_,
                                 m.situation.disturbance.mean, safety().reach())) {
+        noteDeadEnd(m);
         return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why);
       }
     }
@@ -1337,6 +1339,14 @@ class Decider final : public Supervisor {
     return enter(Phase::kFailed,
                  text("no plan after %d rounds: ", retries_.rounds()) + why +
                      text(" (at %.2f m clearance)", asked.request.query.limits.clearance_m));
+  }
+
+  // Before the bow, where it can't go on. Other vessels may have been why.
+  void noteDeadEnd(const Moment& m) {
+    if (m.situation.tracks.empty()) {
+      const vessel::State& x = m.situation.state;
+      plans_.addDeadEnd(x.head<2>() + 0.5 * vessel_.hull.length_m * unitVector(x[vessel::kPsi]));
+    }
   }
 
   // Other vessels near, that leave no plan now: no round is lost to them, but not for ever.

@@ -322,9 +322,15 @@ class Planner::Pipeline {
       return true;
     }
     const double began = run.now();
-    const auto found = finder_.find(run.obstacles.field(), query.guideStart(),
-                                    {query.goal.flat.position, query.goal.psi_rad}, guide_,
-                                    query.limits.clearance_m);
+    const vessel::Pose goal{query.goal.flat.position, query.goal.psi_rad};
+    const auto findIn = [&](const map::DistanceField& field) {
+      return finder_.find(field, query.guideStart(), goal, guide_, query.limits.clearance_m);
+    };
+    const bool has_dead_ends = !query.dead_ends.empty();
+    auto found = findIn(has_dead_ends ? withoutDeadEnds(run) : run.obstacles.field());
+    if (!found && has_dead_ends && query.may_end_early) {
+      found = findIn(run.obstacles.field());
+    }
     run.plan.figures.guide_ms = 1e3 * (run.now() - began);
     if (!found) {
       run.plan.reason = found.error().message;
@@ -334,6 +340,23 @@ class Planner::Pipeline {
                                                                      : Outcome::kNoPath;
     }
     return found.has_value();
+  }
+
+  // Neither start nor goal is cut off.
+  const map::DistanceField& withoutDeadEnds(const Run& run) {
+    constexpr double kDeadEndM = 0.4;
+    constexpr double kLeftM = 0.1;
+    const Query& query = run.query;
+    open_ends_ = run.obstacles.field();
+    for (const Eigen::Vector2d& place : query.dead_ends) {
+      const double near = std::min((place - query.start.flat.position).norm(),
+                                   (place - query.goal.flat.position).norm());
+      const double radius = std::min(kDeadEndM, near - query.limits.clearance_m - kLeftM);
+      if (radius > 0.0) {
+        open_ends_.occupy(place, radius);
+      }
+    }
+    return open_ends_;
   }
 
   // What is being sailed stays a candidate, improved if that can be done.
@@ -611,6 +634,7 @@ class Planner::Pipeline {
   vessel::Parameters vessel_;
   topology::GuidePathFinder finder_;
   topology::GuidePath guide_;
+  map::DistanceField open_ends_;  // the map with what led to nowhere closed
   GuideLine line_;
   Search search_;
   std::optional<Sampler> sampler_;

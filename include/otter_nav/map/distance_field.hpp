@@ -39,6 +39,9 @@ class DistanceField {
   // max_distance_m. `grid` has this field's geometry; what lies outside it is ignored.
   void update(const OccupancyGrid& grid, const CellRectangle& changed);
 
+  // Occupies the cells with their centres within `radius_m` of `place`, as if they had been mapped.
+  void occupy(const Eigen::Vector2d& place, double radius_m);
+
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double maxDistance() const { return options_.max_distance_m; }
 
@@ -101,6 +104,7 @@ class DistanceField {
   [[nodiscard]] double exactSquared(const Bound& at) const;
 
   void markOccupied(const OccupancyGrid& grid, const Window& cells);
+  void spread(const Window& cells);
   void markCorners(const Window& corners);
   void transform(const Window& changed_cells);
   void judgeRow(int row, const Window& corners, const CornerRow& south, const CornerRow& north);

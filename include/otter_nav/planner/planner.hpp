@@ -37,6 +37,9 @@ struct Query {
   // Where there is no plan to the goal, one to a place on the way to it will do, for the vessel to
   // see further from there.
   bool may_end_early = false;
+  // Where a way led to nowhere before: a guide path keeps away from there, unless there is no other
+  // and the plan may end early.
+  std::vector<Eigen::Vector2d> dead_ends;
   // Key points from start to goal found elsewhere (a topology node); empty: found here.
   std::vector<Eigen::Vector2d> guide_path;
 

@@ -170,6 +170,40 @@ TEST(Planner, EndsEarlyWhereItMayAndTheWholeWayCantBePlanned) {
   EXPECT_EQ(whole.left_m, 0.0);
 }
 
+// The way goes by another gap, if there is one; if not, a plan that may end early tries it again.
+TEST(Planner, KeepsAwayFromDeadEndsWhereItCan) {
+  for (const bool has_other_gap : {false, true}) {
+    map::OccupancyGrid grid = test::openGrid();
+    test::fill(grid, 0.0, -40.0, 1.0, 38.0);
+    test::fill(grid, 0.0, 2.0, 1.0, 10.0);
+    test::fill(grid, 0.0, has_other_gap ? 16.0 : 12.0, 1.0, 40.0);
+    const map::DistanceField field(grid, map::DistanceFieldOptions{});
+    Query query = across();
+    query.start.psi_rad = 0.0;
+    query.goal.psi_rad = 0.0;
+    query.limits.clearance_m = 1.0;
+    Planner planner(Options{}, vessel::Parameters{});
+    const auto crossing_m = [&] {
+      const Plan plan = planner.plan(field, query, byIterations());
+      for (double t = 0.0; t < plan.trajectory.duration(); t += 0.05) {
+        if (plan.trajectory.flat(t).position.x() > 0.5) {
+          return plan.trajectory.flat(t).position.y();
+        }
+      }
+      return -100.0;
+    };
+    EXPECT_NEAR(crossing_m(), 0.0, 2.0);
+    query.dead_ends = {{0.5, 0.0}};
+    EXPECT_NEAR(crossing_m(), has_other_gap ? 14.0 : -100.0, 2.0);
+    query.may_end_early = true;
+    EXPECT_NEAR(crossing_m(), has_other_gap ? 14.0 : 0.0, 2.0);
+    // Neither start nor goal is cut off by one.
+    query.may_end_early = false;
+    query.dead_ends = {query.start.flat.position, query.goal.flat.position};
+    EXPECT_NEAR(crossing_m(), 0.0, 2.0);
+  }
+}
+
 // Three walls with gaps of 2 m, each beside the one before; to be crossed slowly.
 map::DistanceField slalom() {
   map::OccupancyGrid grid = test::openGrid();

@@ -54,6 +54,33 @@ TEST(DistanceField, UnknownCellsAsTold) {
   EXPECT_EQ(DistanceField(grid, {4.0, true}).clearance({1.0, 0.5}), 0.0);
 }
 
+// As a rebuild with the cells occupied; over the map's edge only what lies inside.
+TEST(DistanceField, OccupiesADisc) {
+  const Eigen::Vector2d places[] = {{-4.0, 2.1}, {29.9, 14.9}, {-12.0, 0.0}, {100.0, 0.0}};
+  OccupancyGrid grid = blockGrid();
+  DistanceField field(grid, {4.0, false});
+  for (const Eigen::Vector2d& place : places) {
+    constexpr double kRadiusM = 0.9;
+    field.occupy(place, kRadiusM);
+    for (int row = 0; row < grid.geometry.height; ++row) {
+      for (int column = 0; column < grid.geometry.width; ++column) {
+        const Eigen::Vector2d middle =
+            grid.geometry.origin + 0.25 * Eigen::Vector2d(column + 0.5, row + 0.5);
+        if ((middle - place).norm() <= kRadiusM) {
+          grid.cells[grid.geometry.index(column, row)] = Cell::kOccupied;
+        }
+      }
+    }
+    const DistanceField rebuilt(grid, {4.0, false});
+    for (double x = -10.0; x < 30.0; x += 0.33) {
+      for (double y = -5.0; y < 15.0; y += 0.31) {
+        ASSERT_EQ(field.clearance({x, y}), rebuilt.clearance({x, y})) << x << " " << y;
+      }
+    }
+  }
+  EXPECT_EQ(field.clearance({-4.0, 2.0}), 0.0);
+}
+
 TEST(SegmentIsClear, GrazesWithoutClipping) {
   const DistanceField field(blockGrid(), {4.0, false});
   EXPECT_TRUE(segmentIsClear(field, {-5.0, 1.81}, {8.0, 1.81}, 0.8));

@@ -38,6 +38,36 @@ TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
             stopping::turningRoom(vessel::Parameters{}.hull));
 }
 
+// What lay before the bow is remembered for this goal; where other vessels were near, they may have
+// been why.
+TEST(BackOff, RemembersTheDeadEndForThisGoal) {
+  for (const bool has_company : {false, true}) {
+    test::ScriptedMission mission;
+    if (has_company) {
+      traffic::Track other;
+      other.position = {60.0, 60.0};
+      mission.tracks = {other};
+    }
+    const auto order = backOffFromTheWall(mission);
+    ASSERT_TRUE(order);
+    mission.rest =
+        order->trajectory.sample(order->trajectory.duration(), vessel::Parameters{}).state;
+    Orders next;
+    for (int k = 0; k < 300 && !next.plan; ++k) {
+      next = mission.update(0.1);
+    }
+    ASSERT_TRUE(next.plan);
+    ASSERT_EQ(next.plan->query.dead_ends.size(), has_company ? 0U : 1U);
+    if (!has_company) {
+      EXPECT_NEAR(next.plan->query.dead_ends[0].x(), 0.5 * vessel::Hull{}.length_m, 1e-6);
+      EXPECT_NEAR(next.plan->query.dead_ends[0].y(), 0.0, 1e-6);
+    }
+    const auto orders = mission.goTo({-10.0, 3.0});
+    ASSERT_TRUE(orders.value().plan);
+    EXPECT_TRUE(orders.value().plan->query.dead_ends.empty());
+  }
+}
+
 TEST(BackOff, EndsWhereSomethingComesUpAstern) {
   test::ScriptedMission mission;
   ASSERT_TRUE(backOffFromTheWall(mission));
