@@ -262,21 +262,22 @@ class Decider final : public Supervisor {
   }
   bool isClearAgain(const Moment& m) { return replan_for_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
-  bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_); }
+  bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_, offSailed(m)); }
   // The way to rest itself is not clear any more, or its end, and there is a milder one.
   bool hasMilderStop(const Moment& m) {
     constexpr double kAgainS = 0.2;
     if (sailed_.left(m.now_s) <= 0.0 || m.now_s - stops_looked_for_s_ < kAgainS) {
       return false;
     }
-    const stopping::Touch now =
-        stopping::firstTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), alongSailed(m), vessel_);
+    const stopping::Off off = offSailed(m);
+    const stopping::Touch now = stopping::firstTouch(sailed_.trajectory, sailed_.elapsed(m.now_s),
+                                                     alongSailed(m), vessel_, off);
     if (std::isinf(now.after_s)) {
       return false;
     }
     stops_looked_for_s_ = m.now_s;
     other_stop_ = stopNow(m).trajectory;
-    return stopping::firstTouch(other_stop_, 0.0, m.obstacles.startingAt(m.now_s), vessel_)
+    return stopping::firstTouch(other_stop_, 0.0, m.obstacles.startingAt(m.now_s), vessel_, off)
         .milderThan(now);
   }
   // From a way to rest a plan may lead on.
@@ -1122,18 +1123,33 @@ class Decider final : public Supervisor {
   // With the plan's own margin if that can be had.
   stopping::Braking stopNow(const Moment& m) {
     const double at = sailed_.elapsed(m.now_s);
-    stopping::Braking found = stop(m, sailed_, at, safety().stop(planned_limits_));
-    return found.clear ? found : stop(m, sailed_, at, safety().leastStop(planned_limits_));
+    stopping::StopLimits limits = safety().stop(planned_limits_);
+    limits.off = offSailed(m);
+    stopping::Braking found = stop(m, sailed_, at, limits);
+    if (!found.clear) {
+      limits = safety().leastStop(planned_limits_);
+      limits.off = offSailed(m);
+      found = stop(m, sailed_, at, limits);
+    }
+    return found;
+  }
+  stopping::Off offSailed(const Moment& m) {
+    if (sailed_.trajectory.empty() || !m.situation.state.allFinite()) {
+      return {};
+    }
+    return stopping::offTrajectory(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
+                                   vessel_, planned_limits_.disturbance);
   }
   // A stop that begins a little later than now: when the next decision is due, there is time to
   // take it. A launch, or sailing crabwise, may leave none that keeps to the thrusters' limits at
   // the moment: then one that begins later, where the way until then is clear in known water. Kept
   // if there is one.
   bool findStop(const Moment& m, const TimedTrajectory& path,
-                const feasibility::SafetyLimits& planned) {
+                const feasibility::SafetyLimits& planned, const stopping::Off& off) {
     constexpr double kReserveS = 0.25;
     constexpr double kLaterS[] = {0.5, 1.0, 2.0, 3.5, 5.0};
-    const stopping::StopLimits limits = safety().stop(planned);
+    stopping::StopLimits limits = safety().stop(planned);
+    limits.off = off;
     if (keepStop(m, path, kReserveS, limits)) {
       return true;
     }
@@ -1165,11 +1181,13 @@ class Decider final : public Supervisor {
                            const stopping::StopLimits& limits) {
     constexpr double kHorizonS = 8.0;
     const double at = path.elapsed(m.now_s);
-    return !stopping::outlineConflict(path.trajectory, at, at + kHorizonS,
-                                      m.obstacles.inKnownWater().startingAt(path.start_time_s),
-                                      vessel_, std::max(safety().critical(), limits.hull_margin_m),
-                                      true, limits.disturbance)
-                .found;
+    const Obstacles known = m.obstacles.inKnownWater().startingAt(path.start_time_s);
+    return !stopping::outlineConflict(path.trajectory, at, at + kHorizonS, known, vessel_,
+                                      std::max(safety().critical(), limits.hull_margin_m), true,
+                                      limits.disturbance)
+                .found &&
+           stopping::firstTouch(path.trajectory, at, known, vessel_, limits.off).after_s >
+               kHorizonS;
   }
 
   // What alone another plan is looked for under way.
@@ -1188,7 +1206,9 @@ class Decider final : public Supervisor {
   }
   // Only if a stop exists on it; else it is asked for again, or the vessel stops.
   Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequests::Asked& asked) {
-    if (!findStop(m, plan, asked.request.query.limits)) {
+    const bool from_sailed = asked.from == From::kSailed;
+    if (!findStop(m, plan, asked.request.query.limits,
+                  from_sailed ? offSailed(m) : stopping::Off{})) {
       return asked.gain ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
     }
     replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;

@@ -124,22 +124,28 @@ std::optional<Trajectory> ownRest(const Trajectory& sailed, double at_s, double 
   return std::nullopt;
 }
 
-// A vessel that hardly moves, or turns on the spot, is held where it is.
+// A vessel that hardly moves, or turns on the spot, is held where it is. Where hardly any force
+// tells the flat heading, it may turn faster than any hull.
 Trajectory halt(const Trajectory& sailed, double at_s, const vessel::Parameters& vessel,
                 const vessel::Disturbance& disturbance) {
   constexpr double kHaltS = 1.0;
   constexpr double kDifferenceS = 1e-3;
   const trajectory::Sample here = sailed.sample(at_s, vessel, disturbance);
-  const double later =
-      sailed.sample(at_s + kDifferenceS, vessel, disturbance).state[vessel::kYawRate];
+  const double fastest = feasibility::SafetyLimits::of(vessel).yaw_rate_max_radps;
+  const auto rate = [&](const trajectory::Sample& sample) {
+    return std::clamp(sample.state[vessel::kYawRate], -fastest, fastest);
+  };
+  const double now = rate(here);
+  const double later = rate(sailed.sample(at_s + kDifferenceS, vessel, disturbance));
   FlatPoint rest;
   rest.position = here.flat.position + 0.5 * kHaltS * here.flat.velocity;
   Piece piece = trajectory::hermitePiece(here.flat, rest, kHaltS);
   piece.kind = PieceKind::kSpin;
   FlatPoint from;  // its x the heading
   from.position.x() = here.state[vessel::kPsi];
-  from.velocity.x() = here.state[vessel::kYawRate];
-  from.acceleration.x() = (later - from.velocity.x()) / kDifferenceS;
+  from.velocity.x() = now;
+  from.acceleration.x() =
+      std::clamp((later - now) / kDifferenceS, -fastest / kHaltS, fastest / kHaltS);
   FlatPoint to;
   to.position.x() = from.position.x() + 0.5 * kHaltS * from.velocity.x();
   piece.heading = trajectory::hermitePiece(from, to, kHaltS).position.row(0);
@@ -299,14 +305,15 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     if (!outlineConflict(held, 0.0, held.duration(), ahead, vessel, stop.hull_margin_m).found) {
       return {std::move(held), true, stop.clearance_m};
     }
-    best_touch = firstTouch(held, 0.0, ahead, vessel);
+    best_touch = firstTouch(held, 0.0, ahead, vessel, stop.off);
     best_follows = true;
     best = {std::move(held), false, 0.0};
   }
   const auto keeps = [&](const Trajectory& candidate, bool own) {
     return !firstConflict(candidate, 0.0, ahead, centre_m).found &&
            goesOnFrom(here, candidate, vessel) && (own || keepsAsternShare(candidate, vessel)) &&
-           feasibility::verify(candidate, ahead, vessel, limits, tolerances).ok;
+           feasibility::verify(candidate, ahead, vessel, limits, tolerances).ok &&
+           firstTouch(candidate, 0.0, ahead, vessel, stop.off).speed_mps == 0.0;
   };
   // No more than what is left of an acceleration as it dies out; of a hard one that is more, where
   // nothing else will do.
@@ -333,7 +340,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
       }
       continue;
     }
-    const Touch touch = firstTouch(candidate, 0.0, ahead, vessel);
+    const Touch touch = firstTouch(candidate, 0.0, ahead, vessel, stop.off);
     const double clearance = leastClearance(candidate, ahead);
     const double path_m =
         (candidate.flat(candidate.duration()).position - here.flat.position).norm();

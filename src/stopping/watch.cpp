@@ -44,6 +44,13 @@ double turningBound(const Piece& piece, const vessel::Parameters& vessel) {
 
 }  // namespace
 
+Off offTrajectory(const Trajectory& trajectory, double at_s, const vessel::State& state,
+                  const vessel::Parameters& vessel, const vessel::Disturbance& disturbance) {
+  const vessel::State wanted = trajectory.sample(at_s, vessel, disturbance).state;
+  return {state.head<2>() - wanted.head<2>(),
+          wrapAngle(state[vessel::kPsi] - wanted[vessel::kPsi])};
+}
+
 Conflict firstConflict(const Trajectory& trajectory, double from_s, const Obstacles& obstacles,
                        double clearance_m) {
   if (trajectory.empty()) {
@@ -68,28 +75,36 @@ Conflict firstConflict(const Trajectory& trajectory, double from_s, const Obstac
 
 Conflict outlineConflict(const Trajectory& trajectory, double from_s, double to_s,
                          const Obstacles& obstacles, const vessel::Parameters& vessel,
-                         double clearance_m, bool edge, const vessel::Disturbance& disturbance) {
+                         double clearance_m, bool edge, const vessel::Disturbance& disturbance,
+                         const Off& off) {
+  constexpr double kMadeGoodS = 3.0;
   if (trajectory.empty()) {
     return {};
   }
   const double reach = vessel::circumscribedRadius(vessel.hull);
+  const double made_good_mps =
+      (off.position_m.norm() + reach * std::abs(off.heading_rad)) / kMadeGoodS;
   for (std::size_t i = trajectory.pieceAt(from_s);
        i < trajectory.pieces().size() && trajectory.startOf(i) <= to_s; ++i) {
     const Piece& piece = trajectory.pieces()[i];
     const double start = trajectory.startOf(i);
     const double approach =
         trajectory::speedBound(trajectory::differentiate<8>(piece.position), piece.duration_s) +
-        reach * turningBound(piece, vessel) + obstacles.rateBound();
+        reach * turningBound(piece, vessel) + obstacles.rateBound() + made_good_mps;
     double nearest = 0.0;
     const auto slack = [&](double t) {
-      const Eigen::Vector2d centre = trajectory::evaluate<8>(piece.position, t);
+      const double still =
+          std::max(0.0, 1.0 - (start + t - from_s) / kMadeGoodS);  // of what is off
+      const Eigen::Vector2d centre =
+          trajectory::evaluate<8>(piece.position, t) + still * off.position_m;
       if (edge) {
         nearest = obstacles.clearance(centre, start + t) - reach;
         if (nearest > clearance_m + 0.5 * reach) {
           return nearest - clearance_m;
         }
       }
-      const double psi = trajectory.sampleIn(i, t, vessel, disturbance).state[vessel::kPsi];
+      const double psi = trajectory.sampleIn(i, t, vessel, disturbance).state[vessel::kPsi] +
+                         still * off.heading_rad;
       nearest = feasibility::outlineClearance(
           vessel.hull, centre, psi,
           [&](const Eigen::Vector2d& p) { return pointClearance(p, start + t, obstacles, edge); });
@@ -116,10 +131,8 @@ bool isAboutToTouch(const Trajectory& trajectory, double at_s, const vessel::Sta
   constexpr double kSoonS = 1.5;
   constexpr double kEachS = 0.1;
   constexpr double kContactM = 0.01;
-  const vessel::State wanted = trajectory.sample(at_s, vessel, disturbance).state;
-  const Eigen::Vector2d off = state.head<2>() - wanted.head<2>();
-  const double turned = wrapAngle(state[vessel::kPsi] - wanted[vessel::kPsi]);
-  if (std::abs(turned) < kOffRad) {
+  const Off off = offTrajectory(trajectory, at_s, state, vessel, disturbance);
+  if (std::abs(off.heading_rad) < kOffRad) {
     return false;
   }
   const auto left = [&](const Eigen::Vector2d& centre, double psi_rad, double t) {
@@ -132,7 +145,7 @@ bool isAboutToTouch(const Trajectory& trajectory, double at_s, const vessel::Sta
   const double until = std::min(trajectory.duration(), at_s + kSoonS);
   for (double t = at_s + kEachS; t <= until; t += kEachS) {
     const vessel::State there = trajectory.sample(t, vessel, disturbance).state;
-    if (left(there.head<2>() + off, there[vessel::kPsi] + turned, t) <
+    if (left(there.head<2>() + off.position_m, there[vessel::kPsi] + off.heading_rad, t) <
         std::min(kContactM, now - kContactM)) {
       return true;
     }
@@ -148,16 +161,24 @@ bool Touch::milderThan(const Touch& other) const {
 }
 
 Touch firstTouch(const Trajectory& trajectory, double from_s, const Obstacles& obstacles,
-                 const vessel::Parameters& vessel) {
+                 const vessel::Parameters& vessel, const Off& off) {
   constexpr double kRestsS = 8.0;
   if (trajectory.empty()) {
     return {};
   }
   const double end = trajectory.duration();
-  const Conflict under_way = outlineConflict(trajectory, from_s, end, obstacles, vessel, 0.0);
-  if (under_way.found) {
-    const double speed = trajectory.flat(under_way.time_s).velocity.norm();
-    return {under_way.time_s - from_s, speed};
+  const auto touchUnderWay = [&](const Off& o) {
+    const Conflict c =
+        outlineConflict(trajectory, from_s, end, obstacles, vessel, 0.0, true, {}, o);
+    return c.found ? Touch{c.time_s - from_s, trajectory.flat(c.time_s).velocity.norm()} : Touch{};
+  };
+  const Touch planned = touchUnderWay({});
+  const bool lies_off = off.position_m.norm() > 0.0 || off.heading_rad != 0.0;
+  const Touch as_it_lies = lies_off ? touchUnderWay(off) : Touch{};
+  const bool counts = as_it_lies.after_s > 0.0 && planned.milderThan(as_it_lies);
+  const Touch& worse = counts ? as_it_lies : planned;
+  if (std::isfinite(worse.after_s)) {
+    return worse;
   }
   if (obstacles.rateBound() == 0.0) {
     return {};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "otter_nav/feasibility/obstacles.hpp"
+#include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/motion_law.hpp"
 #include "otter_nav/vessel/parameters.hpp"
@@ -25,6 +26,8 @@ struct StopLimits {
   // At rest wind and waves swing a hull that has no thruster against them: a stop that ends with so
   // much beside the outline is preferred.
   double rest_room_m = 0.0;
+  // How the hull lies off the sailed trajectory: no stop may touch on its way back either.
+  Off off = {};
 };
 
 // The quickest stop from `at_s` (s from the trajectory's start) that keeps to its limits and asks

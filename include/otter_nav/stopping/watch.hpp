@@ -22,13 +22,24 @@ struct Conflict {
 [[nodiscard]] Conflict firstConflict(const trajectory::Trajectory& trajectory, double from_s,
                                      const feasibility::Obstacles& obstacles, double clearance_m);
 
-// The same for the hull's exact outline in the attitude planned with `disturbance`, up to `to_s`.
-// Where `edge` is false the map's edge is no obstacle.
+// How the hull truly lies beside where a trajectory has it: the tracker makes that good within a
+// few seconds.
+struct Off {
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+  double heading_rad = 0.0;
+};
+[[nodiscard]] Off offTrajectory(const trajectory::Trajectory& trajectory, double at_s,
+                                const vessel::State& state, const vessel::Parameters& vessel,
+                                const vessel::Disturbance& disturbance = {});
+
+// The same for the hull's exact outline in the attitude planned with `disturbance`, up to `to_s`,
+// and `off` that at first. Where `edge` is false the map's edge is no obstacle.
 [[nodiscard]] Conflict outlineConflict(const trajectory::Trajectory& trajectory, double from_s,
                                        double to_s, const feasibility::Obstacles& obstacles,
                                        const vessel::Parameters& vessel, double clearance_m,
                                        bool edge = true,
-                                       const vessel::Disturbance& disturbance = {});
+                                       const vessel::Disturbance& disturbance = {},
+                                       const Off& off = {});
 
 // Whether the hull in its true attitude, which may be far from the planned one where wind and waves
 // turn it, is about to touch: within the next moment along the trajectory, off it as it is now.
@@ -47,9 +58,10 @@ struct Touch {
   // Slower at the contact, or later.
   [[nodiscard]] bool milderThan(const Touch& other) const;
 };
-// Of the exact outline, from `from_s` on and for a while after the trajectory's end.
+// Of the exact outline, from `from_s` on and for a while after the trajectory's end: as planned or
+// as it lies, whichever is worse. What touches already as it lies is judged as planned alone.
 [[nodiscard]] Touch firstTouch(const trajectory::Trajectory& trajectory, double from_s,
                                const feasibility::Obstacles& obstacles,
-                               const vessel::Parameters& vessel);
+                               const vessel::Parameters& vessel, const Off& off = {});
 
 }  // namespace otter_nav::stopping

@@ -343,6 +343,48 @@ TEST(Supervisor, StopsBeforeItTouchesAsItLies) {
   }
 }
 
+// Set aside towards something, every stop would touch before the vessel is back on its way: the
+// last one is taken.
+TEST(Supervisor, StopsWhereNoLaterStopIsClearAsTheHullLies) {
+  for (const double aside_m : {-0.4, 0.0, 0.4}) {
+    ScriptedMission m;
+    m.setOut(6.0);
+    (void)m.update(0.1);
+    Situation s = m.situation();
+    m.put({s.state.x() + 2.5, 0.8}, {s.state.x() + 40.0, 3.0});
+    s.state.y() += aside_m;
+    (void)m.supervisor->update(m.now_s, s, m.obstacles());
+    EXPECT_EQ(m.supervisor->phase(), aside_m > 0.0 ? Phase::kStopping : Phase::kReplanning)
+        << aside_m;
+  }
+}
+
+// While it stops, too: another way to rest is taken where the hull would touch on its way back.
+TEST(Supervisor, ChangesAStopThatTouchesAsTheHullLies) {
+  for (const double aside_m : {-0.3, 0.0, 0.3}) {
+    ScriptedMission m;
+    m.setOut(6.0);
+    ASSERT_TRUE(m.supervisor->cancel(m.now_s, m.situation(), m.obstacles()).sail);
+    const trajectory::Trajectory stop = m.supervisor->sailed().trajectory;
+    const Eigen::Vector2d rest = stop.flat(stop.duration()).position;
+    m.put({rest.x() - 4.0, 0.75}, {rest.x() + 20.0, 3.0});
+    (void)m.update(0.5);
+    Situation s = m.situation();
+    ASSERT_EQ(m.supervisor->sailed().trajectory.duration(), stop.duration());
+    s.state.y() += aside_m;
+    s.tracking_error_m = std::abs(aside_m);
+    for (int k = 0; k < 30; ++k) {
+      m.now_s += 0.1;
+      s = m.situation();
+      s.state.y() += aside_m;
+      s.odometry_stamp_s = m.now_s;
+      (void)m.supervisor->update(m.now_s, s, m.obstacles());
+    }
+    const bool changed = m.supervisor->sailed().trajectory.duration() != stop.duration();
+    EXPECT_EQ(changed, aside_m > 0.0) << aside_m;
+  }
+}
+
 // Where none can begin at the moment, as in a bend taken at the limit, one that begins later is
 // kept.
 TEST(Supervisor, KeepsAStopInAHardBend) {

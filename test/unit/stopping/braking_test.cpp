@@ -228,6 +228,69 @@ TEST(Braking, EndsASpinInPlaceWithoutAJump) {
   EXPECT_LT(end.head<2>().norm() + end.tail<3>().norm(), 1e-6);
 }
 
+// A stop that is clear as planned may touch on the hull's way back to it.
+TEST(Braking, IsJudgedAsTheHullLies) {
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  map::OccupancyGrid grid = openWater();
+  const double ahead = sailed.flat(6.0).position.x() + 4.0;
+  block(grid, {ahead, 0.8}, {ahead + 40.0, 3.0});
+  const map::DistanceField field = fieldOf(grid);
+  const vessel::Parameters vessel;
+  const Off towards{{0.0, 0.4}, 0.0};
+  const Off away{{0.0, -0.4}, 0.0};
+  const Off turned{{0.0, 0.0}, 0.5};
+  const auto clear = [&](const Off& off) {
+    StopLimits limits{0.6, 0.02};
+    limits.off = off;
+    return brakingTrajectory(sailed, 6.0, field, vessel, limits).clear;
+  };
+  EXPECT_TRUE(clear({}));
+  EXPECT_TRUE(clear(away));
+  EXPECT_FALSE(clear(towards));
+  EXPECT_FALSE(clear(turned));
+
+  const auto touch = [&](const Off& off, double at_s) {
+    return firstTouch(sailed, at_s, field, vessel, off).after_s;
+  };
+  EXPECT_TRUE(std::isinf(touch({}, 6.0)));
+  EXPECT_TRUE(std::isinf(touch(away, 6.0)));
+  EXPECT_LT(touch(towards, 6.0), 1.0);
+  EXPECT_LT(touch(turned, 6.0), 1.0);
+  // Made good by then.
+  EXPECT_TRUE(std::isinf(touch(towards, 2.0)));
+  // Where it touches already, the way on is judged by itself.
+  EXPECT_TRUE(std::isinf(touch(towards, 8.0)));
+}
+
+// Where the path comes to a point, and the flat heading swings round in no time.
+TEST(Braking, HoldsWhatHardlyMovesWithoutAWhirl) {
+  const auto at = [](double x, double y, double vx, double vy) {
+    vessel::FlatPoint point;
+    point.position = {x, y};
+    point.velocity = {vx, vy};
+    return point;
+  };
+  const Trajectory sailed(
+      {trajectory::hermitePiece(at(0.0, 0.0, 0.3, 0.0), at(0.1, 0.001, -0.3, 1e-4), 2.0)});
+  const vessel::Parameters vessel;
+  const double fastest = feasibility::SafetyLimits::of(vessel).yaw_rate_max_radps;
+  double whirls_radps = 0.0;
+  const map::DistanceField field = fieldOf(openWater());
+  for (double t = 0.0; t < 2.0; t += 0.001) {
+    whirls_radps =
+        std::max(whirls_radps, std::abs(sailed.sample(t, vessel).state[vessel::kYawRate]));
+    const Braking stop = brakingTrajectory(sailed, t, field, vessel, {kClearanceM});
+    ASSERT_FALSE(stop.trajectory.empty());
+    if (stop.trajectory.pieces().size() == 1) {
+      for (double s = 0.0; s <= stop.trajectory.duration(); s += 0.05) {
+        EXPECT_LT(std::abs(stop.trajectory.sample(s, vessel).state[vessel::kYawRate]),
+                  2.0 * fastest);
+      }
+    }
+  }
+  EXPECT_GT(whirls_radps, 10.0 * fastest);
+}
+
 // From a standing start the way to a near goal takes less time than the gentlest stop; it is no
 // stop for all that.
 TEST(Braking, IsNeverTheRestOfTheVoyage) {
