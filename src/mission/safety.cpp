@@ -22,7 +22,11 @@ constexpr double kMoreThrust = 0.2;  // each time there was no plan at any clear
 // what the map adds by cells on the way leaves the stops clear.
 constexpr double kPlanMarginM = 0.05;
 constexpr double kOffTrajectoryM = 0.02;
+// What it wanders may take so much of the room at the usual pace; less before it goes at that
+// again, for the faster it goes the more it wanders, and a plan for each pace in turn leads it
+// aground.
 constexpr double kMostOfRoom = 0.75;
+constexpr double kMostToGoFaster = 0.6;
 constexpr double kSlower = 0.65;
 // Of what it wanders, kept on the narrow levels too; and what it is expected to where it was not
 // under way for long enough to tell.
@@ -97,6 +101,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
       kPlanMarginM, std::pow(0.5, times_refused_) * std::min(most, wandersAt(levels_.level())));
   limits.limitSpeed(options_.speed_max_mps);
   limits.speed_max_mps = paceAt(levels_.level(), limits.speed_max_mps * slowShare());
+  is_slow_ = wandersMuch(levels_.level());
   return limits;
 }
 
@@ -105,8 +110,13 @@ double Safety::wandersAt(std::size_t level) const {
   return (in_unknown_water_ && has_room ? kTimesWander : 1.0) * reach();
 }
 
+bool Safety::wandersMuch(std::size_t level) const {
+  const double most = is_slow_ ? kMostToGoFaster : kMostOfRoom;
+  return wandersAt(level) > most * options_.side_clearances_m[level];
+}
+
 double Safety::paceAt(std::size_t level, double usual_mps) const {
-  if (plansWithWeather() || wandersAt(level) <= kMostOfRoom * options_.side_clearances_m[level]) {
+  if (plansWithWeather() || !wandersMuch(level)) {
     return usual_mps;
   }
   const double slower = kSlower * usual_mps;

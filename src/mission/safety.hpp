@@ -141,6 +141,7 @@ class Safety {
   [[nodiscard]] double waveShare() const;
   // What room that takes, m.
   [[nodiscard]] double wandersAt(std::size_t level) const;
+  [[nodiscard]] bool wandersMuch(std::size_t level) const;
 
   SupervisorOptions options_;
   vessel::Parameters vessel_;
@@ -148,6 +149,7 @@ class Safety {
   Weather weather_;
   Wander wander_;
   bool in_unknown_water_ = false;
+  bool is_slow_ = false;       // what was asked for last
   int times_refused_ = 0;      // at all levels, from where the vessel is, in a row
   int times_left_behind_ = 0;  // on the way to this goal
 };

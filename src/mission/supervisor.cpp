@@ -1161,6 +1161,21 @@ class Decider final : public Supervisor {
     }
     return clear;
   }
+  // Whether a stop can begin at any time soon. A way to rest is given up for nothing less: going on
+  // and stopping in turns, the hull is soon off all of them.
+  bool hasStopsForAWhile(const Moment& m, const TimedTrajectory& path,
+                         const feasibility::SafetyLimits& planned) {
+    constexpr double kStepS = 0.25;
+    constexpr int kSteps = 5;
+    const stopping::StopLimits limits = safety().stop(planned);
+    for (int k = 1; k <= kSteps; ++k) {
+      const double at = path.elapsed(m.now_s) + k * kStepS;
+      if (at < path.trajectory.duration() && !stop(m, path, at, limits).clear) {
+        return false;
+      }
+    }
+    return true;
+  }
   // One that begins so much later; the way's own end is one.
   bool keepStop(const Moment& m, const TimedTrajectory& path, double later_s,
                 const stopping::StopLimits& limits) {
@@ -1207,8 +1222,10 @@ class Decider final : public Supervisor {
   // Only if a stop exists on it; else it is asked for again, or the vessel stops.
   Orders sail(const Moment& m, TimedTrajectory plan, const PlanRequests::Asked& asked) {
     const bool from_sailed = asked.from == From::kSailed;
-    if (!findStop(m, plan, asked.request.query.limits,
-                  from_sailed ? offSailed(m) : stopping::Off{})) {
+    const feasibility::SafetyLimits& planned = asked.request.query.limits;
+    const bool gives_up_a_stop = phase_ == Phase::kStopping && from_sailed;
+    if ((gives_up_a_stop && !hasStopsForAWhile(m, plan, planned)) ||
+        !findStop(m, plan, planned, from_sailed ? offSailed(m) : stopping::Off{})) {
       return asked.gain ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
     }
     replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;

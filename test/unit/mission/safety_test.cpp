@@ -100,6 +100,26 @@ TEST(Safety, CrawlsInUnknownWaterWhereItWanders) {
   EXPECT_EQ(limits().speed_max_mps, fast);
 }
 
+// At the usual pace it wanders more: once it goes slowly that must have become clearly less.
+TEST(Safety, GoesFasterAgainOnlyWhereItWandersMuchLess) {
+  Safety safety(SupervisorOptions{}, vessel::Parameters{});
+  double now_s = 0.0;
+  const auto isSlow = [&](double reach_m) {
+    for (int k = 0; k < 1000; ++k) {
+      safety.wander(now_s += 0.1, 0.5 * reach_m);
+    }
+    return safety.limits(0.95, kWideWater).speed_max_mps < 1.0;
+  };
+  safety.inUnknownWater(true);
+  ASSERT_TRUE(safety.refused());
+  const double room = SupervisorOptions{}.side_clearances_m[1];
+  EXPECT_FALSE(isSlow(0.5 * 0.65 * room));  // of which twice is kept
+  EXPECT_TRUE(isSlow(0.5 * 0.80 * room));
+  EXPECT_TRUE(isSlow(0.5 * 0.65 * room));
+  EXPECT_FALSE(isSlow(0.5 * 0.55 * room));
+  EXPECT_FALSE(isSlow(0.5 * 0.65 * room));
+}
+
 vessel::Parameters feelingWind() {
   vessel::Parameters vessel;
   vessel.manoeuvring.wind_surge_kgpm = 0.5;

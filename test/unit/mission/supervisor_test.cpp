@@ -359,6 +359,38 @@ TEST(Supervisor, StopsWhereNoLaterStopIsClearAsTheHullLies) {
   }
 }
 
+// A stop is given up for a plan on which the next stops exist too.
+TEST(Supervisor, GoesOnFromAStopOnlyWhereItCanStopForAWhile) {
+  for (const double wall_m : {5.0, 40.0}) {
+    ScriptedMission m;
+    m.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    const auto orders = m.goTo({40.0, 0.0});
+    (void)m.answer(*orders->plan, eastward({-40.0, 0.0}, 80.0, 2.0));
+    (void)m.update(8.0);
+    m.put({m.situation().state.x() + 3.0, -5.0}, {m.situation().state.x() + 4.0, 5.0});
+    Orders stops = m.update(0.1);
+    for (int k = 0; k < 20 && m.supervisor->phase() != Phase::kStopping; ++k) {
+      stops = m.update(0.1);
+    }
+    ASSERT_EQ(m.supervisor->phase(), Phase::kStopping);
+    // It is gone, but for another further on.
+    m.grid = test::openWater();
+    m.put({m.situation().state.x() + wall_m, -5.0}, {m.situation().state.x() + wall_m + 1.0, 5.0});
+    std::optional<PlanRequest> asked = stops.plan;
+    for (int k = 0; k < 10 && !asked; ++k) {
+      asked = m.update(0.1).plan;
+    }
+    ASSERT_TRUE(asked);
+    const trajectory::Boundary& from = asked->query.start;
+    vessel::FlatPoint end;
+    end.position = from.flat.position + Eigen::Vector2d(60.0, 0.0);
+    const bool sails =
+        m.answer(*asked, trajectory::Trajectory({trajectory::hermitePiece(from.flat, end, 30.0)}))
+            .sail.has_value();
+    EXPECT_EQ(sails, wall_m > 20.0) << wall_m;
+  }
+}
+
 // While it stops, too: another way to rest is taken where the hull would touch on its way back.
 TEST(Supervisor, ChangesAStopThatTouchesAsTheHullLies) {
   for (const double aside_m : {-0.3, 0.0, 0.3}) {
