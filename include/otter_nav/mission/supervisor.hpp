@@ -54,7 +54,7 @@ struct SupervisorOptions {
   double thrust_share = 0.95;
   double speed_max_mps = 0.0;
   double planning_latency_s = 0.3;
-  int rounds_from_rest = 3;
+  int rounds_from_rest = 10;
   int stops_max = 8;
   double tracking_error_max_m = 1.2;
   double odometry_timeout_s = 1.0;

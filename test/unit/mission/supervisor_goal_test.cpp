@@ -86,7 +86,7 @@ TEST(Goal, PlansThatFailAreTriedNarrowerThenGivenUpWithTheReason) {
   ASSERT_EQ(mission.supervisor->phase(), Phase::kFailed);
   EXPECT_NE(mission.supervisor->reason().find("no way at all"), std::string::npos);
   const std::size_t levels = mission.options.side_clearances_m.size();
-  ASSERT_EQ(tried.size(), 3 * levels);
+  ASSERT_EQ(tried.size(), static_cast<std::size_t>(mission.options.rounds_from_rest) * levels);
   for (std::size_t k = 0; k < tried.size(); ++k) {
     EXPECT_DOUBLE_EQ(tried[k], mission.clearance(k % levels));
   }
