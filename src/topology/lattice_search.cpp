@@ -25,25 +25,36 @@ void LatticeSearch::begin(const map::DistanceField& field, const LatticeQuery& q
   start_ = columns_ * rows_;
   goal_ = start_ + 1;
   const auto count = static_cast<std::size_t>(goal_) + 1;
-  if (nodes_.size() < count) {
-    nodes_.resize(count);
+  if (slots_.size() < count) {
+    slots_.resize(count);
   }
-  ++search_;
-  if (search_ == 0) {  // the counter came round
-    std::fill(nodes_.begin(), nodes_.end(), Node{});
-    search_ = 1;
-  }
+  pool_.clear();
+  makeRoom();
   open_.clear();
   expansions_ = 0;
   const auto settle_end = [&](std::int32_t id, const Eigen::Vector2d& p, int& column, int& row) {
     const Eigen::Vector2i cell = g.cellAt(p);
     column = cell.x() / query.block;
     row = cell.y() / query.block;
-    nodes_[static_cast<std::size_t>(id)] = {search_, State::kUnseen,     -1,
-                                            0.0F,    field.clearance(p), p};
+    add(id) = {id, State::kUnseen, -1, 0.0F, field.clearance(p), p};
   };
   settle_end(start_, query.start, start_column_, start_row_);
   settle_end(goal_, query.goal, goal_column_, goal_row_);
+}
+
+// For the ends, or for the blocks around one: meanwhile no node moves.
+void LatticeSearch::makeRoom() {
+  constexpr std::size_t kAround = 9;
+  if (pool_.capacity() < pool_.size() + kAround) {
+    pool_.reserve(2 * pool_.capacity() + kAround);
+  }
+}
+
+LatticeSearch::Node& LatticeSearch::add(std::int32_t id) {
+  slots_[static_cast<std::size_t>(id)] = static_cast<std::uint32_t>(pool_.size());
+  pool_.emplace_back();
+  pool_.back().block = id;
+  return pool_.back();
 }
 
 void LatticeSearch::place(Node& node, int column, int row) {
@@ -65,7 +76,6 @@ void LatticeSearch::place(Node& node, int column, int row) {
       }
     }
   }
-  node.search = search_;
   node.parent = -1;
   node.clearance_m = clearance;
   node.position = g.origin + g.resolution_m * Eigen::Vector2d(x, y);
@@ -75,10 +85,13 @@ void LatticeSearch::place(Node& node, int column, int row) {
 }
 
 LatticeSearch::Node& LatticeSearch::touch(int column, int row) {
-  Node& node = nodes_[static_cast<std::size_t>(row * columns_ + column)];
-  if (node.search != search_) {
-    place(node, column, row);
+  const std::int32_t id = row * columns_ + column;
+  const std::uint32_t slot = slots_[static_cast<std::size_t>(id)];
+  if (slot < pool_.size() && pool_[slot].block == id) {
+    return pool_[slot];
   }
+  Node& node = add(id);
+  place(node, column, row);
   return node;
 }
 
@@ -122,7 +135,7 @@ float LatticeSearch::totalOf(const Node& node) const {
 }
 
 void LatticeSearch::push(std::int32_t id) {
-  Node& node = nodes_[static_cast<std::size_t>(id)];
+  Node& node = nodeOf(id);
   if (node.length + (query_.goal - node.position).norm() >= query_.longest_m) {
     node.state = State::kUnseen;
     return;
@@ -135,13 +148,13 @@ void LatticeSearch::push(std::int32_t id) {
 // The straight line to its parent was only assumed free; where it isn't, the best closed
 // neighbour takes the parent's place. False if there is none.
 bool LatticeSearch::settle(std::int32_t id) {
-  Node& node = nodes_[static_cast<std::size_t>(id)];
-  if (node.parent < 0 || edgeIsClear(nodes_[static_cast<std::size_t>(node.parent)], node)) {
+  Node& node = nodeOf(id);
+  if (node.parent < 0 || edgeIsClear(nodeOf(node.parent), node)) {
     return true;
   }
   node.parent = -1;
   forEachNeighbour(id, [&](std::int32_t other_id) {
-    const Node& other = nodes_[static_cast<std::size_t>(other_id)];
+    const Node& other = nodeOf(other_id);
     if (other.state != State::kClosed) {
       return;
     }
@@ -155,11 +168,11 @@ bool LatticeSearch::settle(std::int32_t id) {
 }
 
 void LatticeSearch::expand(std::int32_t id) {
-  const Node& node = nodes_[static_cast<std::size_t>(id)];
+  const Node& node = nodeOf(id);
   const std::int32_t parent_id = node.parent < 0 ? id : node.parent;
-  const Node& parent = nodes_[static_cast<std::size_t>(parent_id)];
+  const Node& parent = nodeOf(parent_id);
   forEachNeighbour(id, [&](std::int32_t other_id) {
-    Node& other = nodes_[static_cast<std::size_t>(other_id)];
+    Node& other = nodeOf(other_id);
     if (other.state == State::kClosed) {
       return;
     }
@@ -179,8 +192,8 @@ void LatticeSearch::expand(std::int32_t id) {
 
 void LatticeSearch::collect(std::vector<Eigen::Vector2d>& path) const {
   path.clear();
-  for (std::int32_t id = goal_; id >= 0; id = nodes_[static_cast<std::size_t>(id)].parent) {
-    path.push_back(nodes_[static_cast<std::size_t>(id)].position);
+  for (std::int32_t id = goal_; id >= 0; id = nodeOf(id).parent) {
+    path.push_back(nodeOf(id).position);
   }
   std::reverse(path.begin(), path.end());
 }
@@ -191,10 +204,11 @@ LatticeSearch::Outcome LatticeSearch::run(const map::DistanceField& field,
   begin(field, query);
   push(start_);
   while (!open_.empty()) {
+    makeRoom();
     std::pop_heap(open_.begin(), open_.end(), Farther{});
     const auto [total, id] = open_.back();
     open_.pop_back();
-    Node& node = nodes_[static_cast<std::size_t>(id)];
+    Node& node = nodeOf(id);
     if (node.state != State::kOpen || total != totalOf(node)) {
       continue;  // done, or a later entry holds it
     }

@@ -33,7 +33,7 @@ class LatticeSearch {
  private:
   enum class State : std::uint8_t { kBlocked, kUnseen, kOpen, kClosed };
   struct Node {
-    std::uint32_t search = 0;  // what follows belongs to this search
+    std::int32_t block = -1;  // whose node it is
     State state = State::kUnseen;
     std::int32_t parent = -1;
     float length = 0.0F;  // from the start
@@ -46,6 +46,12 @@ class LatticeSearch {
   };
 
   void begin(const map::DistanceField& field, const LatticeQuery& query);
+  Node& nodeOf(std::int32_t id) { return pool_[slots_[static_cast<std::size_t>(id)]]; }
+  [[nodiscard]] const Node& nodeOf(std::int32_t id) const {
+    return pool_[slots_[static_cast<std::size_t>(id)]];
+  }
+  void makeRoom();
+  Node& add(std::int32_t id);
   void place(Node& node, int column, int row);
   Node& touch(int column, int row);
   [[nodiscard]] bool edgeIsClear(const Node& a, const Node& b) const;
@@ -61,9 +67,12 @@ class LatticeSearch {
   LatticeQuery query_;
   int columns_ = 0, rows_ = 0;
   int start_column_ = 0, start_row_ = 0, goal_column_ = 0, goal_row_ = 0;
-  std::uint32_t search_ = 0;
   int expansions_ = 0;
-  std::vector<Node> nodes_;  // blocks row by row, then start and goal
+  // The nodes that a search has met, and where in there a block's is: blocks row by row, then start
+  // and goal. A slot counts where the pool's node says so, so that nothing of the map's size is
+  // cleared for a search.
+  std::vector<Node> pool_;
+  std::vector<std::uint32_t> slots_;
   std::int32_t start_ = 0, goal_ = 0;
   std::vector<Open> open_;
 };

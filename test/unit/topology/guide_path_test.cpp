@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/config/fields.hpp"
+#include "topology/lattice_search.hpp"
 
 namespace otter_nav::topology {
 namespace {
@@ -49,6 +51,29 @@ TEST(GuidePathFinder, OpenWaterIsTheStraightLine) {
   EXPECT_TRUE(path->repaired_dubins);
   ASSERT_EQ(path->corridor_m.size(), 2U);
   EXPECT_NEAR(path->corridor_m[0], 6.0, 1e-9);
+}
+
+// What a search met on one map is nothing to the next.
+TEST(LatticeSearch, FindsTheSameOnAnotherMapAsForTheFirstTime) {
+  OccupancyGrid grid = water();
+  fill(grid, -2.0, -25.0, 2.0, 20.0);
+  const map::DistanceField field(grid, {});
+  OccupancyGrid mirrored = water();
+  fill(mirrored, -2.0, -20.0, 2.0, 25.0);
+  const map::DistanceField other(mirrored, {});
+  LatticeQuery query;
+  query.start = {-20.0, 0.0};
+  query.goal = {20.0, 0.0};
+  query.low = {-30.0, -30.0};
+  query.high = {30.0, 30.0};
+  query.max_expansions = 100000;
+  LatticeSearch search;
+  std::vector<Eigen::Vector2d> again;
+  std::vector<Eigen::Vector2d> first;
+  ASSERT_EQ(search.run(field, query, again), LatticeSearch::Outcome::kFound);
+  ASSERT_EQ(search.run(other, query, again), LatticeSearch::Outcome::kFound);
+  ASSERT_EQ(LatticeSearch().run(other, query, first), LatticeSearch::Outcome::kFound);
+  EXPECT_EQ(again, first);
 }
 
 // Round a square of 4 m: tangents to arcs of radius clearance + margin about two corners.
