@@ -43,7 +43,8 @@ Outline grown(const Track& track, const Eigen::Vector2d& position, double t_s,
   Outline outline;
   outline.position = position;
   outline.heading_rad = track.heading_rad + turnedBy(track, t_s);
-  const Eigen::Vector2d ahead = unitVector(outline.heading_rad);
+  outline.bow = unitVector(outline.heading_rad);
+  const Eigen::Vector2d& ahead = outline.bow;
   const Eigen::Vector2d port = across(ahead);
   outline.half_length_m = growth(ahead);
   outline.half_beam_m = growth(port);
@@ -59,7 +60,7 @@ Outline grown(const Track& track, const Eigen::Vector2d& position, double t_s,
 }  // namespace
 
 Outline::Distance Outline::distanceTo(const Eigen::Vector2d& point) const {
-  const Eigen::Vector2d ahead = unitVector(heading_rad);
+  const Eigen::Vector2d& ahead = bow;
   const Eigen::Vector2d port = across(ahead);
   const Eigen::Vector2d off = point - position;
   const Eigen::Vector2d local(ahead.dot(off), port.dot(off));
@@ -121,7 +122,10 @@ Outline PredictedPath::at(double time_s) const {
   Outline outline = a;
   outline.position += share * (b.position - a.position);  // also before and beyond the samples
   const double within = std::clamp(share, 0.0, 1.0);
-  outline.heading_rad += within * (b.heading_rad - a.heading_rad);
+  if (b.heading_rad != a.heading_rad) {
+    outline.heading_rad += within * (b.heading_rad - a.heading_rad);
+    outline.bow = unitVector(outline.heading_rad);
+  }
   outline.half_length_m += within * (b.half_length_m - a.half_length_m);
   outline.half_beam_m += within * (b.half_beam_m - a.half_beam_m);
   return outline;

@@ -49,6 +49,7 @@ struct PredictionOptions {
 struct Outline {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;
+  Eigen::Vector2d bow = Eigen::Vector2d::UnitX();  // the same as a direction, kept at hand
   double half_length_m = 0.0;
   double half_beam_m = 0.0;
   double radius_m = 0.0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/random.hpp"
 
 namespace otter_nav::traffic {
@@ -58,6 +59,11 @@ TEST(TrackLayer, TurnsWithATrackThatTurns) {
   const Outline outline = layer.paths()[0].at(quarter_s);
   EXPECT_NEAR((outline.position - Eigen::Vector2d(30.0, 25.0)).norm(), 0.0, 0.05);
   EXPECT_NEAR(outline.heading_rad, 0.5 * kPi, 1e-2);
+  EXPECT_NEAR((outline.bow - unitVector(outline.heading_rad)).norm(), 0.0, 1e-12);
+  // Half a metre before the bow, which points north by then.
+  const double before_bow = outline.half_length_m + 0.5;
+  EXPECT_NEAR(outline.distanceTo(outline.position + Eigen::Vector2d(0.0, before_bow)).distance_m,
+              0.5, 0.05);
   // A turn that dies out ends at its time constant's worth of angle.
   track.turn_time_s = 5.0;
   const Outline late = PredictedPath(track, certain()).at(200.0);
