@@ -142,6 +142,48 @@ TEST(PathLine, RoundsCornersAndKeepsOffObstacles) {
   EXPECT_EQ(line.points().back().position, Eigen::Vector2d(20.0, 10.0));
 }
 
+// What is far off is asked for once, and comes near all the same.
+TEST(PathLine, AsksForDistancesWhereSomethingMayHaveComeNear) {
+  constexpr int kRounds = 60;
+  constexpr double kClearanceM = 2.0;
+  const Eigen::Vector2d rock(30.0, -3.4);
+  const std::vector<Eigen::Vector2d> corners = {
+      {0.0, 0.0}, {30.0, -6.0}, {60.0, 0.0}, {60.0, 40.0}};
+  PathLine line;
+  line.resample(corners, 1.0, 2);
+  std::vector<Eigen::Vector2d> asked_always;
+  for (const PathLine::Point& point : line.points()) {
+    asked_always.push_back(point.position);
+  }
+  int asked = 0;
+  line.relax(
+      [&](const Eigen::Vector2d& p) {
+        ++asked;
+        return Distance{(p - rock).norm(), (p - rock).normalized()};
+      },
+      kClearanceM, kRounds);
+  const std::size_t count = asked_always.size();
+  bool pushed = false;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Eigen::Vector2d> moved = asked_always;
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+      moved[i] = 0.5 * asked_always[i] + 0.25 * (asked_always[i - 1] + asked_always[i + 1]);
+      const Eigen::Vector2d off = moved[i] - rock;
+      if (off.norm() < kClearanceM) {
+        moved[i] += std::min(kClearanceM - off.norm(), 0.5) * off.normalized();
+        pushed = true;
+      }
+    }
+    asked_always = moved;
+  }
+  ASSERT_TRUE(pushed);
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_NEAR((line.points()[i].position - asked_always[i]).norm(), 0.0, 1e-9) << i;
+  }
+  EXPECT_LT(asked, static_cast<int>(count) * kRounds / 4);
+  EXPECT_GT(asked, static_cast<int>(count));
+}
+
 TEST(PathLine, SpeedsAreWhatTurnsAndThrustAllow) {
   PathLine line;
   line.resample({{0.0, 0.0}, {20.0, 0.0}, {20.0, 20.0}}, 1.0, 2);

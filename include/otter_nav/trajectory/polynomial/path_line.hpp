@@ -64,6 +64,7 @@ class PathLine {
   double spacing_m_ = 1.0;
   std::vector<Point> points_;
   std::vector<Eigen::Vector2d> moved_;
+  std::vector<double> to_spare_m_;
 };
 
 template <typename Smooth>
@@ -71,12 +72,22 @@ void PathLine::relax(const Smooth& smooth, double clearance_m, int rounds, std::
                      std::size_t held_tail) {
   constexpr double kLargestPushM = 0.5;
   constexpr double kLeastGradient = 0.3;
+  // A distance falls by no more than this for each metre that its place moves. So a point that was
+  // found clear by more than it has moved since needs no other look.
+  constexpr double kSteepest = 3.0;
   moved_.resize(points_.size());
+  to_spare_m_.assign(points_.size(), 0.0);
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 1 + held_head; i + 1 + held_tail < points_.size(); ++i) {
       Eigen::Vector2d p =
           0.5 * points_[i].position + 0.25 * (points_[i - 1].position + points_[i + 1].position);
+      to_spare_m_[i] -= kSteepest * (p - points_[i].position).norm();
+      if (to_spare_m_[i] > 0.0) {
+        moved_[i] = p;
+        continue;
+      }
       const auto d = smooth(p);
+      to_spare_m_[i] = d.distance_m - clearance_m;
       if (d.distance_m < clearance_m) {
         const double steep = std::max(d.gradient.norm(), kLeastGradient);
         p += std::min(clearance_m - d.distance_m, kLargestPushM) / (steep * steep) * d.gradient;
