@@ -32,8 +32,9 @@ class Verifier {
  public:
   Verifier(const trajectory::Trajectory& trajectory, const Obstacles& obstacles,
            const vessel::Parameters& vessel, const SafetyLimits& limits,
-           const Tolerances& tolerances)
-      : trajectory_(trajectory),
+           const Tolerances& tolerances, const trajectory::MotionAlong* motion = nullptr)
+      : motion_(motion),
+        trajectory_(trajectory),
         obstacles_(obstacles),
         vessel_(vessel),
         limits_(limits),
@@ -50,8 +51,9 @@ class Verifier {
     }
     checkFinite();
     // Without ends the heading at the start is not known: then the paper's model has to do.
-    if (result_.ok && start != nullptr && !vessel::paperHolds(vessel_)) {
-      motion_.emplace(trajectory_, vessel_, limits_.disturbance, start->psi_rad);
+    if (result_.ok && start != nullptr && motion_ == nullptr && !vessel::paperHolds(vessel_)) {
+      own_.emplace(trajectory_, vessel_, limits_.disturbance, start->psi_rad);
+      motion_ = &*own_;
     }
     if (result_.ok && start != nullptr) {
       checkEnd(*start, 0, 0.0, "start");
@@ -100,13 +102,13 @@ class Verifier {
     const vessel::InverseDynamics inverse(vessel_, limits_.disturbance);
     const double drift =
         kDriftMps + inverse.greatestLoadAbeam() / vessel_.manoeuvring.sway_drag_kgps;
-    const double most = motion_ ? drift : kEndMps;
+    const double most = motion_ != nullptr ? drift : kEndMps;
     if (motion > most) {
       return fail(t, label + " motion missed", motion, most);
     }
     if (trajectory::atRest(boundary)) {
       const PieceCheck check(trajectory_.pieces()[piece], vessel_, limits_, tolerances_);
-      const double psi = motion_ ? motion_->psi(t) : check.heading(t_in_piece);
+      const double psi = motion_ != nullptr ? motion_->psi(t) : check.heading(t_in_piece);
       const double turn = std::abs(wrapAngle(psi - boundary.psi_rad));
       if (!(turn <= tolerances_.heading_rad)) {
         fail(t, label + " heading missed", turn, tolerances_.heading_rad);
@@ -132,7 +134,7 @@ class Verifier {
     if (!result_.ok) {
       return;
     }
-    if (motion_) {
+    if (motion_ != nullptr) {
       checkMeeting(i);
       return;
     }
@@ -184,7 +186,7 @@ class Verifier {
       return;
     }
     PieceReport report;
-    if (motion_) {
+    if (motion_ != nullptr) {
       check.checkDynamics(*motion_, i, report);
     } else {
       check.checkDynamics(trajectory_.startOf(i), report);
@@ -192,8 +194,7 @@ class Verifier {
     slide(piece, report);
     if (report.fault == Fault::kNone) {
       report.slide_m = slide_m_;
-      check.checkClearance(obstacles_, trajectory_.startOf(i), report,
-                           motion_ ? &*motion_ : nullptr);
+      check.checkClearance(obstacles_, trajectory_.startOf(i), report, motion_);
       result_.clearance_m = std::min(result_.clearance_m, report.clearance_m);
     }
     result_.thrust_share = std::max(result_.thrust_share, report.thrust_share);
@@ -236,13 +237,15 @@ class Verifier {
     }
   }
 
+  // Where the paper's model does not hold: the caller's, or made here.
+  const trajectory::MotionAlong* motion_;
+  std::optional<trajectory::MotionAlong> own_;
   const trajectory::Trajectory& trajectory_;
   const Obstacles& obstacles_;
   const vessel::Parameters& vessel_;
   const SafetyLimits& limits_;
   const Tolerances& tolerances_;
   Verification result_;
-  std::optional<trajectory::MotionAlong> motion_;  // where the paper's model does not hold
   double slide_mps_ = 0.0;
   double slide_m_ = 0.0;
   double heading_ = 0.0;  // at the end of the piece before
@@ -254,9 +257,9 @@ class Verifier {
 Verification verify(const trajectory::Trajectory& trajectory, const Obstacles& obstacles,
                     const vessel::Parameters& vessel, const trajectory::Boundary& start,
                     const trajectory::Boundary& goal, const SafetyLimits& limits,
-                    const Tolerances& tolerances) {
+                    const Tolerances& tolerances, const trajectory::MotionAlong* motion) {
   const SafetyLimits from_start = limits.startingAt(start.flat.velocity.norm(), vessel);
-  return Verifier(trajectory, obstacles, vessel, from_start, tolerances).run(&start, &goal);
+  return Verifier(trajectory, obstacles, vessel, from_start, tolerances, motion).run(&start, &goal);
 }
 
 Verification verify(const trajectory::Trajectory& trajectory, const Obstacles& obstacles,

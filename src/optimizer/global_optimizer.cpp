@@ -1,6 +1,8 @@
 #include "otter_nav/optimizer/global_optimizer.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -12,6 +14,7 @@
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/lean.hpp"
 #include "otter_nav/optimizer/ends.hpp"
+#include "otter_nav/trajectory/motion_along.hpp"
 #include "otter_nav/trajectory/polynomial/quadrature.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
@@ -19,6 +22,7 @@
 namespace otter_nav::optimizer {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // An attempt that after so many rounds still exceeds a limit by this share is given up.
 constexpr int kPatience = 3;
 constexpr double kHopeless = 0.5;
@@ -26,6 +30,9 @@ constexpr double kHopeless = 0.5;
 constexpr int kPatienceUnderLoad = 4;
 constexpr double kHopelessUnderLoad = 3.0;
 constexpr int kRoundsUnderLoad = 8;
+// From a moving start, by rounds made: what asks for so much more than there is at the start or
+// shortly after hardly ever comes within the limits, and another clearance is better than more.
+constexpr double kHopelessUnderWay[] = {kInfinity, kInfinity, 3.0, 0.2};
 // Of the limits of thrust and yaw rate, on the spot.
 constexpr double kSpinShare = 0.97;
 constexpr double kTurnShare = 0.905;
@@ -49,6 +56,8 @@ constexpr double kDilationMax = 0.06;
 // After the first feasible result.
 constexpr int kQuickenRounds = 2;
 constexpr double kQuickenGrowth = 2.0;  // of the weight of time
+// What the ends' manoeuvres take of a step, in pieces.
+constexpr int kWorkOfEnds = 8;
 // While the first shape is found.
 constexpr double kFirstWeightOriginal = 0.3;
 constexpr double kFirstWeightSmooth = 0.1;
@@ -106,6 +115,9 @@ class GlobalOptimizer::Solver {
     return lastResort(path);
   }
 
+  void beginWork() { work_ = 0; }
+  [[nodiscard]] int work() const { return work_; }
+
   Result<Optimized> stopAndSpin(const feasibility::Obstacles& obstacles,
                                 const std::vector<Eigen::Vector2d>& path,
                                 const trajectory::Boundary& start, const trajectory::Boundary& goal,
@@ -126,7 +138,7 @@ class GlobalOptimizer::Solver {
 
  private:
   [[nodiscard]] bool outOfTime() const {
-    return result_.iterations >= budget_->max_iterations ||
+    return result_.iterations >= budget_->max_iterations || work_ >= budget_->max_work ||
            (budget_->elapsed_s && budget_->elapsed_s() >= budget_->budget_s);
   }
 
@@ -143,6 +155,8 @@ class GlobalOptimizer::Solver {
     problem_.targets.limits = attempt.limits;
     problem_.targets.weights = attempt.weights;
     problem_.targets.obstacles = obstacles_;
+    still_ = obstacles_->lyingStill();
+    problem_.targets.still = obstacles_->rateBound() > 0.0 ? &*still_ : nullptr;
     problem_.targets.kept_n.clear();
     problem_.targets.clock = 1.0 / slow_;
     problem_.setDisturbance(inSlowMotion(limits_.disturbance, slow_));
@@ -158,6 +172,8 @@ class GlobalOptimizer::Solver {
     chosen_ = chooser_.choose(obstacles_->field(), path, *start_, *goal_);
     solver_.restart();
     startWhereTheManoeuvreEnds();
+    initial_.options.start_s = problem_.targets.start_s;
+    initial_.options.clock = problem_.targets.clock;
     initial_.build(*obstacles_, path, inSplineTime(chooser_.splineEnds(chosen_, *start_)), spline_);
     SplineSolver::Stop stop;
     stop.max_iterations = kIterationsPerRound;
@@ -167,7 +183,7 @@ class GlobalOptimizer::Solver {
     const bool loaded = underLoad();
     const int rounds = loaded ? kRoundsUnderLoad : kRounds;
     for (int round = 0; round < rounds; ++round) {
-      result_.iterations += solver_.improve(problem_, stop, spline_);
+      improve(stop);
       followEnds();
       const bool last = round + 1 == rounds;
       verifyDilated(last ? 2.0 * kDilationMax : kDilationMax);
@@ -175,15 +191,29 @@ class GlobalOptimizer::Solver {
         quicken(stop);
         return true;
       }
-      const bool hopeless = round >= (loaded ? kPatienceUnderLoad : kPatience) &&
-                            excess_ > (loaded ? kHopelessUnderLoad : kHopeless);
-      if (hopeless || outOfTime()) {
+      if (isHopeless(round, loaded) || outOfTime()) {
         return false;
       }
       tighten();
       slowWhereTheBowGoesRound();
     }
     return false;
+  }
+
+  void improve(const SplineSolver::Stop& stop) {
+    const int iterations = solver_.improve(problem_, stop, spline_);
+    result_.iterations += iterations;
+    work_ += iterations * (static_cast<int>(spline_.spans.size()) + kWorkOfEnds);
+  }
+
+  // After that round, numbered from 0.
+  [[nodiscard]] bool isHopeless(int round, bool loaded) const {
+    if (!loaded && !trajectory::atRest(*start_)) {
+      const auto last = static_cast<int>(std::size(kHopelessUnderWay)) - 1;
+      return excess_ > kHopelessUnderWay[std::min(round, last)];
+    }
+    return round >= (loaded ? kPatienceUnderLoad : kPatience) &&
+           excess_ > (loaded ? kHopelessUnderLoad : kHopeless);
   }
 
   template <typename Action>
@@ -228,7 +258,8 @@ class GlobalOptimizer::Solver {
         break;
       }
       problem_.targets.weights.time *= kQuickenGrowth;
-      best.iterations += solver_.improve(problem_, stop, spline_);
+      improve(stop);
+      best.iterations = result_.iterations;
       followEnds();
       verifyDilated(kDilationMax);
       if (result_.verification.ok && rank(result_.trajectory) < rank(best.trajectory)) {
@@ -264,7 +295,7 @@ class GlobalOptimizer::Solver {
     problem_.targets.originals = &originals_;
     stop.max_iterations = 4;
     stop.relative_decrease = 0.05;
-    result_.iterations += solver_.improve(problem_, stop, spline_);
+    improve(stop);
     problem_.targets.weights = later;
     problem_.targets.originals = nullptr;
     for (Span& span : spline_.spans) {
@@ -276,22 +307,38 @@ class GlobalOptimizer::Solver {
   // runs slower by a factor, which leaves the shape as it is but for the pieces next to them.
   void verifyDilated(double dilation_max) {
     constexpr int kTries = 6;
+    constexpr double kLeastGain = 0.95;  // of a try, on the excess before
     const Spline shape = spline_;
     std::vector<bool> inside(shape.knots.size(), false);
     for (std::size_t k = 2; k + 2 < inside.size(); ++k) {
       inside[k] = true;
     }
+    const bool by_paper = vessel::paperHolds(vessel_);
+    std::optional<trajectory::MotionAlong> motion;
+    double before = kInfinity;
     for (int i = 0; i <= kTries; ++i) {
       result_.trajectory = assembled();
-      excesses_ = excesses(result_.trajectory, vessel_, limits_, start_->psi_rad);
+      if (!by_paper) {
+        motion.emplace(result_.trajectory, vessel_, limits_.disturbance, start_->psi_rad);
+      }
+      excesses_ = by_paper ? excesses(result_.trajectory, vessel_, limits_)
+                           : excesses(*motion, vessel_, limits_);
       excess_ = *std::max_element(excesses_.begin(), excesses_.end());
-      if (excess_ <= 0.0 || excess_ > dilation_max) {
+      work_ +=
+          static_cast<int>(result_.trajectory.duration());  // a second takes as much as a piece
+      if (i == 0 && motion) {
+        lacking_n_ = excessAlong(*motion, chosen_.start.manoeuvre.pieces.size(),
+                                 spline_.spans.size(), vessel_, limits_);
+      }
+      // Next to the ends nothing is slowed down: what is too much there stays so.
+      if (excess_ <= 0.0 || excess_ > dilation_max || excess_ > kLeastGain * before) {
         break;
       }
+      before = excess_;
       slowDown(inside, 1.0 + 0.7 * excess_ + 0.001, spline_);
     }
-    result_.verification =
-        feasibility::verify(result_.trajectory, *obstacles_, vessel_, *start_, *goal_, limits_);
+    result_.verification = feasibility::verify(result_.trajectory, *obstacles_, vessel_, *start_,
+                                               *goal_, limits_, {}, motion ? &*motion : nullptr);
     spline_ = shape;
   }
 
@@ -321,13 +368,33 @@ class GlobalOptimizer::Solver {
       problem_.targets.limits.speed_mps *= kSlower;
       problem_.targets.weights.dynamics *= kWeightGrowth;
     } else {
-      const double missing = limits_.clearance_m - v.clearance_m;
+      const double missing = limits_.clearance_m - leastWhereItFails(v);
       problem_.targets.limits.clearance_m += std::clamp(missing + 0.02, 0.02, 0.2);
       problem_.targets.limits.hull_clearance_m += 0.03;
       problem_.targets.limits.leaning_clearance_m += 0.03;
       problem_.targets.weights.clearance *= kWeightGrowth;
       problem_.targets.weights.dynamics *= kWeightGrowth;
     }
+  }
+
+  // The verifier stops where the clearance begins to lack. What lies still is mended bit by bit;
+  // what moves is met for a moment, and its whole depth is wanted back.
+  [[nodiscard]] double leastWhereItFails(const feasibility::Verification& v) const {
+    constexpr double kStepS = 0.05;
+    constexpr int kMostSteps = 100;
+    double least = v.clearance_m;
+    if (obstacles_->rateBound() <= 0.0 || v.fault != feasibility::Fault::kClearance) {
+      return least;
+    }
+    for (int k = 1; k <= kMostSteps; ++k) {
+      const double t = v.fault_s + k * kStepS;
+      const double here = obstacles_->clearance(result_.trajectory.flat(t).position, t);
+      if (t > result_.trajectory.duration() || here >= limits_.clearance_m) {
+        break;
+      }
+      least = std::min(least, here);
+    }
+    return least;
   }
 
   // Braking hard into a corner, w can pass its zero on the wrong side: the bow has to go round the
@@ -352,15 +419,13 @@ class GlobalOptimizer::Solver {
   void keepThrustWhereItLacks() {
     constexpr double kMoreN = 0.01;  // of a thruster's force
     const double most_n = vessel_.thrusters.ahead_max_n;
-    const AtPoints excess_n = excessAlong(assembled(), chosen_.start.manoeuvre.pieces.size(),
-                                          spline_.spans.size(), vessel_, limits_, start_->psi_rad);
     AtPoints& kept_n = problem_.targets.kept_n;
-    kept_n.resize(excess_n.size());
-    for (std::size_t i = 0; i < excess_n.size(); ++i) {
-      for (std::size_t k = 0; k < excess_n[i].size(); ++k) {
-        if (excess_n[i][k] > 0.0) {
+    kept_n.resize(lacking_n_.size());
+    for (std::size_t i = 0; i < lacking_n_.size(); ++i) {
+      for (std::size_t k = 0; k < lacking_n_[i].size(); ++k) {
+        if (lacking_n_[i][k] > 0.0) {
           kept_n[i][k] =
-              std::min(kept_n[i][k] + excess_n[i][k] + kMoreN * most_n, kMostKeptShare * most_n);
+              std::min(kept_n[i][k] + lacking_n_[i][k] + kMoreN * most_n, kMostKeptShare * most_n);
         }
       }
     }
@@ -471,8 +536,11 @@ class GlobalOptimizer::Solver {
   Optimized result_;
   std::vector<double> excesses_;  // of result_'s pieces, as shares of the limit
   double excess_ = 0.0;           // the worst of them
+  AtPoints lacking_n_;            // of thrust, by the manoeuvring model, before time was stretched
+  int work_ = 0;                  // steps times pieces, since the caller asked
   feasibility::SafetyLimits limits_;
   const feasibility::Obstacles* obstacles_ = nullptr;
+  std::optional<feasibility::Obstacles> still_;  // those of them that don't move
   const trajectory::Boundary* start_ = nullptr;
   const trajectory::Boundary* goal_ = nullptr;
   const Budget* budget_ = nullptr;
@@ -489,6 +557,7 @@ Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstac
                                             const trajectory::Boundary& start,
                                             const trajectory::Boundary& goal, const Budget& budget,
                                             const feasibility::SafetyLimits& limits) {
+  solver_->beginWork();
   return solver_->run(obstacles, path, start, goal, budget, limits);
 }
 
@@ -505,7 +574,12 @@ Result<Optimized> GlobalOptimizer::optimize(const feasibility::Obstacles& obstac
     }
   }
   path.push_back(goal.flat.position);
+  solver_->beginWork();
   return solver_->run(obstacles, path, start, goal, budget, limits);
+}
+
+int GlobalOptimizer::work() const {
+  return solver_->work();
 }
 
 Result<Optimized> GlobalOptimizer::stopAndSpin(const feasibility::Obstacles& obstacles,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -41,6 +42,16 @@ constexpr int kFewSamples = 40;
 // Under way, of each search (likewise) and of a query: the next clearance is better than more.
 constexpr int kSearchUnderWay = 100;
 constexpr int kSamplesUnderWay = 400;
+// Of a query under way, all its tries together, as optimizer::Budget counts; and what a sample and
+// an edge of the trees that is bent take of it.
+constexpr int kWorkUnderWay = 4500;
+// From a start faster than its limit, or where a part of the way will do as well; but where
+// something moves it would be elsewhere by then.
+constexpr int kWorkInTwoSteps = 9000;
+constexpr int kWorkAtRestAmongOthers = 5000;
+constexpr int kWorkAtRest = std::numeric_limits<int>::max();
+constexpr int kWorkOfASample = 2;
+constexpr int kWorkOfARepair = 7;
 constexpr double kNearM = 0.3;    // a goal nearer than this needs no search
 constexpr int kTrySamples = 150;  // what one more try may draw, and any try counts for
 
@@ -50,6 +61,19 @@ double costOf(const trajectory::Trajectory& trajectory, double sigma) {
     cost += pieceCost(piece, sigma);
   }
   return cost;
+}
+
+bool isTooFast(const Query& query) {
+  return query.start.flat.velocity.norm() > query.limits.speed_max_mps;
+}
+
+int workFor(const feasibility::Obstacles& obstacles, const Query& query) {
+  const bool moves = obstacles.rateBound() > 0.0;
+  if (trajectory::atRest(query.start)) {
+    return moves && !query.may_end_early ? kWorkAtRestAmongOthers : kWorkAtRest;
+  }
+  const bool in_two_steps = isTooFast(query) || query.may_end_early;
+  return in_two_steps && !moves ? kWorkInTwoSteps : kWorkUnderWay;
 }
 
 KinoState stateOf(const trajectory::Boundary& end) {
@@ -70,6 +94,16 @@ class Planner::Pipeline {
 
   Plan plan(const feasibility::Obstacles& obstacles, const Query& query,
             const Termination& termination) {
+    const int work = workFor(obstacles, query);
+    work_left_ = work;
+    Plan plan = planOffShores(obstacles, query, termination);
+    plan.figures.work = work - work_left_;
+    return plan;
+  }
+
+ private:
+  Plan planOffShores(const feasibility::Obstacles& obstacles, const Query& query,
+                     const Termination& termination) {
     const feasibility::SafetyLimits& limits = query.limits;
     if (limits.drift_m.isZero(0.0) || !limits.drift_m.allFinite()) {
       return planInTime(obstacles, query, termination);
@@ -82,23 +116,26 @@ class Planner::Pipeline {
     return planInTime(all, query, termination);
   }
 
- private:
   // A start faster than the limit: where no way was found on which the vessel slows down, it does
   // so first, straight ahead.
   Plan planInTime(const feasibility::Obstacles& obstacles, const Query& query,
                   const Termination& termination) {
-    const bool too_fast = query.start.flat.velocity.norm() > query.limits.speed_max_mps;
+    const bool too_fast = isTooFast(query);
     samples_left_ = termination.max_iterations;
     if (!trajectory::atRest(query.start)) {
       samples_left_ = std::min(samples_left_, kSamplesUnderWay);
     }
+    const int after =
+        query.may_end_early || too_fast ? static_cast<int>((1.0 - kWholeShare) * work_left_) : 0;
     Termination whole = termination;
     whole.max_iterations = samples_left_;
     if (query.may_end_early || too_fast) {
       whole.budget_s *= kWholeShare;
       whole.max_iterations = static_cast<int>(kWholeShare * whole.max_iterations);
     }
+    work_left_ -= after;
     Plan plan = planAmong(obstacles, query, whole);
+    work_left_ += after;
     if (plan.outcome == Outcome::kSolved) {
       return plan;
     }
@@ -122,7 +159,7 @@ class Planner::Pipeline {
   // For one more try with what is left of the query's time and samples; nothing if that is used up.
   [[nodiscard]] std::optional<Termination> onceMore(const Termination& termination) const {
     const bool late = termination.elapsed_s && termination.elapsed_s() >= termination.budget_s;
-    if (late || samples_left_ <= 0) {
+    if (late || samples_left_ <= 0 || work_left_ <= 0) {
       return std::nullopt;
     }
     Termination once = termination;
@@ -260,7 +297,6 @@ class Planner::Pipeline {
     int samples_left = 0;
     bool fallback = false;  // the plan so far could not be optimised
     bool resorted = false;  // to what makes such plans
-    bool joined = false;    // the trees, at the last attempt
 
     [[nodiscard]] double now() const {
       return termination.elapsed_s ? termination.elapsed_s() : 0.0;
@@ -269,12 +305,6 @@ class Planner::Pipeline {
       return termination.elapsed_s && termination.elapsed_s() >= share * termination.budget_s;
     }
     [[nodiscard]] bool solved() const { return plan.outcome == Outcome::kSolved; }
-    [[nodiscard]] optimizer::Budget budget() const {
-      optimizer::Budget budget;
-      budget.elapsed_s = termination.elapsed_s;
-      budget.budget_s = termination.budget_s;
-      return budget;
-    }
   };
 
   // Where the trees begin: at the ends themselves where the whole will be optimised, as which way
@@ -390,8 +420,9 @@ class Planner::Pipeline {
     return run.solved() && !run.fallback && run.plan.figures.attempts > options_.improve_attempts;
   }
   [[nodiscard]] bool done(const Run& run) const {
-    return run.timeUp() || run.samples_left <= 0 || isGood(run) || (run.resorted && isFutile(run));
+    return isSpent(run) || run.samples_left <= 0 || isGood(run) || (run.resorted && isFutile(run));
   }
+  [[nodiscard]] bool isSpent(const Run& run) const { return run.timeUp() || work_left_ <= 0; }
 
   // A tree's path, optimised; failing that the guide path. Later attempts draw other samples: a
   // few cost less than the last resorts, and end in better plans.
@@ -406,7 +437,7 @@ class Planner::Pipeline {
     }
     beginTrees(run, attempt, Roots::kAtEnds);
     optimizeTreesPath(run, sampler_->keyStates() + kFewSamples);
-    if (attempt == 0 && !isGood(run) && !run.timeUp()) {
+    if (attempt == 0 && !isGood(run) && !isSpent(run)) {
       optimizeGuide(run, 0, 1);
     }
     if (!done(run) && !run.query.warm_start.empty() && attempt == 0) {
@@ -434,7 +465,7 @@ class Planner::Pipeline {
   void lastResorts(Run& run, int attempt) {
     const bool first = !run.resorted;
     run.resorted = true;
-    if (first && !isGood(run) && !run.timeUp()) {
+    if (first && !isGood(run) && !isSpent(run)) {
       optimizeGuide(run, 1, optimizer::Budget().max_attempts);
     }
     const bool poor = !run.solved() || (run.fallback && first);
@@ -451,9 +482,10 @@ class Planner::Pipeline {
     return trajectory::atRest(run.query.start) ? options_.attempt_samples
                                                : sampler_->keyStates() + kSearchUnderWay;
   }
-  // Trees that didn't meet won't with other samples, under way, where they have few.
+  // Under way, with what comes first: what doesn't become a plan, or trees that haven't met, won't
+  // with other samples either.
   [[nodiscard]] static bool isFutile(const Run& run) {
-    return !run.joined && !trajectory::atRest(run.query.start);
+    return !trajectory::atRest(run.query.start);
   }
 
   void placeRoots(const Run& run, Roots roots) {
@@ -495,7 +527,12 @@ class Planner::Pipeline {
     int budget =
         std::min(run.samples_left, std::min(most, options_.attempt_samples) - before.samples);
     int improving = options_.improve_samples;
-    while (budget-- > 0 && !run.timeUp()) {
+    const auto work = [&] {
+      const SearchCounts now = search_.counts();
+      return kWorkOfASample * (now.samples - before.samples) +
+             kWorkOfARepair * (now.tried - before.tried);
+    };
+    while (budget-- > 0 && !run.timeUp() && work() < work_left_) {
       if (search_.solved() && improving-- <= 0) {
         break;
       }
@@ -511,12 +548,12 @@ class Planner::Pipeline {
     figures.local_repairs += counts.repairs - before.repairs;
     figures.tree_ms += 1e3 * (run.now() - began);
     run.samples_left -= counts.samples - before.samples;
+    work_left_ -= work();
     return search_.solved();
   }
 
   void optimizeTreesPath(Run& run, int most) {
-    run.joined = growTrees(run, most);
-    if (run.joined) {
+    if (growTrees(run, most)) {
       run.plan.figures.tree_cost = search_.bestCost();
       optimizeTrajectory(run, trajectory::Trajectory(search_.recall()));
     }
@@ -542,10 +579,18 @@ class Planner::Pipeline {
     }
   }
 
+  [[nodiscard]] optimizer::Budget budgetOf(const Run& run) const {
+    optimizer::Budget budget;
+    budget.elapsed_s = run.termination.elapsed_s;
+    budget.budget_s = run.termination.budget_s;
+    budget.max_work = work_left_;
+    return budget;
+  }
+
   // One attempt only: the guide path is a better second one.
   void optimizeTrajectory(Run& run, const trajectory::Trajectory& initial) {
     const double began = run.now();
-    optimizer::Budget budget = run.budget();
+    optimizer::Budget budget = budgetOf(run);
     budget.max_attempts = 1;
     take(run, began,
          optimizer_.optimize(run.obstacles, initial, run.query.start, run.query.goal, budget,
@@ -556,7 +601,7 @@ class Planner::Pipeline {
   void optimizeGuide(Run& run, int first_attempt, int max_attempts) {
     const double began = run.now();
     const std::string reason = run.plan.reason;
-    optimizer::Budget budget = run.budget();
+    optimizer::Budget budget = budgetOf(run);
     budget.first_attempt = first_attempt;
     budget.max_attempts = max_attempts;
     take(run, began,
@@ -567,7 +612,8 @@ class Planner::Pipeline {
     }
   }
 
-  void take(Run& run, double began_s, Result<optimizer::Optimized> optimized) const {
+  void take(Run& run, double began_s, Result<optimizer::Optimized> optimized) {
+    work_left_ -= optimizer_.work();
     run.plan.figures.optimize_ms += 1e3 * (run.now() - began_s);
     if (optimized) {
       run.plan.figures.iterations += optimized->iterations;
@@ -639,6 +685,7 @@ class Planner::Pipeline {
   Search search_;
   std::optional<Sampler> sampler_;
   int samples_left_ = 0;  // of the query, all tries together
+  int work_left_ = 0;     // likewise
   std::optional<Launch> launch_;
   std::optional<Launch> stop_;
   optimizer::GlobalOptimizer optimizer_;

@@ -138,6 +138,7 @@ int Search::grow(Tree& tree, const KinoState& sample) {
   const int repairs = options_.repair_edges ? std::min(found, kRepairsPerSample) : 0;
   for (int i = 0; i < found + repairs; ++i) {
     const bool repair = i >= found;
+    counts_.tried += repair ? 1 : 0;
     const Candidate& candidate = candidates_[static_cast<std::size_t>(repair ? i - found : i)];
     const KinoState& state = tree.node(candidate.node).state;
     const auto edge = (this->*(repair ? &Search::repairedEdge : &Search::feasibleEdge))(

@@ -24,6 +24,7 @@ struct SearchCounts {
   int joined = 0;   // samples that became nodes of one tree or both
   int nodes = 0;    // of both trees, roots included
   int repairs = 0;  // edges bent into feasibility
+  int tried = 0;    // and those tried
 };
 
 class Search {

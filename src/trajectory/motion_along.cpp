@@ -41,6 +41,7 @@ void MotionAlong::follow(std::optional<double> psi_start_rad) {
     const Piece& piece = pieces[i];
     const int steps = partsOf(piece.duration_s, kStepS, kFewestSteps);
     const double h = piece.duration_s / steps;
+    const double keeps_s = kTurnDiesS * (1.0 - std::exp(-h / kTurnDiesS));
     first_.push_back(points_.size());
     for (int k = 0; k <= steps; ++k) {
       const vessel::FlatPoint z = piece.flat(h * k);
@@ -50,7 +51,7 @@ void MotionAlong::follow(std::optional<double> psi_start_rad) {
         rate = turn[1];
       } else if (k > 0) {
         const double before = psi;
-        const double kept = before + kTurnDiesS * (1.0 - std::exp(-h / kTurnDiesS)) * rate;
+        const double kept = before + keeps_s * rate;
         psi =
             vessel::swayHeading(vessel_, disturbance_, z.velocity, z.acceleration, before, kept, h)
                 .psi_rad;

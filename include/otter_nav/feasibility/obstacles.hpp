@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
@@ -56,6 +57,29 @@ class Obstacles {
     Obstacles known = *this;
     known.field_ = known_ != nullptr ? known_ : field_;
     return known;
+  }
+
+  // The same without the layers that move.
+  [[nodiscard]] Obstacles lyingStill() const {
+    Obstacles still = *this;
+    still.layers_.clear();
+    still.rate_bound_mps_ = 0.0;
+    for (const ObstacleLayer* layer : layers_) {
+      if (layer->rateBound() <= 0.0) {
+        still.layers_.push_back(layer);
+      }
+    }
+    return still;
+  }
+  // To the layers that move alone.
+  [[nodiscard]] double clearanceOfMoving(const Eigen::Vector2d& position, double time_s) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const ObstacleLayer* layer : layers_) {
+      if (layer->rateBound() > 0.0) {
+        least = std::min(least, layer->clearance(position, start_s_ + time_s));
+      }
+    }
+    return least;
   }
 
   // What lies still: for what has no time of its own (guide paths, windows of a search).

@@ -15,6 +15,10 @@
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
 
+namespace otter_nav::trajectory {
+class MotionAlong;
+}  // namespace otter_nav::trajectory
+
 namespace otter_nav::feasibility {
 
 // How closely limits and ends are looked at.
@@ -57,12 +61,15 @@ struct Verification {
 
 // `obstacles` start where the trajectory does. Faults: empty or not finite, start or goal not met,
 // a jump at a joint, too near an obstacle or out of the map, thrust, speed or yaw rate out of
-// range, heading undefined or jumping. Allocates for the reason only.
+// range, heading undefined or jumping. Allocates for the reason only. `motion`: along the
+// trajectory from the start's heading, under the limits' disturbance, where the caller has it by
+// the manoeuvring model; without, it is made here.
 [[nodiscard]] Verification verify(const trajectory::Trajectory& trajectory,
                                   const Obstacles& obstacles, const vessel::Parameters& vessel,
                                   const trajectory::Boundary& start,
                                   const trajectory::Boundary& goal, const SafetyLimits& limits,
-                                  const Tolerances& tolerances = {});
+                                  const Tolerances& tolerances = {},
+                                  const trajectory::MotionAlong* motion = nullptr);
 // Without ends to meet: a part of a trajectory, or one sailed already. By the paper's model for all
 // vessels, as the heading at its start is not known.
 [[nodiscard]] Verification verify(const trajectory::Trajectory& trajectory,

@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct Budget {
   std::function<double()> elapsed_s;
   double budget_s = 0.1;
   int max_iterations = 300;
+  // Of a call: steps times the pieces of the spline and what the ends and verification take, in
+  // pieces. A measure of its time that is the same on every machine.
+  int max_work = std::numeric_limits<int>::max();
   // Attempts along the path given, each more careful than the one before: from which on, and up to
   // which. Before the last there is no last resort either.
   int first_attempt = 0;
@@ -79,6 +83,9 @@ class GlobalOptimizer {
                                            const trajectory::Boundary& start,
                                            const trajectory::Boundary& goal, const Budget& budget,
                                            const feasibility::SafetyLimits& limits);
+
+  // What the last call of these took, found or not, as Budget::max_work counts.
+  [[nodiscard]] int work() const;
 
   // From rest, straight from point to point of a clear polyline, stopping at each to turn: slow,
   // but feasible wherever the hull may turn.

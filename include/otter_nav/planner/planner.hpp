@@ -79,6 +79,7 @@ struct Figures {
   int samples = 0;
   int nodes = 0;
   int iterations = 0;
+  int work = 0;           // of all tries, as optimizer::Budget counts
   int local_repairs = 0;  // failing edges that local optimisation made feasible
   int attempts = 0;       // tree searches until one could be optimised and verified
 };

@@ -36,6 +36,7 @@ class MotionAlong {
   // At even steps in each piece, both its ends included: a joint is there twice. Empty where the
   // paper's model holds.
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+  [[nodiscard]] std::size_t pieces() const { return first_.empty() ? 0 : first_.size() - 1; }
   // Of points(), the first of a piece; `piece` may be the number of pieces.
   [[nodiscard]] std::size_t firstOf(std::size_t piece) const { return first_[piece]; }
   [[nodiscard]] double psi(double t_s) const;

@@ -11,16 +11,15 @@ namespace otter_nav::optimizer {
 class ClearanceCost final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
-    if (targets.obstacles == nullptr) {
+    if (point.piece.obstacles == nullptr) {
       return;
     }
     const SplineLimits& limits = targets.limits;
     const bool hull = limits.hull_offset_m > 0.0;
     // Position first, the rest only near obstacles.
     const Eigen::Vector2d p = point.position();
-    const map::DistanceField::Smooth centre = targets.obstacles->smooth(p, point.time_s);
-    if (centre.distance_m >
-        std::max(limits.clearance_m, hull ? limits.hull_offset_m + limits.hull_clearance_m : 0.0)) {
+    const map::DistanceField::Smooth centre = point.piece.obstacles->smooth(p, point.time_s);
+    if (centre.distance_m > limits.reach_m()) {
       return;
     }
     const Rows& z = point.path();
@@ -45,7 +44,7 @@ class ClearanceCost final : public Cost {
     const double offset_m = targets.limits.hull_offset_m;
     for (const double offset : {-offset_m, offset_m}) {
       const map::DistanceField::Smooth end =
-          targets.obstacles->smooth(point.position() + offset * bow.ahead, point.time_s);
+          point.piece.obstacles->smooth(point.position() + offset * bow.ahead, point.time_s);
       point.addHinge(targets.weights.clearance, clearance_m - end.distance_m, kKneeM, [&] {
         Rows rows;
         rows.col(0) = -end.gradient;

@@ -43,6 +43,11 @@ struct SplineLimits {
   feasibility::SlowingDown slowing;  // of a vessel that is faster
   double yaw_rate_radps = 0.0;
   double heading_force_n = 0.0;  // least |w|
+
+  // What lies farther from the hull's centre costs nothing.
+  [[nodiscard]] double reach_m() const {
+    return std::max(clearance_m, hull_offset_m > 0.0 ? hull_offset_m + hull_clearance_m : 0.0);
+  }
 };
 
 // What the terms are to reach, and among what.
@@ -53,6 +58,9 @@ struct Targets {
   double clock = 1.0;    // seconds of that for one of the spline
   // Not owned; null: no such term.
   const feasibility::Obstacles* obstacles = nullptr;
+  // Those of them that lie still, where some move: for pieces that meet nothing that does. Null:
+  // all are asked.
+  const feasibility::Obstacles* still = nullptr;
   const Originals* originals = nullptr;
   const vessel::InverseDynamics* leaning = nullptr;  // into a load that isn't planned with
   // Of each thruster's limits, kept back for what the objective's model leaves out; one a
@@ -78,7 +86,8 @@ struct PieceModel {
   double start_s = 0.0;  // and
   double clock = 1.0;    // as in Targets
   double duration_s = 1.0;
-  bool wanted = false;  // gradient and Hessian
+  const feasibility::Obstacles* obstacles = nullptr;  // of Targets, those that count here
+  bool wanted = false;                                // gradient and Hessian
   double cost = 0.0;
   Vector gradient;
   Eigen::Matrix<double, kUnknowns, kUnknowns> hessian;  // lower triangle

@@ -100,9 +100,14 @@ SplineProblem::SplineProblem(const vessel::Parameters& vessel)
   for (std::size_t i = 0; i < lobatto_.size(); ++i) {
     lobatto_[i] = trajectory::septicBasis(trajectory::kLobatto.at[i]);
   }
-  for (std::size_t i = 0; i < between_.size(); ++i) {
-    between_[i] = trajectory::septicBasis((static_cast<double>(i) + 0.5) / kBetweenPoints);
-  }
+  const auto fill = [](auto& inside) {
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      inside[i] = trajectory::septicBasis((static_cast<double>(i) + 0.5) /
+                                          static_cast<double>(inside.size()));
+    }
+  };
+  fill(between_);
+  fill(dense_);
   // A cost or constraint is a class of this folder and a line here.
   const double force_n = vessel.thrusters.ahead_max_n;
   costs_.push_back(std::make_unique<TimeCost>());
@@ -127,10 +132,34 @@ void SplineProblem::addPiece(PieceModel& piece) const {
   for (std::size_t i = 0; i < lobatto_.size(); ++i) {
     add(costs_, lobatto_[i], i, trajectory::kLobatto.at[i], trajectory::kLobatto.weight[i]);
   }
-  for (std::size_t i = 0; i < between_.size(); ++i) {
-    add(between_costs_, between_[i], i, (static_cast<double>(i) + 0.5) / kBetweenPoints,
-        1.0 / kBetweenPoints);
+  const bool meets = mayMeetMoving(piece);
+  piece.obstacles = targets.still != nullptr && !meets ? targets.still : targets.obstacles;
+  const auto add_inside = [&](const auto& inside) {
+    const auto count = static_cast<double>(inside.size());
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      add(between_costs_, inside[i], i, (static_cast<double>(i) + 0.5) / count, 1.0 / count);
+    }
+  };
+  if (meets) {
+    add_inside(dense_);  // both move: between the usual points they pass each other unseen
+  } else {
+    add_inside(between_);
   }
+}
+
+// By how far both may get from where they are at the piece's beginning.
+bool SplineProblem::mayMeetMoving(const PieceModel& piece) const {
+  constexpr double kDetour = 1.5;  // of a piece, on what its ends and their speeds say
+  if (targets.still == nullptr) {
+    return false;
+  }
+  const Eigen::Vector2d from = piece.ends.col(0);
+  const double sailed = std::max({piece.duration_s * piece.ends.col(1).norm(),
+                                  piece.duration_s * piece.ends.col(5).norm(),
+                                  (piece.ends.col(4) - piece.ends.col(0)).norm()});
+  const double moved = targets.obstacles->rateBound() * piece.duration_s * piece.clock;
+  return targets.obstacles->clearanceOfMoving(from, piece.start_s) <=
+         targets.limits.reach_m() + kDetour * sailed + moved;
 }
 
 double SplineProblem::evaluate(const Spline& spline, System* system) const {

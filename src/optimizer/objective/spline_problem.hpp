@@ -37,14 +37,17 @@ class SplineProblem {
 
  private:
   static constexpr int kBetweenPoints = 12;
+  static constexpr int kDensePoints = 24;  // where something that moves may be near
 
   void addPiece(PieceModel& piece) const;
+  [[nodiscard]] bool mayMeetMoving(const PieceModel& piece) const;
 
   vessel::Parameters vessel_;
   vessel::InverseDynamics dynamics_;
   double force_floor_n_;
   std::array<trajectory::SepticBasis, trajectory::kLobattoPoints> lobatto_;
   std::array<trajectory::SepticBasis, kBetweenPoints> between_;
+  std::array<trajectory::SepticBasis, kDensePoints> dense_;
   std::vector<std::unique_ptr<Cost>> costs_;          // summed at each piece's Lobatto points
   std::vector<std::unique_ptr<Cost>> between_costs_;  // at even distances inside, which are denser
 };

@@ -37,23 +37,26 @@ trajectory::Trajectory assemble(const ChosenEnds& ends, const Spline& spline) {
   return trajectory::Trajectory(std::move(pieces));
 }
 
+std::vector<double> excesses(const trajectory::MotionAlong& motion,
+                             const vessel::Parameters& vessel,
+                             const feasibility::SafetyLimits& safety) {
+  std::vector<double> excess(motion.pieces(), -1.0);
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    for (std::size_t k = motion.firstOf(i); k < motion.firstOf(i + 1); ++k) {
+      const trajectory::MotionAlong::Point& p = motion.points()[k];
+      const double thrust = vessel::shareOfLimit(p.thrusts, vessel.thrusters);
+      excess[i] = std::max({excess[i], thrust / safety.thrust_share - 1.0,
+                            p.speed_mps / safety.speedMaxAt(p.t_s) - 1.0});
+    }
+  }
+  return excess;
+}
+
 std::vector<double> excesses(const trajectory::Trajectory& trajectory,
                              const vessel::Parameters& vessel,
-                             const feasibility::SafetyLimits& safety, double psi_start_rad) {
+                             const feasibility::SafetyLimits& safety) {
   const std::size_t pieces = trajectory.pieces().size();
   std::vector<double> excess(pieces, -1.0);
-  if (!vessel::paperHolds(vessel)) {
-    const trajectory::MotionAlong motion(trajectory, vessel, safety.disturbance, psi_start_rad);
-    for (std::size_t i = 0; i < pieces; ++i) {
-      for (std::size_t k = motion.firstOf(i); k < motion.firstOf(i + 1); ++k) {
-        const trajectory::MotionAlong::Point& p = motion.points()[k];
-        const double thrust = vessel::shareOfLimit(p.thrusts, vessel.thrusters);
-        excess[i] = std::max({excess[i], thrust / safety.thrust_share - 1.0,
-                              p.speed_mps / safety.speedMaxAt(p.t_s) - 1.0});
-      }
-    }
-    return excess;
-  }
   constexpr double kOpen = 1e3;
   feasibility::SafetyLimits open = safety;
   open.thrust_share *= kOpen;
@@ -101,10 +104,9 @@ vessel::Parameters inSlowMotion(const vessel::Parameters& vessel, double slow) {
   return other;
 }
 
-AtPoints excessAlong(const trajectory::Trajectory& trajectory, std::size_t first_span,
+AtPoints excessAlong(const trajectory::MotionAlong& motion, std::size_t first_span,
                      std::size_t spans, const vessel::Parameters& vessel,
-                     const feasibility::SafetyLimits& safety, double psi_start_rad) {
-  const trajectory::MotionAlong motion(trajectory, vessel, safety.disturbance, psi_start_rad);
+                     const feasibility::SafetyLimits& safety) {
   const auto& at = trajectory::kLobatto.at;
   AtPoints excess_n(spans);
   for (std::size_t i = 0; i < spans; ++i) {

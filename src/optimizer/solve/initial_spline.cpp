@@ -172,7 +172,12 @@ void InitialSpline::build(const feasibility::Obstacles& obstacles,
   };
   turnAtEnds(polyline, ends);
   line_.resample(turned_, kSpacingM, 4);
-  line_.relax([&](const Eigen::Vector2d& p) { return obstacles.smooth(p, 0.0); },
+  const double pace_mps =
+      0.5 * (std::max(ends.start.velocity.norm(), options.slowest_mps) + options.speed_max_mps);
+  const auto when = [&](const Eigen::Vector2d& p) {
+    return options.start_s + options.clock * (p - ends.start.position).norm() / pace_mps;
+  };
+  line_.relax([&](const Eigen::Vector2d& p) { return obstacles.smooth(p, when(p)); },
               options.clearance_m, kBandSteps, held_head_, held_tail_);
   line_.setDirections();
   setSpeeds(ends.start.velocity.norm(), ends.goal.velocity.norm());

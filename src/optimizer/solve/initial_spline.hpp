@@ -20,6 +20,8 @@ struct InitialOptions {
   double clearance_m = 1.0;  // by Obstacles::smooth
   double load_n = 0.0;       // that wind and current take of the force, at worst
   double slowest_mps = 0.8;  // where it begins and ends at rest
+  double start_s = 0.0;      // the spline's start, on the obstacles' clock
+  double clock = 1.0;        // seconds of that for one of the spline
 };
 
 // Where the spline begins and ends, under way. The directions count where there is little speed.
@@ -38,7 +40,7 @@ class InitialSpline {
   InitialOptions options;
 
   // Fills `spline` (knots, all free but the first and the last, and durations). Obstacles count
-  // where they are at the start.
+  // where they are about when the vessel may get there.
   void build(const feasibility::Obstacles& obstacles, const std::vector<Eigen::Vector2d>& polyline,
              const SplineEnds& ends, Spline& spline);
 

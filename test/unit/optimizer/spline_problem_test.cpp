@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 
+#include "../feasibility/moving_disc.hpp"
+#include "optimizer/solve/initial_spline.hpp"
 #include "otter_nav/base/random.hpp"
 
 namespace otter_nav::optimizer {
@@ -170,6 +174,100 @@ TEST_F(SplineProblemTest, ObstaclesCountWhereTheyAreWhenTheSplineIsThere) {
   limits.hull_offset_m = 0.667;
   limits.clearance_m = -100.0;
   EXPECT_GT(rise(), 1.0) << "its ends";
+}
+
+// A vessel that shoots across at right angles is on the path for a moment only.
+TEST_F(SplineProblemTest, SeesWhatCrossesBetweenTheUsualPoints) {
+  constexpr double kFastMps = 40.0;
+  constexpr int kTimes = 40;
+  Random random(7);
+  const Spline spline = bentSpline(random);
+  problem.targets.limits.clearance_m = 0.8;
+  problem.targets.limits.hull_offset_m = 0.0;
+  const feasibility::Obstacles still = obstacles;
+  const double alone = problem.evaluate(spline, nullptr);
+  int seen_at_usual = 0;
+  int seen = 0;
+  for (int k = 0; k < kTimes; ++k) {
+    // Over the first piece's middle, about when it is sailed.
+    const Eigen::Vector2d there =
+        0.5 * (spline.knots[0].state.col(0) + spline.knots[1].state.col(0));
+    const double when_s = 0.5 * spline.spans[0].duration_s + 0.01 * (k - kTimes / 2);
+    const Eigen::Vector2d speed(0.0, kFastMps);
+    const feasibility::test::MovingDisc shot(there - when_s * speed, speed, 0.2);
+    obstacles = still;
+    obstacles.add(shot);
+    problem.targets.still = nullptr;
+    seen_at_usual += problem.evaluate(spline, nullptr) > alone + 1e-9 ? 1 : 0;
+    problem.targets.still = &still;
+    seen += problem.evaluate(spline, nullptr) > alone + 1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(seen_at_usual, 0);
+  EXPECT_GT(seen, 1.5 * seen_at_usual);
+}
+
+// Counts who asks.
+struct AskedWall : ComingWall {
+  mutable int asked = 0;
+  [[nodiscard]] map::DistanceField::Smooth smooth(const Eigen::Vector2d& position,
+                                                  double time_s) const override {
+    ++asked;
+    return ComingWall::smooth(position, time_s);
+  }
+};
+
+TEST_F(SplineProblemTest, AsksWhatMovesOnlyWhereItMayBeMet) {
+  Random random(7);
+  const Spline spline = bentSpline(random);
+  const feasibility::Obstacles still = obstacles;
+  const AskedWall wall;
+  obstacles.add(wall);
+  problem.targets.still = &still;
+  problem.targets.start_s = 0.0;
+  EXPECT_GT(problem.evaluate(spline, nullptr), 0.0);
+  const int asked = wall.asked;
+  EXPECT_GT(asked, 0);
+  // A hundred metres off by then: no piece meets it.
+  problem.targets.start_s = -250.0;
+  EXPECT_GT(problem.evaluate(spline, nullptr), 0.0);
+  EXPECT_EQ(wall.asked, asked);
+}
+
+// A first guess leads round what will be there, not round what is there now.
+TEST(InitialSpline, MeetsWhatMovesWhereItWillBe) {
+  constexpr double kSpeedMps = 2.0;
+  const map::DistanceField field(
+      [] {
+        map::OccupancyGrid grid;
+        grid.geometry = {160, 160, 0.5, {-40.0, -40.0}};
+        grid.cells.assign(160UL * 160UL, map::Cell::kFree);
+        return grid;
+      }(),
+      {});
+  InitialSpline initial{vessel::Parameters()};
+  initial.options.speed_max_mps = kSpeedMps;
+  initial.options.clearance_m = 2.0;
+  SplineEnds ends;
+  ends.start.position = {-20.0, 0.0};
+  ends.goal.position = {20.0, 0.0};
+  ends.start.velocity = ends.goal.velocity = {kSpeedMps, 0.0};
+  // How far aside a disc leads that is on the way's middle at a time.
+  const auto asideOf = [&](double when_s) {
+    const Eigen::Vector2d speed(0.0, 1.0);
+    const feasibility::test::MovingDisc disc(Eigen::Vector2d(0.0, 0.5) - when_s * speed, speed,
+                                             1.0);
+    feasibility::Obstacles obstacles(field);
+    obstacles.add(disc);
+    Spline spline;
+    initial.build(obstacles, {ends.start.position, ends.goal.position}, ends, spline);
+    double most = 0.0;
+    for (const Knot& knot : spline.knots) {
+      most = std::max(most, std::abs(knot.state(1, 0)));
+    }
+    return most;
+  };
+  EXPECT_LT(asideOf(0.0), 0.05) << "it has gone by then";
+  EXPECT_GT(asideOf(20.0 / kSpeedMps), 0.5) << "it comes";
 }
 
 TEST_F(SplineProblemTest, ClosedFormStepIsTheDenseSolution) {
