@@ -128,6 +128,17 @@ bool TrackedVessel::followCourse() {
   return first;
 }
 
+bool TrackedVessel::liesStill(double now_s) {
+  constexpr double kPlaceM = 0.6;
+  constexpr double kForS = 6.0;
+  const Eigen::Vector2d here = motion.state().head<2>();
+  if (placed_s == kLongAgoS || (here - place).norm() > kPlaceM) {
+    place = here;
+    placed_s = now_s;
+  }
+  return now_s - placed_s > kForS;
+}
+
 bool TrackedVessel::isUnderWay() const {
   return has_moved && motion.state().segment<2>(2).norm() > kLeastUnderWayMps;
 }

@@ -46,6 +46,13 @@ struct TrackedVessel {
 
   std::vector<Eigen::Vector2d> unconfirmed_points;  // echoes that went into the map meanwhile
 
+  // Where it has been all along since then, to within what the estimate wanders.
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  double placed_s = kLongAgoS;
+
+  // To be called whenever it was seen: whether it has lain where it is for a while.
+  bool liesStill(double now_s);
+
   // Begins to count anew: what was met now may be something else than before.
   void doubt(double time_s) {
     first_s = time_s;

@@ -543,6 +543,12 @@ class Tracker::Impl {
   // Confirms, drops, and tells of what is left.
   void judge(double now_s) {
     for (TrackedVessel& vessel : vessels_) {
+      // What the lidar alone has seen lying where it is belongs to the map: it may be something
+      // that never moved, and nothing is foretold of it.
+      if (vessel.confirmed && vessel.sources == kLidar && vessel.last_s == now_s &&
+          vessel.liesStill(now_s)) {
+        vessel.existence = 0.0;
+      }
       if (vessel.confirmed || vessel.existence < kConfirmed || vessel.hits < kFewestHits) {
         continue;
       }

@@ -242,6 +242,22 @@ TEST(TrafficTracker, TellsTheMapWhatMoves) {
   EXPECT_LE(missed, 5);
 }
 
+// By the lidar alone nobody can tell what has come to rest from what never moved: it is the map's.
+TEST(TrafficTracker, LeavesToTheMapWhatHasComeToRest) {
+  const vessel::ScriptedVessel vessel{1, {5.0, 2.0}, false, {{-30.0, 8.0}, {0.0, 8.0}}, {2.0}};
+  Sea sea(lidarOnly("none"), {}, {vessel}, 1);
+  bool known = false;
+  bool on_vessel = false;
+  sea.run(30.0, {0.0, 0.0}, [&](const ScanVerdict& verdict) {
+    known = known || sea.trackOf(0).has_value();
+    on_vessel = std::any_of(verdict.on_vessel.begin(), verdict.on_vessel.end(),
+                            [](bool on) { return on; });
+  });
+  EXPECT_TRUE(known);
+  EXPECT_TRUE(sea.tracker.tracks().empty());
+  EXPECT_FALSE(on_vessel);
+}
+
 std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double knots,
                    double course) {
   const Eigen::Vector2d degrees = ais::LocalFrame(ais::Datum{}).toDegrees(position);
