@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/rk4.hpp"
 
 namespace otter_nav::tracker {
@@ -176,13 +177,14 @@ double Estimator::sailingShare() const {
 
 vessel::State Estimator::steered() const {
   const double share = sailingShare();
-  const double c = std::cos(state_[kPsi]);
-  const double s = std::sin(state_[kPsi]);
+  const Eigen::Vector2d ahead = unitVector(state_[kPsi]);
+  const Eigen::Vector2d port = across(ahead);
   vessel::State steered = state_;
-  steered.head<2>() += share * wave_.head<2>();
+  steered.head<2>() +=
+      ahead.dot(wave_.head<2>()) * ahead + share * port.dot(wave_.head<2>()) * port;
   steered[kPsi] += wave_[2];
-  steered[kSurge] += share * (c * wave_rate_[0] + s * wave_rate_[1]);
-  steered[kSway] += share * (-s * wave_rate_[0] + c * wave_rate_[1]);
+  steered[kSurge] += ahead.dot(wave_rate_.head<2>());
+  steered[kSway] += share * port.dot(wave_rate_.head<2>());
   steered[kYawRate] += wave_rate_[2];
   return steered;
 }

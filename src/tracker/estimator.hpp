@@ -37,9 +37,9 @@ class Estimator {
 
   // Without the motion with the waves.
   [[nodiscard]] const vessel::State& state() const { return state_; }
-  // What to steer by: at crawling pace where it would be without the waves, against which a hull
-  // without a side thruster could only swing; with them at speed, where a small turn makes up for
-  // what they do. The heading is with them always.
+  // What to steer by: at crawling pace where it would be abeam without the waves, against which a
+  // hull without a side thruster could only swing; with them at speed, where a small turn makes up
+  // for what they do. Along the heading, which has thrusters, and in the heading with them always.
   [[nodiscard]] vessel::State steered() const;
   [[nodiscard]] const vessel::Disturbance& disturbance() const { return disturbance_; }
   // The same with its covariance; that of the wind, whose state is another, to first order.
