@@ -35,6 +35,20 @@ std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, doub
   return std::nullopt;
 }
 
+// From `at_s` on, the first time before the end at which the vessel rests on its way.
+std::optional<double> restingTime(const trajectory::Trajectory& sailed, double at_s) {
+  constexpr double kRest = 1e-3;  // m/s and rad/s
+  for (std::size_t k = sailed.pieceAt(at_s); k + 1 < sailed.pieces().size(); ++k) {
+    const trajectory::Piece& piece = sailed.pieces()[k];
+    const double end = piece.duration_s;
+    if (sailed.startOf(k + 1) >= at_s && piece.kind == trajectory::PieceKind::kSpin &&
+        piece.flat(end).velocity.norm() < kRest && std::abs(piece.spinHeading(end)[1]) < kRest) {
+      return sailed.startOf(k + 1);
+    }
+  }
+  return std::nullopt;
+}
+
 // What the discs that cover the hull leave where it lies, m.
 double roomAround(const vessel::Hull& hull, const trajectory::Boundary& at,
                   const map::DistanceField& field) {
@@ -81,16 +95,22 @@ PlanRequest PlanRequests::fromRest(double now_s, const vessel::State& state,
   request.query.start.psi_rad =
       state[vessel::kPsi] + (std::abs(turn_rad) < kIntoLoadRad ? turn_rad : 0.0);
   request.start_time_s = now_s + latency.seconds();
+  request.query.may_creep = safety.mayCreep();
   return ask(now_s, std::move(request), goal, safety.nextThrustShare(), From::kRest, obstacles);
 }
 
 std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                                                     const trajectory::TimedTrajectory& sailed,
                                                     double thrust_share, const vessel::Pose& goal,
-                                                    const feasibility::Obstacles& obstacles) {
-  const std::optional<double> at = joiningTime(sailed, sailed.elapsed(now_s + latency.seconds()));
+                                                    const feasibility::Obstacles& obstacles,
+                                                    double rests_by_s) {
+  const double soon = sailed.elapsed(now_s + latency.seconds());
+  std::optional<double> at = joiningTime(sailed, soon);
   if (!at) {
-    return std::nullopt;
+    at = restingTime(sailed.trajectory, soon);
+    if (!at || sailed.start_time_s + *at > rests_by_s) {
+      return std::nullopt;
+    }
   }
   const trajectory::Sample sample =
       trajectory::MotionAlong(sailed.trajectory, vessel_, safety.planDisturbance()).sample(*at);
@@ -216,6 +236,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   asked_->slow = safety.slowShare() < 1.0;
   asked_->level = safety.level();
   asked_->pace_share = paceShare(asked_->level);
+  asked_->in_unknown_water = safety.isInUnknownWater();
   return request;
 }
 

@@ -51,7 +51,8 @@ class PlanRequests {
     bool slow = false;           // asked for because there was none at the usual speed
     std::size_t level = 0;       // of the clearances
     double pace_share = 1.0;     // of the usual speed, where it wanders too much for that
-    double left_m = 0.0;         // what the answer leaves of the way to the goal
+    bool in_unknown_water = false;
+    double left_m = 0.0;  // what the answer leaves of the way to the goal
     // What the plan continues, from the sailed trajectory on; empty: that itself.
     trajectory::TimedTrajectory lead;
   };
@@ -62,10 +63,11 @@ class PlanRequests {
   // Each replaces the request under way.
   PlanRequest fromRest(double now_s, const vessel::State& state, const vessel::Pose& goal,
                        const feasibility::Obstacles& obstacles);
-  // Nothing where the vessel is about to come to rest.
+  // From where it is under way soon; or where it next rests on its way, if that is `rests_by_s` at
+  // the latest. Nothing where it is about to come to rest for good.
   std::optional<PlanRequest> fromSailed(double now_s, const trajectory::TimedTrajectory& sailed,
                                         double thrust_share, const vessel::Pose& goal,
-                                        const feasibility::Obstacles& obstacles);
+                                        const feasibility::Obstacles& obstacles, double rests_by_s);
   // From the end of a way that itself begins on the sailed one, planned for `sailed_mps` at most.
   PlanRequest onward(double now_s, trajectory::TimedTrajectory lead, double thrust_share,
                      double sailed_mps, const vessel::Pose& goal,

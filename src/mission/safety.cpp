@@ -22,19 +22,21 @@ constexpr double kMoreThrust = 0.2;  // each time there was no plan at any clear
 // what the map adds by cells on the way leaves the stops clear.
 constexpr double kPlanMarginM = 0.05;
 constexpr double kOffTrajectoryM = 0.02;
+// Among what nobody has charted, where turns and stops come when they must, at first.
+constexpr double kUnknownMarginM = 0.1;
 // What it wanders may take so much of the room at the usual pace; less before it goes at that
 // again, for the faster it goes the more it wanders, and a plan for each pace in turn leads it
 // aground.
 constexpr double kMostOfRoom = 0.75;
 constexpr double kMostToGoFaster = 0.6;
-constexpr double kSlower = 0.65;
 // Of what it wanders, kept on the narrow levels too; and what it is expected to where it was not
 // under way for long enough to tell.
 constexpr double kWanderM = 0.2;
-// Among what nobody has charted: a pace at which the tracker leaves waves alone, in hull's lengths
-// a second; and so many times what it wanders on the levels that have room for it, for what comes
-// into sight takes some.
+// Where it wanders by most of the room beside it: a pace at which the tracker leaves waves from
+// abeam alone, in hull's lengths a second.
 constexpr double kCrawlingPerS = 0.4;
+// Among what nobody has charted plans keep so many times what it wanders on the levels that have
+// room for it, for what comes into sight takes some.
 constexpr double kTimesWander = 2.0;
 // The most that the hull's corners swing at rest in a light wind and waves.
 constexpr double kSwingsM = 0.3;
@@ -97,8 +99,10 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   }
   // What it wanders, as far as the level has room for it; half as much each time there was no plan.
   const double most = std::max(kWanderM, options_.side_clearances_m[levels_.level()]);
-  limits.hull_margin_m = std::max(
-      kPlanMarginM, std::pow(0.5, times_refused_) * std::min(most, wandersAt(levels_.level())));
+  const double least = in_unknown_water_ ? kUnknownMarginM : 0.0;
+  limits.hull_margin_m =
+      std::max(kPlanMarginM,
+               std::pow(0.5, times_refused_) * std::clamp(wandersAt(levels_.level()), least, most));
   limits.limitSpeed(options_.speed_max_mps);
   limits.speed_max_mps = paceAt(levels_.level(), limits.speed_max_mps * slowShare());
   is_slow_ = wandersMuch(levels_.level());
@@ -106,8 +110,11 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
 }
 
 double Safety::wandersAt(std::size_t level) const {
-  const bool has_room = options_.side_clearances_m[level] > kWanderM;
-  return (in_unknown_water_ && has_room ? kTimesWander : 1.0) * reach();
+  const double side_m = options_.side_clearances_m[level];
+  if (side_m <= kWanderM && !wander_.isKnown()) {
+    return std::max(kWanderM, reach());  // by more than there is room for, until it shows
+  }
+  return (in_unknown_water_ && side_m > kWanderM ? kTimesWander : 1.0) * reach();
 }
 
 bool Safety::wandersMuch(std::size_t level) const {
@@ -119,10 +126,7 @@ double Safety::paceAt(std::size_t level, double usual_mps) const {
   if (plansWithWeather() || !wandersMuch(level)) {
     return usual_mps;
   }
-  const double slower = kSlower * usual_mps;
-  const double pace =
-      in_unknown_water_ ? std::min(slower, kCrawlingPerS * vessel_.hull.length_m) : slower;
-  return std::min(usual_mps, std::max(pace, leastPace()));
+  return std::min(usual_mps, std::max(kCrawlingPerS * vessel_.hull.length_m, leastPace()));
 }
 
 double Safety::leastPace() const {
@@ -153,11 +157,17 @@ vessel::Disturbance Safety::leansInto() const {
   return weather_.isKnown() && !plansWithWeather() ? weather_.mean() : vessel::Disturbance{};
 }
 
+bool Safety::liesOnAnyHeading() const {
+  return vessel::InverseDynamics(vessel_, leansInto()).greatestLoadAbeam() <=
+         vessel::kRestMps * vessel_.manoeuvring.sway_drag_kgps;
+}
+
 vessel::Disturbance Safety::lightLoad() const {
-  const vessel::Disturbance load = leansInto();
-  const bool light = vessel::InverseDynamics(vessel_, load).greatestLoadAbeam() <=
-                     vessel::kRestMps * vessel_.manoeuvring.sway_drag_kgps;
-  return light ? load : vessel::Disturbance{};
+  return liesOnAnyHeading() ? leansInto() : vessel::Disturbance{};
+}
+
+bool Safety::mayCreep() const {
+  return !plansWithWeather() && liesOnAnyHeading();
 }
 
 vessel::Disturbance Safety::planDisturbance() const {

@@ -88,6 +88,8 @@ class Safety {
   [[nodiscard]] double sailingSpeed(double usual_mps) const;
   // Of the speed that plans may usually have: what can't be planned fast may be planned slow.
   [[nodiscard]] double slowShare() const;
+  // Whether headings can be held at a crawl, whatever they are.
+  [[nodiscard]] bool mayCreep() const;
   // Of `usual_mps`: where the vessel wanders by most of the room that a level has, a slower plan
   // leaves thrust to keep it on its way.
   [[nodiscard]] double paceAt(std::size_t level, double usual_mps) const;
@@ -121,6 +123,7 @@ class Safety {
   [[nodiscard]] double reach() const;
   // Whether there is water near that nobody has seen or charted.
   void inUnknownWater(bool is) { in_unknown_water_ = is; }
+  [[nodiscard]] bool isInUnknownWater() const { return in_unknown_water_; }
   void leftBehind() { ++times_left_behind_; }
   // A plan failed: the next is tried narrower; false where all levels were tried.
   bool refused();
@@ -135,7 +138,8 @@ class Safety {
   [[nodiscard]] double leastPace() const;
   // What the hull leans into on the way and plans are not made with.
   [[nodiscard]] vessel::Disturbance leansInto() const;
-  // The same where it can lie on any heading in it.
+  [[nodiscard]] bool liesOnAnyHeading() const;  // in that
+  // The same where it can.
   [[nodiscard]] vessel::Disturbance lightLoad() const;
   // Of the thrust, what waves take from plans on this level.
   [[nodiscard]] double waveShare() const;

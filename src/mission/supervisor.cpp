@@ -15,8 +15,8 @@
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/stopping/stand_aside.hpp"
-#include "otter_nav/stopping/straight_leg.hpp"
 #include "otter_nav/stopping/watch.hpp"
+#include "otter_nav/trajectory/straight_leg.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "plan_requests.hpp"
@@ -494,9 +494,15 @@ class Decider final : public Supervisor {
   bool mayImprove(const Moment& m) {
     constexpr double kLastResortS = 1.0;
     constexpr double kPartS = 2.0;  // what leads a part of the way
+    constexpr double kCrawlingS = 2.0;
     const double last_resort = planned_left_m_ > 0.0 ? kPartS : kLastResortS;
-    const double period = is_last_resort_ ? last_resort : options_.improve_period_s;
+    const double usual = crawlsForRoom() ? kCrawlingS : options_.improve_period_s;
+    const double period = is_last_resort_ ? last_resort : usual;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
+  }
+  // Past the narrow place there may be a wider way, to be sailed faster.
+  bool crawlsForRoom() const {
+    return planned_pace_share_ < 1.0 && planned_level_ > 0 && !planned_in_unknown_water_;
   }
   // A plan was made slow while nobody knew the water or how the vessel wanders; now they do.
   bool isNeedlesslySlow(const Moment& m) {
@@ -556,8 +562,14 @@ class Decider final : public Supervisor {
   // Nothing if the vessel is about to come to rest: what comes then is for the rules at the
   // trajectory's end, or for the brake.
   Orders planFromSailed(const Moment& m) {
+    // What comes into the way before it rests is no reason to plan from there.
+    const bool in_the_way = phase_ == Phase::kReplanning && conflict_.found;
+    const double rests_by_s = in_the_way ? sailed_.start_time_s + conflict_.time_s
+                                         : std::numeric_limits<double>::infinity();
     return {
-        plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles), {}, false};
+        plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles, rests_by_s),
+        {},
+        false};
   }
   Orders makeWay(const Moment& m) {
     TimedTrajectory path = std::move(way_made_->path);
@@ -629,6 +641,8 @@ class Decider final : public Supervisor {
   Orders planToImprove(const Moment& m) {
     if (is_last_resort_) {
       safety().tryLevel(planned_level_);
+    } else if (crawlsForRoom()) {
+      safety().tryLevel(std::exchange(asks_widest_, !asks_widest_) ? 0 : planned_level_ - 1);
     }
     return improve(m);
   }
@@ -977,8 +991,8 @@ class Decider final : public Supervisor {
     constexpr double kInStrongMps = 1.0;  // with way on it can make good what sets it aside
     constexpr double kLeastS = 4.0;
     const double speed = mayLoseItsHeading() ? kInStrongMps : kSpeedMps;
-    return Trajectory({stopping::straightLeg(m.situation.state.head<2>(), windward(m), ahead_m,
-                                             std::max(kLeastS, std::abs(ahead_m) / speed))});
+    return Trajectory({trajectory::straightLeg(m.situation.state.head<2>(), windward(m), ahead_m,
+                                               std::max(kLeastS, std::abs(ahead_m) / speed))});
   }
   // The hull's heading, or in strong wind the one into it, bow or stern, as far as turning there
   // needs no room.
@@ -1235,6 +1249,7 @@ class Decider final : public Supervisor {
         asked.slow || asked.left_m > 0.0 || stopping::restsBeforeItsEnd(sailed_.trajectory);
     planned_level_ = asked.level;
     planned_pace_share_ = asked.pace_share;
+    planned_in_unknown_water_ = asked.in_unknown_water;
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
     planned_limits_ = asked.request.query.limits;
     planned_thrust_share_ = asked.request.thrust_share;
@@ -1415,7 +1430,8 @@ class Decider final : public Supervisor {
   double planned_left_m_ = 0.0;  // of the way, from the sailed trajectory's end to the goal
   double nearest_left_m_ = std::numeric_limits<double>::infinity();  // where a part of it ended
   std::size_t planned_level_ = 0;
-  double planned_pace_share_ = 1.0;           // of the usual speed
+  double planned_pace_share_ = 1.0;  // of the usual speed
+  bool planned_in_unknown_water_ = false;
   double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
   double planned_thrust_share_ = 1.0;         // and with
   feasibility::SafetyLimits planned_limits_;  // all of it

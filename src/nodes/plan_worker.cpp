@@ -70,7 +70,11 @@ void PlanWorker::plan(Task& task) {
   const auto begin = std::chrono::steady_clock::now();
   planner::Termination termination;
   if (options_.budget_s) {
-    termination = planner::wallClock(*options_.budget_s, options_.max_iterations);
+    // At rest in narrow water there is time to look for a way to creep.
+    constexpr double kToCreepTimes = 5.0;
+    const planner::Query& query = task.request.query;
+    const double times = query.may_creep && query.may_end_early ? kToCreepTimes : 1.0;
+    termination = planner::wallClock(times * *options_.budget_s, options_.max_iterations);
   } else {
     termination.max_iterations = options_.max_iterations;
   }

@@ -32,7 +32,7 @@ struct PlannerNodeOptions {
     fields("lockstep_iterations", o.lockstep_iterations, {1, 1e7},
            "bound a plan in lockstep, so that it is the same every time");
     fields("planning_budget_s", o.planning_budget_s, {0.001, 60.0},
-           "of wall time, bounds a plan otherwise");
+           "of wall time, bounds a plan otherwise; five times as much where the vessel may creep");
     fields("use_topology_node", o.use_topology_node,
            "ask its service for guide paths; else the planner finds its own");
     fields.group("distance_field", o.distance_field, "");

@@ -12,8 +12,11 @@
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
 #include "otter_nav/topology/guide_path.hpp"
+#include "otter_nav/vessel/hull.hpp"
+#include "planner/creeping.hpp"
 #include "planner/fallback.hpp"
 #include "planner/guide_line.hpp"
+#include "planner/hull_search.hpp"
 #include "planner/sampler.hpp"
 #include "planner/search.hpp"
 
@@ -22,6 +25,7 @@ namespace {
 
 // Beyond the clearance, that the guide line is pushed out to.
 constexpr double kRoomM = 0.7;
+constexpr double kTurningRoomM = 0.1;        // beyond the hull's corners, where creeping may end
 constexpr double kSampleSpeedShare = 0.867;  // of the speed limit, along the guide line
 // A start faster than the limit is slowed down to so much of it, in so many times what the drag
 // takes.
@@ -52,8 +56,9 @@ constexpr int kWorkAtRestAmongOthers = 5000;
 constexpr int kWorkAtRest = std::numeric_limits<int>::max();
 constexpr int kWorkOfASample = 2;
 constexpr int kWorkOfARepair = 7;
-constexpr double kNearM = 0.3;    // a goal nearer than this needs no search
-constexpr int kTrySamples = 150;  // what one more try may draw, and any try counts for
+constexpr double kNearM = 0.3;      // a goal nearer than this needs no search
+constexpr int kPosesMost = 200000;  // that a way for the hull's rectangle is looked for through
+constexpr int kTrySamples = 150;    // what one more try may draw, and any try counts for
 
 double costOf(const trajectory::Trajectory& trajectory, double sigma) {
   double cost = 0.0;
@@ -90,7 +95,8 @@ class Planner::Pipeline {
         vessel_(vessel),
         finder_(options.topology),
         search_({options.sigma, options.max_nodes, options.local_optimization}, vessel),
-        optimizer_(options.optimizer, vessel) {}
+        optimizer_(options.optimizer, vessel),
+        hull_search_(vessel.hull) {}
 
   Plan plan(const feasibility::Obstacles& obstacles, const Query& query,
             const Termination& termination) {
@@ -105,6 +111,7 @@ class Planner::Pipeline {
   Plan planOffShores(const feasibility::Obstacles& obstacles, const Query& query,
                      const Termination& termination) {
     const feasibility::SafetyLimits& limits = query.limits;
+    without_lee_ = &obstacles;
     if (limits.drift_m.isZero(0.0) || !limits.drift_m.allFinite()) {
       return planInTime(obstacles, query, termination);
     }
@@ -140,9 +147,8 @@ class Planner::Pipeline {
       return plan;
     }
     if (!too_fast) {
-      return query.may_end_early && !guide_.points.empty()
-                 ? planPartOfThePath(obstacles, query, termination, std::move(plan))
-                 : plan;
+      return query.may_end_early ? planOnGuide(obstacles, query, termination, std::move(plan))
+                                 : plan;
     }
     for (const double longer : kSlowingShares) {
       for (const double share : kSlowedShares) {
@@ -167,11 +173,30 @@ class Planner::Pipeline {
     return once;
   }
 
-  // To the place with most room on a stretch of the guide path, the farther ones first; else `none`
-  // stays the answer.
-  Plan planPartOfThePath(const feasibility::Obstacles& obstacles, const Query& query,
-                         const Termination& termination, Plan none) {
+  struct OnGuide {
+    double along_m;
+    Eigen::Vector2d position;
+    double course_rad;
+    double clearance_m;
+  };
+
+  // Where the whole way can't be planned: a part of it; or creeping, as the hull's rectangle
+  // passes.
+  Plan planOnGuide(const feasibility::Obstacles& obstacles, const Query& query,
+                   const Termination& termination, Plan none) {
     const std::vector<OnGuide> places = placesOnGuide(obstacles.field());
+    Plan plan = planPartOfThePath(obstacles, query, termination, places, std::move(none));
+    const bool may_creep = query.may_creep && trajectory::atRest(query.start) &&
+                           plan.outcome != Outcome::kSolved &&
+                           plan.outcome != Outcome::kGoalBlocked;
+    return may_creep ? creep(query, termination, places, std::move(plan)) : plan;
+  }
+
+  // To the place with most room on a stretch of the guide path, the farther ones first, from which
+  // the hull can go on; else `none` stays the answer.
+  Plan planPartOfThePath(const feasibility::Obstacles& obstacles, const Query& query,
+                         const Termination& termination, const std::vector<OnGuide>& places,
+                         Plan none) {
     const double length = places.empty() ? 0.0 : places.back().along_m;
     for (const double share : kPartsOfThePath) {
       const std::optional<Termination> once = onceMore(termination);
@@ -193,7 +218,7 @@ class Planner::Pipeline {
       part.goal.flat.position = best->position;
       part.goal.psi_rad = best->course_rad;
       Plan plan = planAmong(obstacles, part, *once);
-      if (plan.outcome == Outcome::kSolved) {
+      if (plan.outcome == Outcome::kSolved && leadsOn(query, termination, *best)) {
         plan.left_m = length - best->along_m;
         return plan;
       }
@@ -201,12 +226,84 @@ class Planner::Pipeline {
     return none;
   }
 
-  struct OnGuide {
-    double along_m;
-    Eigen::Vector2d position;
-    double course_rad;
-    double clearance_m;
-  };
+  // Whether the hull gets from there to the goal, if that is near enough to tell.
+  bool leadsOn(const Query& query, const Termination& termination, const OnGuide& place) {
+    const Eigen::Vector2d off = query.goal.flat.position - place.position;
+    return off.cwiseAbs().maxCoeff() >= HullSearch::kReachM ||
+           !hullWay(query.limits, termination, {place.position, place.course_rad},
+                    {query.goal.flat.position, query.goal.psi_rad})
+                .empty();
+  }
+
+  std::vector<vessel::Pose> hullWay(const feasibility::SafetyLimits& limits,
+                                    const Termination& termination, const vessel::Pose& from,
+                                    const vessel::Pose& to) {
+    return hull_search_.find(*without_lee_, from, to, {limits.clearance_m, limits.hull_margin_m},
+                             kPosesMost, [&termination] {
+                               return termination.elapsed_s &&
+                                      termination.elapsed_s() >= termination.budget_s;
+                             });
+  }
+
+  // To the goal; or, where that is out of the search's reach, to the farthest place on the guide
+  // path with room to turn, or failing that to the farthest.
+  Plan creep(const Query& query, const Termination& termination, const std::vector<OnGuide>& places,
+             Plan none) {
+    constexpr double kWithin = 0.95;  // of the reach
+    const vessel::Pose start{query.start.flat.position, query.start.psi_rad};
+    const auto isNear = [&](const Eigen::Vector2d& place) {
+      return (place - start.position).cwiseAbs().maxCoeff() < kWithin * HullSearch::kReachM;
+    };
+    if (isNear(query.goal.flat.position)) {
+      return creepTo(query.goal, 0.0, query, termination, std::move(none));
+    }
+    const double turning_m = vessel::circumscribedRadius(vessel_.hull) + kTurningRoomM;
+    for (const double room_m : {turning_m, 0.0}) {
+      const auto last = std::find_if(places.rbegin(), places.rend(), [&](const OnGuide& place) {
+        return isNear(place.position) && place.clearance_m >= room_m;
+      });
+      if (last != places.rend() && none.outcome != Outcome::kSolved) {
+        trajectory::Boundary there;
+        there.flat.position = last->position;
+        there.psi_rad = last->course_rad;
+        none = creepTo(there, places.back().along_m - last->along_m, query, termination,
+                       std::move(none));
+      }
+    }
+    return none;
+  }
+
+  Plan creepTo(const trajectory::Boundary& end, double left_m, const Query& query,
+               const Termination& termination, Plan none) {
+    const vessel::Pose start{query.start.flat.position, query.start.psi_rad};
+    // A vessel that stopped nearer to something creeps away from there with what it has.
+    feasibility::SafetyLimits limits = query.limits;
+    const HullRoom has = hull_search_.roomAt(*without_lee_, start);
+    limits.clearance_m = std::min(limits.clearance_m, has.centre_m);
+    limits.hull_margin_m = std::min(limits.hull_margin_m, std::max(0.0, has.beside_m));
+    const std::vector<vessel::Pose> way =
+        hullWay(limits, termination, start, {end.flat.position, end.psi_rad});
+    if (way.size() < 2) {
+      return none;
+    }
+    Plan plan;
+    plan.trajectory = creepAlong(way, vessel_, limits);
+    const auto verification =
+        feasibility::verify(plan.trajectory, *without_lee_, vessel_, query.start, end, limits);
+    if (!verification.ok) {
+      none.reason += "; creeping: " + verification.reason;
+      return none;
+    }
+    plan.outcome = Outcome::kSolved;
+    plan.left_m = left_m;
+    plan.figures.cost = costOf(plan.trajectory, options_.sigma);
+    plan.figures.length_m = trajectory::length(plan.trajectory);
+    plan.figures.duration_s = plan.trajectory.duration();
+    plan.figures.total_ms =
+        termination.elapsed_s ? 1e3 * termination.elapsed_s() : none.figures.total_ms;
+    return plan;
+  }
+
   [[nodiscard]] std::vector<OnGuide> placesOnGuide(const map::DistanceField& field) const {
     constexpr double kStepM = 0.2;
     std::vector<OnGuide> places;
@@ -689,6 +786,9 @@ class Planner::Pipeline {
   std::optional<Launch> launch_;
   std::optional<Launch> stop_;
   optimizer::GlobalOptimizer optimizer_;
+  HullSearch hull_search_;
+  // Of the query. Creeping no heading is lost, in the weather in which it is asked for.
+  const feasibility::Obstacles* without_lee_ = nullptr;
 };
 
 vessel::Pose Query::guideStart() const {

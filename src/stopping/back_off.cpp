@@ -11,8 +11,8 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
-#include "otter_nav/stopping/straight_leg.hpp"
 #include "otter_nav/stopping/watch.hpp"
+#include "otter_nav/trajectory/straight_leg.hpp"
 #include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "stopping/can_follow.hpp"
@@ -32,7 +32,7 @@ constexpr double kTouchesM = 0.02;  // on the way: half of that
 Piece gentleLeg(const Eigen::Vector2d& start, double psi_rad, double ahead_m) {
   constexpr double kSpeedMps = 0.6;
   constexpr double kGatherS = 2.0;
-  return straightLeg(start, psi_rad, ahead_m, kGatherS + std::abs(ahead_m) / kSpeedMps);
+  return trajectory::straightLeg(start, psi_rad, ahead_m, kGatherS + std::abs(ahead_m) / kSpeedMps);
 }
 
 Piece gentleSpin(const Eigen::Vector2d& position, double psi_rad, double turn_rad) {

@@ -35,33 +35,66 @@ constexpr double kMuchThrust = 2.0;  // where nothing is clear
 
 // Along the way with its time slowed down smoothly to nothing within `duration_s`: z(s(t)) with
 // s' = 1 - (10 x^3 - 15 x^4 + 6 x^5), x = t / duration. Half the duration of way is used up.
-FlatPoint slowedPoint(const Trajectory& sailed, double at_s, double t, double duration_s) {
-  const double x = t / duration_s;
-  const double x2 = x * x;
-  const double x3 = x2 * x;
-  const double s = at_s + duration_s * (x - x2 * x2 * (2.5 - 3.0 * x + x2));
-  const double rate = 1.0 - x3 * (10.0 - 15.0 * x + 6.0 * x2);
-  const double rate1 = -30.0 * x2 * (1.0 - 2.0 * x + x2) / duration_s;
-  const double rate2 = -60.0 * x * (1.0 - 3.0 * x + 2.0 * x2) / (duration_s * duration_s);
-  const FlatPoint z = sailed.flat(s);
-  FlatPoint slowed;
-  slowed.position = z.position;
-  slowed.velocity = z.velocity * rate;
-  slowed.acceleration = z.acceleration * (rate * rate) + z.velocity * rate1;
-  slowed.jerk =
-      z.jerk * (rate * rate * rate) + z.acceleration * (3.0 * rate * rate1) + z.velocity * rate2;
-  return slowed;
+struct SlowedTime {
+  SlowedTime(double t, double duration_s) {
+    const double x = t / duration_s;
+    const double x2 = x * x;
+    const double x3 = x2 * x;
+    passed_s = duration_s * (x - x2 * x2 * (2.5 - 3.0 * x + x2));
+    rate = 1.0 - x3 * (10.0 - 15.0 * x + 6.0 * x2);
+    rate1 = -30.0 * x2 * (1.0 - 2.0 * x + x2) / duration_s;
+    rate2 = -60.0 * x * (1.0 - 3.0 * x + 2.0 * x2) / (duration_s * duration_s);
+  }
+  [[nodiscard]] FlatPoint of(const FlatPoint& z) const {
+    FlatPoint slowed;
+    slowed.position = z.position;
+    slowed.velocity = z.velocity * rate;
+    slowed.acceleration = z.acceleration * (rate * rate) + z.velocity * rate1;
+    slowed.jerk =
+        z.jerk * (rate * rate * rate) + z.acceleration * (3.0 * rate * rate1) + z.velocity * rate2;
+    return slowed;
+  }
+  double passed_s, rate, rate1, rate2;
+};
+
+// A heading of its own with its derivatives, as the x of a point.
+FlatPoint ownHeading(const Trajectory& sailed, double at_s) {
+  const std::size_t k = sailed.pieceAt(at_s);
+  const Piece& piece = sailed.pieces()[k];
+  Piece turning;
+  turning.position.row(0) = piece.heading;
+  return turning.flat(std::clamp(at_s - sailed.startOf(k), 0.0, piece.duration_s));
+}
+
+bool hasOwnHeading(const Trajectory& sailed, double from_s, double to_s) {
+  const std::size_t last = sailed.pieceAt(to_s);
+  for (std::size_t k = sailed.pieceAt(from_s); k <= last; ++k) {
+    if (sailed.pieces()[k].kind != PieceKind::kSpin) {
+      return false;
+    }
+  }
+  return true;
 }
 
 Trajectory slowed(const Trajectory& sailed, double at_s, double duration_s) {
   const int knots = partsOf(duration_s, kKnotS, 4);
   const double step = duration_s / knots;
+  const bool held = hasOwnHeading(sailed, at_s, at_s + 0.5 * duration_s);
+  const SlowedTime first(0.0, duration_s);
+  FlatPoint previous = first.of(sailed.flat(at_s));
+  FlatPoint heading = held ? first.of(ownHeading(sailed, at_s)) : FlatPoint{};
   std::vector<Piece> pieces;
-  FlatPoint previous = slowedPoint(sailed, at_s, 0.0, duration_s);
   for (int k = 1; k <= knots; ++k) {
-    const FlatPoint next = slowedPoint(sailed, at_s, k * step, duration_s);
+    const SlowedTime time(k * step, duration_s);
+    const FlatPoint next = time.of(sailed.flat(at_s + time.passed_s));
     pieces.push_back(trajectory::hermitePiece(previous, next, step));
     previous = next;
+    if (held) {
+      const FlatPoint turned = time.of(ownHeading(sailed, at_s + time.passed_s));
+      pieces.back().kind = PieceKind::kSpin;
+      pieces.back().heading = trajectory::hermitePiece(heading, turned, step).position.row(0);
+      heading = turned;
+    }
   }
   return Trajectory(std::move(pieces));
 }
@@ -125,15 +158,19 @@ std::optional<Trajectory> ownRest(const Trajectory& sailed, double at_s, double 
 }
 
 // A vessel that hardly moves, or turns on the spot, is held where it is. Where hardly any force
-// tells the flat heading, it may turn faster than any hull.
+// tells the flat heading, it may turn faster than any hull, and no hull has followed it: the less
+// firmly it is told, the less of its turning goes on.
 Trajectory halt(const Trajectory& sailed, double at_s, const vessel::Parameters& vessel,
                 const vessel::Disturbance& disturbance) {
   constexpr double kHaltS = 1.0;
   constexpr double kDifferenceS = 1e-3;
+  constexpr double kFirmShare = 0.1;  // of both thrusters ahead
   const trajectory::Sample here = sailed.sample(at_s, vessel, disturbance);
   const double fastest = feasibility::SafetyLimits::of(vessel).yaw_rate_max_radps;
+  const double firm_n = kFirmShare * 2.0 * vessel.thrusters.ahead_max_n;
   const auto rate = [&](const trajectory::Sample& sample) {
-    return std::clamp(sample.state[vessel::kYawRate], -fastest, fastest);
+    const double told = std::min(1.0, sample.heading_force_n / firm_n);
+    return told * std::clamp(sample.state[vessel::kYawRate], -fastest, fastest);
   };
   const double now = rate(here);
   const double later = rate(sailed.sample(at_s + kDifferenceS, vessel, disturbance));

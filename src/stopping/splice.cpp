@@ -64,16 +64,20 @@ trajectory::TimedTrajectory splice(const trajectory::TimedTrajectory& sailed, do
 
 bool restsBeforeItsEnd(const Trajectory& trajectory) {
   constexpr double kRestMps = 1e-3;
+  constexpr double kSetAsideM = 0.3;  // by a turn on the spot
+  const auto goesOn = [](const Piece& piece) {
+    return piece.kind == trajectory::PieceKind::kSail ||
+           (piece.flat(piece.duration_s).position - piece.flat(0.0).position).norm() > kSetAsideM;
+  };
   bool under_way = false;
   for (std::size_t i = 0; i + 1 < trajectory.pieces().size(); ++i) {
     const Piece& piece = trajectory.pieces()[i];
     under_way = under_way || piece.flat(0.5 * piece.duration_s).velocity.norm() > kRestMps;
     if (under_way && piece.flat(piece.duration_s).velocity.norm() < kRestMps) {
       // Followed by a turn on the spot alone, which may set the hull aside, it is the arrival.
-      for (std::size_t k = i + 1; k < trajectory.pieces().size(); ++k) {
-        if (trajectory.pieces()[k].kind == trajectory::PieceKind::kSail) {
-          return true;
-        }
+      const auto rest = trajectory.pieces().begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      if (std::any_of(rest, trajectory.pieces().end(), goesOn)) {
+        return true;
       }
     }
   }

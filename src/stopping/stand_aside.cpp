@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "otter_nav/stopping/back_off.hpp"
-#include "otter_nav/stopping/straight_leg.hpp"
 #include "otter_nav/stopping/watch.hpp"
+#include "otter_nav/trajectory/straight_leg.hpp"
 #include "stopping/can_follow.hpp"
 
 namespace otter_nav::stopping {
@@ -42,7 +42,7 @@ std::optional<Piece> quickest(const vessel::State& state, double ahead_m,
   const double least_s = 2.0 * std::sqrt(std::abs(ahead_m) / accel_mps2);
   for (double longer = kLonger; longer <= kLongest; longer *= kLonger) {
     const Piece piece =
-        straightLeg(state.head<2>(), state[vessel::kPsi], ahead_m, longer * least_s);
+        trajectory::straightLeg(state.head<2>(), state[vessel::kPsi], ahead_m, longer * least_s);
     const Trajectory path({piece});
     if (canFollow(path, still, vessel)) {
       return outlineConflict(path, 0.0, path.duration(), still, vessel, kAsideClearM, true).found
@@ -75,7 +75,8 @@ std::optional<Trajectory> standAside(const vessel::State& state,
   constexpr double kWorthM = 0.5;
   const feasibility::Obstacles still(obstacles.field());
   double most =
-      kWorthM + leastRoom(straightLeg(state.head<2>(), state[vessel::kPsi], 0.0, 1.0), obstacles);
+      kWorthM +
+      leastRoom(trajectory::straightLeg(state.head<2>(), state[vessel::kPsi], 0.0, 1.0), obstacles);
   std::optional<Trajectory> best;
   for (const double side : {1.0, -1.0}) {
     for (const double lengths : {1.0, 2.0, 3.0, 4.0, 6.0}) {

@@ -150,10 +150,10 @@ class StopAndSpin {
                                                            const std::vector<Eigen::Vector2d>& path,
                                                            const trajectory::Boundary& start,
                                                            const trajectory::Boundary& goal) const;
+  // Of a leg from rest to rest, ahead or astern, s.
+  [[nodiscard]] double legDuration(double length_m) const;
 
  private:
-  // Of a leg from rest to rest.
-  [[nodiscard]] double legDuration(double length_m) const;
   void appendStraight(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                       std::vector<trajectory::Piece>& pieces) const;
 

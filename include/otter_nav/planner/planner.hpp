@@ -37,6 +37,9 @@ struct Query {
   // Where there is no plan to the goal, one to a place on the way to it will do, for the vessel to
   // see further from there.
   bool may_end_early = false;
+  // From rest, and where nothing else leads on, slowly by straight legs ahead and astern with turns
+  // on the spot between them, as the hull's rectangle passes.
+  bool may_creep = false;
   // Where a way led to nowhere before: a guide path keeps away from there, unless there is no other
   // and the plan may end early.
   std::vector<Eigen::Vector2d> dead_ends;

@@ -170,6 +170,59 @@ TEST(Planner, EndsEarlyWhereItMayAndTheWholeWayCantBePlanned) {
   EXPECT_EQ(whole.left_m, 0.0);
 }
 
+// A canal with a bend that the hull can't turn in while it sails, and just so on the spot.
+map::DistanceField bentCanal() {
+  map::OccupancyGrid grid = test::openGrid();
+  test::fill(grid, -0.75, -8.0, 40.0, 7.0);  // south of the arm to the east
+  test::fill(grid, -40.0, -8.0, 39.25, 48.0);
+  test::fill(grid, 1.5, 1.0, 40.0, 39.0);
+  return map::DistanceField(grid, map::DistanceFieldOptions{});
+}
+
+TEST(Planner, CreepsWhereNothingElseLeadsOn) {
+  const map::DistanceField field = bentCanal();
+  Query query;
+  query.limits = feasibility::SafetyLimits::of(vessel::Parameters{}, 0.64);
+  query.limits.hull_margin_m = 0.05;
+  query.start.flat.position = {0.4, 9.0};
+  query.start.psi_rad = 1.5707963;  // bow the wrong way, and no room to turn
+  query.goal.flat.position = {14.0, 0.0};
+  query.goal.psi_rad = 3.1415926;
+  query.may_end_early = true;
+  Planner planner(Options{}, vessel::Parameters{});
+  const Plan without = planner.plan(field, query, byIterations());
+  query.may_creep = true;
+  const Plan plan = planner.plan(field, query, byIterations());
+  ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+  EXPECT_NE(without.outcome, Outcome::kSolved);
+  EXPECT_EQ(plan.left_m, 0.0);
+  const auto verification = feasibility::verify(plan.trajectory, field, vessel::Parameters{},
+                                                query.start, query.goal, query.limits);
+  EXPECT_TRUE(verification.ok) << verification.reason;
+  // Under way there is always another.
+  query.start.flat.velocity = {0.0, 0.5};
+  EXPECT_NE(planner.plan(field, query, byIterations()).outcome, Outcome::kSolved);
+}
+
+// Half of the way, or a quarter, ends where the hull can't go on.
+TEST(Planner, DoesNotEndEarlyInADeadEnd) {
+  map::OccupancyGrid grid = test::openGrid();
+  // A pond whose only way on is a slot for the hull's centre, not for the hull.
+  test::fill(grid, 2.0, -40.0, 1.0, 39.35);
+  test::fill(grid, 2.0, 0.65, 1.0, 39.35);
+  test::fill(grid, 3.75, -1.6, 1.0, 3.2);
+  const map::DistanceField field(grid, map::DistanceFieldOptions{});
+  Query query;
+  query.limits = feasibility::SafetyLimits::of(vessel::Parameters{}, 0.55);
+  query.limits.hull_margin_m = 0.0;
+  query.start.flat.position = {-9.0, 0.0};
+  query.goal.flat.position = {9.0, 0.0};
+  query.may_end_early = true;
+  Planner planner(Options{}, vessel::Parameters{});
+  const Plan plan = planner.plan(field, query, byIterations());
+  EXPECT_NE(plan.outcome, Outcome::kSolved) << plan.left_m;
+}
+
 // The way goes by another gap, if there is one; if not, a plan that may end early tries it again.
 TEST(Planner, KeepsAwayFromDeadEndsWhereItCan) {
   for (const bool has_other_gap : {false, true}) {

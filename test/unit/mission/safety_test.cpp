@@ -64,9 +64,9 @@ TEST(Safety, MarginsGrowWithWhatTheVesselWanders) {
   const double fast = safety.limits(0.95, kWideWater).speed_max_mps;
   while (safety.refused()) {
     EXPECT_NEAR(margin(), wide, 1e-9);
-    // Slower where that is most of the room.
+    // At a crawl where that is most of the room.
     const double speed = safety.limits(0.95, kWideWater).speed_max_mps;
-    EXPECT_NEAR(speed, (safety.level() >= 2 ? 0.65 : 1.0) * fast, 1e-9);
+    EXPECT_NEAR(speed, safety.level() >= 2 ? 0.8 : fast, 1e-9);
   }
   EXPECT_NEAR(margin(), 0.5 * wide, 1e-9);
   EXPECT_EQ(safety.leastStop(safety.limits(0.95, kWideWater)).hull_margin_m, 0.02);
@@ -168,6 +168,24 @@ TEST(Safety, PlansKnowWhatTheHullLeansIntoInStrongWindToo) {
   EXPECT_NEAR(safety.limits(0.95, kWideWater).felt.wind_mps.y(), 8.0, 0.1);
 }
 
+// Where there is hardly room for it a vessel that hasn't shown how far it wanders crawls, in water
+// that is known as well.
+TEST(Safety, CrawlsWhereThereIsNoRoomToWander) {
+  Safety safety(SupervisorOptions{}, vessel::Parameters{});
+  const double crawl = 0.4 * vessel::Parameters{}.hull.length_m;
+  const auto speedAt = [&](std::size_t level) {
+    safety.tryLevel(level);
+    return safety.limits(0.95, kWideWater).speed_max_mps;
+  };
+  EXPECT_GT(speedAt(1), 2.0);
+  EXPECT_NEAR(speedAt(2), crawl, 1e-9);
+  EXPECT_NEAR(speedAt(3), crawl, 1e-9);
+  for (int k = 0; k < 80; ++k) {
+    safety.wander(0.1 * k, 0.01);
+  }
+  EXPECT_GT(speedAt(3), 2.0);
+}
+
 // In the first seconds under way nobody knows how far it wanders.
 TEST(Safety, ReckonsWithWanderingInUnknownWater) {
   Safety safety(SupervisorOptions{}, vessel::Parameters{});
@@ -205,6 +223,26 @@ TEST(Safety, ReckonsWithWanderingInAFirmLoad) {
     }
     EXPECT_LT(safety.limits(0.8, 20.0).hull_margin_m, 0.06);
   }
+}
+
+// Only where the hull lies on any heading as it is told to.
+TEST(Safety, LetsNobodyCreepWhereTheLoadTakesTheHeading) {
+  const auto mayCreep = [](const char* name, double force_n, double wind_mps) {
+    Safety safety(SupervisorOptions{},
+                  *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/" +
+                                          name + ".yaml"));
+    vessel::Disturbance load;
+    load.force_n = {0.0, force_n};
+    load.wind_mps = {0.0, wind_mps};
+    for (int k = 0; k < 50; ++k) {
+      safety.feel(0.1 * k, load);
+    }
+    return safety.mayCreep();
+  };
+  EXPECT_TRUE(mayCreep("otter", 5.0, 0.0));
+  EXPECT_FALSE(mayCreep("otter", 40.0, 0.0));
+  EXPECT_TRUE(mayCreep("otter_gazebo", 0.0, 3.0));
+  EXPECT_FALSE(mayCreep("otter_gazebo", 0.0, 8.0));
 }
 
 // What plans may take of the thrust in a load, with the hull swaying by so much beside a steady
@@ -311,6 +349,9 @@ TEST(Safety, LimitsTheSpeed) {
 TEST(Safety, TakesTheFirstLevelThatStartAndGoalHaveRoomFor) {
   const SupervisorOptions options;
   Safety safety(options, vessel::Parameters{});
+  for (int k = 0; k < 80; ++k) {
+    safety.wander(0.1 * k, 0.01);
+  }
   EXPECT_NEAR(safety.limits(0.95, 0.9).clearance_m, 0.74, 1e-12);
   EXPECT_TRUE(safety.refused());
   EXPECT_NEAR(safety.limits(0.95, kWideWater).clearance_m, 0.64, 1e-12);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../feasibility/moving_disc.hpp"
+#include "otter_nav/trajectory/straight_leg.hpp"
 #include "scripted_mission.hpp"
 
 namespace otter_nav::mission {
@@ -260,14 +261,35 @@ TEST(Supervisor, CrawlsNearUnknownWater) {
     test::block(seen, {unknown_from_m, -10.0}, {unknown_from_m + 10.0, 10.0});
     m.known.emplace(test::fieldOf(seen));
     std::optional<PlanRequest> asked = m.goTo({20.0, 0.0})->plan;
-    for (std::size_t k = 1; k < m.options.side_clearances_m.size() && asked; ++k) {
-      (void)m.refuse(*asked, "none");
-      asked = m.update(0.1).plan;
-    }
+    (void)m.refuse(*asked, "none");
+    asked = m.update(0.1).plan;
     return asked ? asked->query.limits.speed_max_mps : 0.0;
   };
   EXPECT_GT(speedAsked(9.0), 3.0);
   EXPECT_NEAR(speedAsked(4.0), 0.8, 1e-9);
+}
+
+// Past the narrow place, for which it crawls, a wider way is looked for: the widest, and the next.
+TEST(Supervisor, LeavesOffCrawlingWhereAWiderWayLeadsOn) {
+  ScriptedMission m;
+  std::optional<PlanRequest> asked = m.goTo({20.0, 0.0})->plan;
+  for (std::size_t k = 1; k < m.options.side_clearances_m.size() && asked; ++k) {
+    (void)m.refuse(*asked, "none");
+    asked = m.update(0.1).plan;
+  }
+  ASSERT_TRUE(asked);
+  EXPECT_NEAR(asked->query.limits.speed_max_mps, 0.8, 1e-9);
+  ASSERT_TRUE(m.answer(*asked, test::eastward({0.0, 0.0}, 20.0, 0.7)).sail);
+  std::vector<double> clearances;
+  for (int k = 0; k < 45 && clearances.size() < 2; ++k) {
+    if (const std::optional<PlanRequest> wider = m.update(0.1).plan) {
+      clearances.push_back(wider->query.limits.clearance_m);
+      (void)m.refuse(*wider, "none");
+    }
+  }
+  ASSERT_EQ(clearances.size(), 2U);
+  EXPECT_NEAR(clearances[0], m.clearance(0), 1e-9);
+  EXPECT_NEAR(clearances[1], m.clearance(m.options.side_clearances_m.size() - 2), 1e-9);
 }
 
 // A plan that was made slow because nobody had seen the water is not sailed slowly for all the way:
@@ -279,10 +301,8 @@ TEST(Supervisor, WhatWasPlannedSlowInUnknownWaterIsPlannedAnewOnceItIsKnown) {
     test::block(seen, {4.0, -10.0}, {14.0, 10.0});
     m.known.emplace(test::fieldOf(seen));
     std::optional<PlanRequest> asked = m.goTo({20.0, 0.0})->plan;
-    for (std::size_t k = 1; k < m.options.side_clearances_m.size() && asked; ++k) {
-      (void)m.refuse(*asked, "none");
-      asked = m.update(0.1).plan;
-    }
+    (void)m.refuse(*asked, "none");
+    asked = m.update(0.1).plan;
     ASSERT_TRUE(asked);
     ASSERT_TRUE(m.answer(*asked, test::eastward({0.0, 0.0}, 20.0, 0.7)).sail);
     if (is_seen) {
@@ -522,6 +542,52 @@ TEST(Supervisor, HasAllRoundsAgainAfterAPartOfTheWay) {
     (void)m.refuse(*asked, "none");
   }
   EXPECT_NE(m.supervisor->phase(), Phase::kFailed);
+}
+
+// From rest to rest: two legs with a turn on the spot between them.
+trajectory::Trajectory creeping() {
+  return trajectory::Trajectory({trajectory::straightLeg({-40.0, 0.0}, 0.0, 4.0, 8.0),
+                                 trajectory::spinPiece({-36.0, 0.0}, 0.0, 1.0, 4.0),
+                                 trajectory::straightLeg({-36.0, 0.0}, 1.0, -3.0, 8.0)});
+}
+
+// A way from stop to stop is left where it next rests, if there is a better one from there.
+TEST(Supervisor, PlansFromTheNextRestOfACreepingWay) {
+  test::ScriptedMission mission;
+  mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({40.0, 0.0});
+  (void)mission.answer(*orders->plan, creeping());
+  Orders next;
+  for (int k = 0; k < 30 && !next.plan; ++k) {
+    next = mission.update(0.1);
+  }
+  ASSERT_TRUE(next.plan);
+  EXPECT_NEAR(next.plan->start_time_s, mission.supervisor->sailed().start_time_s + 8.0, 1e-6);
+  EXPECT_TRUE(trajectory::atRest(next.plan->query.start));
+  EXPECT_LT((next.plan->query.start.flat.position - Eigen::Vector2d(-36.0, 0.0)).norm(), 1e-6);
+  EXPECT_NEAR(next.plan->query.start.psi_rad, 0.0, 1e-6);
+  EXPECT_FALSE(next.plan->query.may_creep);
+  const Orders better = mission.answer(*next.plan, test::eastward({-36.0, 0.0}, 76.0, 4.0));
+  ASSERT_TRUE(better.sail);
+  const trajectory::TimedTrajectory& sailed = *better.sail;
+  EXPECT_LT(
+      (sailed.trajectory.flat(sailed.trajectory.duration()).position - Eigen::Vector2d(40.0, 0.0))
+          .norm(),
+      1e-6);
+}
+
+// Not where something lies on the way before that rest.
+TEST(Supervisor, DoesNotPlanFromARestBeyondWhatIsInTheWay) {
+  test::ScriptedMission mission;
+  mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({40.0, 0.0});
+  (void)mission.answer(*orders->plan, creeping());
+  mission.put({-36.3, -0.5}, {-35.9, 0.5});
+  for (int k = 0; k < 10; ++k) {
+    const Orders next = mission.update(0.1);
+    EXPECT_FALSE(next.plan && trajectory::atRest(next.plan->query.start) &&
+                 mission.supervisor->phase() == Phase::kReplanning);
+  }
 }
 
 }  // namespace

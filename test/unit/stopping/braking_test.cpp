@@ -4,9 +4,11 @@
 
 #include "../feasibility/moving_disc.hpp"
 #include "../mission/waters.hpp"
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/stopping/watch.hpp"
+#include "otter_nav/trajectory/straight_leg.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -229,6 +231,24 @@ TEST(Braking, EndsASpinInPlaceWithoutAJump) {
 }
 
 // A stop that is clear as planned may touch on the hull's way back to it.
+// On a leg astern the way says nothing of the heading: it is kept while the way comes off.
+TEST(Braking, KeepsTheHeadingOnALegAstern) {
+  const Trajectory leg({trajectory::straightLeg({0.0, 0.0}, 0.3, -8.0, 12.0)});
+  const map::DistanceField field = fieldOf(openWater());
+  for (const double at_s : {4.0, 6.0, 7.0}) {
+    const Braking stop = brakingTrajectory(leg, at_s, field, vessel::Parameters{}, {kClearanceM});
+    ASSERT_TRUE(stop.clear) << at_s;
+    expectRest(stop.trajectory);
+    expectContinues(leg, at_s, stop.trajectory);
+    for (double t = 0.0; t < stop.trajectory.duration(); t += 0.1) {
+      const vessel::State there = stop.trajectory.sample(t, vessel::Parameters{}).state;
+      EXPECT_NEAR(there[vessel::kPsi], 0.3, 1e-6);
+      EXPECT_NEAR(cross(unitVector(0.3), there.head<2>()), 0.0, 1e-6);
+    }
+    EXPECT_LT(stop.trajectory.flat(stop.trajectory.duration()).position.norm(), 8.0);
+  }
+}
+
 TEST(Braking, IsJudgedAsTheHullLies) {
   const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
   map::OccupancyGrid grid = openWater();
@@ -289,6 +309,33 @@ TEST(Braking, HoldsWhatHardlyMovesWithoutAWhirl) {
     }
   }
   EXPECT_GT(whirls_radps, 10.0 * fastest);
+}
+
+// At the end of a stop hardly any force is left: what the path makes of its heading then isn't the
+// hull's, and holding it there doesn't turn it.
+TEST(Braking, HoldsTheHeadingWhereHardlyAnyForceTellsIt) {
+  vessel::FlatPoint slow;
+  slow.velocity = {0.08, 0.0};
+  slow.acceleration = {-0.1, 0.0};
+  vessel::FlatPoint rest;
+  rest.position = {0.05, 0.004};
+  const Trajectory sailed({trajectory::hermitePiece(slow, rest, 1.2)});
+  const vessel::Parameters vessel;
+  const map::DistanceField field = fieldOf(openWater());
+  double turns_rad = 0.0;
+  double whirls_radps = 0.0;
+  for (double t = 0.0; t < 1.2; t += 0.01) {
+    whirls_radps =
+        std::max(whirls_radps, std::abs(sailed.sample(t, vessel).state[vessel::kYawRate]));
+    const Braking stop = brakingTrajectory(sailed, t, field, vessel, {kClearanceM});
+    const auto psi = [&](double s) {
+      return stop.trajectory.sample(s, vessel).state[vessel::kPsi];
+    };
+    turns_rad =
+        std::max(turns_rad, std::abs(wrapAngle(psi(stop.trajectory.duration()) - psi(0.0))));
+  }
+  EXPECT_GT(whirls_radps, 1.0);
+  EXPECT_LT(turns_rad, 0.3);
 }
 
 // From a standing start the way to a near goal takes less time than the gentlest stop; it is no

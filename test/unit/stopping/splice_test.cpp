@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "otter_nav/trajectory/polynomial/hermite.hpp"
+#include "otter_nav/trajectory/straight_leg.hpp"
 
 namespace otter_nav::stopping {
 namespace {
@@ -34,6 +35,16 @@ TEST(RestsBeforeItsEnd, NotWhereItTurnsAtTheGoal) {
   const trajectory::Trajectory arrives({leg(0.0, 10.0), drifting});
   ASSERT_GT(arrives.flat(arrives.duration() - 1.0).velocity.norm(), 1e-3);
   EXPECT_FALSE(restsBeforeItsEnd(arrives));
+}
+
+// Creeping, the legs have a heading of their own too.
+TEST(RestsBeforeItsEnd, WhereItCreepsOn) {
+  const auto creeps = [](double from_m, double ahead_m) {
+    return trajectory::straightLeg({from_m, 0.0}, 0.0, ahead_m, 6.0);
+  };
+  EXPECT_TRUE(
+      restsBeforeItsEnd(trajectory::Trajectory({creeps(0.0, 3.0), turn(3.0), creeps(3.0, -2.0)})));
+  EXPECT_FALSE(restsBeforeItsEnd(trajectory::Trajectory({creeps(0.0, 3.0), turn(3.0)})));
 }
 
 }  // namespace

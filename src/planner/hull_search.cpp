@@ -1,0 +1,344 @@
+#include "planner/hull_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/parts.hpp"
+#include "otter_nav/base/planar.hpp"
+
+namespace otter_nav::planner {
+namespace {
+
+using vessel::Pose;
+
+constexpr double kCellM = 0.125;
+constexpr int kCells = static_cast<int>(2.0 * HullSearch::kReachM / kCellM);
+constexpr double kStepM = 0.15;
+constexpr double kCoarseM = 0.125;
+constexpr int kCoarse = static_cast<int>(2.0 * HullSearch::kReachM / kCoarseM);
+// What a slow vessel takes: a metre, a turn, and coming to rest for another motion.
+constexpr double kLegMps = 0.5;
+constexpr double kTurnRadps = 0.35;
+constexpr double kPauseS = 2.0;
+constexpr double kAsternShare = 1.5;  // a metre astern beside one ahead
+// Next to obstacles a metre is dearer, for waves set the hull aside.
+constexpr double kRoomyM = 0.25;
+constexpr double kTightPrice = 2.0;
+constexpr double kGreed = 1.6;  // the weight of what is left
+// What lies nearer together than twice this is not looked at between; the slack leaves as much.
+constexpr double kBetweenM = 0.01;
+constexpr double kStraightToGoalM = 4.0;
+constexpr double kSameM = 1e-6;
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+double legS(double length_m) {
+  return kPauseS + length_m / kLegMps;
+}
+double turnS(double turn_rad) {
+  return turn_rad == 0.0 ? 0.0 : kPauseS + std::abs(turn_rad) / kTurnRadps;
+}
+
+}  // namespace
+
+double HullSearch::psiOf(int heading) const {
+  return start_.psi_rad + heading * (2.0 * kPi / kHeadings);
+}
+
+HullRoom HullSearch::roomAt(const feasibility::Obstacles& obstacles, const Pose& pose) const {
+  const Eigen::Vector2d bow = unitVector(pose.psi_rad);
+  double centre_m = 0.0;
+  const double discs = cover_.slack(
+      obstacles, pose.position, 0.0, 0.0, [&] { return bow; }, centre_m);
+  return {centre_m - 2.0 * kBetweenM, discs - 2.0 * kBetweenM};
+}
+
+double HullSearch::slack(const Eigen::Vector2d& position, double psi_rad) const {
+  const Eigen::Vector2d bow = unitVector(psi_rad);
+  double centre_m = 0.0;
+  const double discs = cover_.slack(
+      *obstacles_, position, 0.0, 0.0, [&] { return bow; }, centre_m);
+  return std::min(discs - room_.beside_m, centre_m - room_.centre_m) - kBetweenM;
+}
+
+// Slack falls by no more than the hull moves: two places vouch for what lies between them as far as
+// theirs reaches; where it doesn't, the middle is looked at.
+bool HullSearch::isClearBetween(const Stand& a, const Stand& b) const {
+  const double moves_m =
+      (b.position - a.position).norm() + cover_.arm() * std::abs(b.psi_rad - a.psi_rad);
+  if (a.slack_m + b.slack_m >= moves_m || moves_m < 2.0 * kBetweenM) {
+    return true;
+  }
+  Stand middle{0.5 * (a.position + b.position), 0.5 * (a.psi_rad + b.psi_rad), 0.0};
+  middle.slack_m = slack(middle.position, middle.psi_rad);
+  return middle.slack_m >= 0.0 && isClearBetween(a, middle) && isClearBetween(middle, b);
+}
+
+bool HullSearch::turnIsClear(const Eigen::Vector2d& position, double psi_rad,
+                             double turn_rad) const {
+  const Stand from{position, psi_rad, slack(position, psi_rad)};
+  const Stand to{position, psi_rad + turn_rad, slack(position, psi_rad + turn_rad)};
+  return from.slack_m >= 0.0 && to.slack_m >= 0.0 && isClearBetween(from, to);
+}
+
+bool HullSearch::legIsClear(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                            double psi_rad) const {
+  const Stand first{from, psi_rad, slack(from, psi_rad)};
+  const Stand last{to, psi_rad, slack(to, psi_rad)};
+  return first.slack_m >= 0.0 && last.slack_m >= 0.0 && isClearBetween(first, last);
+}
+
+std::size_t HullSearch::keyOf(const Node& node) const {
+  const Eigen::Vector2d cell =
+      ((node.position - start_.position).array() + kReachM).matrix() / kCellM;
+  const int heading = ((node.heading % kHeadings) + kHeadings) % kHeadings;
+  return (static_cast<std::size_t>(cell.y()) * kCells + static_cast<std::size_t>(cell.x())) *
+             kHeadings +
+         static_cast<std::size_t>(heading);
+}
+
+double HullSearch::leftS(const Eigen::Vector2d& position) const {
+  const Eigen::Vector2d cell = ((position - start_.position).array() + kReachM).matrix() / kCoarseM;
+  return left_s_[static_cast<std::size_t>(cell.y()) * kCoarse + static_cast<std::size_t>(cell.x())];
+}
+
+// Of the centre alone, over a grid.
+void HullSearch::measureLeft(const Eigen::Vector2d& goal) {
+  left_s_.assign(static_cast<std::size_t>(kCoarse) * kCoarse, kFar);
+  const auto placeOf = [&](int x, int y) -> Eigen::Vector2d {
+    return start_.position +
+           Eigen::Vector2d((x + 0.5) * kCoarseM - kReachM, (y + 0.5) * kCoarseM - kReachM);
+  };
+  // A place of the grid is this near to any other.
+  constexpr double kOffGridM = 0.71 * kCoarseM;
+  const double clearance_m =
+      std::max(room_.centre_m, 0.5 * hull_.beam_m + room_.beside_m) - kOffGridM;
+  std::vector<std::pair<float, int>> heap;
+  const auto reach = [&](int x, int y, float cost) {
+    if (x < 0 || y < 0 || x >= kCoarse || y >= kCoarse) {
+      return;
+    }
+    const int at = y * kCoarse + x;
+    if (cost < left_s_[static_cast<std::size_t>(at)] &&
+        obstacles_->field().isClear(placeOf(x, y), clearance_m)) {
+      left_s_[static_cast<std::size_t>(at)] = cost;
+      heap.emplace_back(-cost, at);
+      std::push_heap(heap.begin(), heap.end());
+    }
+  };
+  const Eigen::Vector2d first = ((goal - start_.position).array() + kReachM).matrix() / kCoarseM;
+  reach(static_cast<int>(first.x()), static_cast<int>(first.y()), 0.0F);
+  constexpr float kStraightS = static_cast<float>(kCoarseM / kLegMps);
+  constexpr float kAslantS = static_cast<float>(1.41421356 * kCoarseM / kLegMps);
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end());
+    const auto [minus, at] = heap.back();
+    heap.pop_back();
+    if (-minus > left_s_[static_cast<std::size_t>(at)]) {
+      continue;
+    }
+    const int x = at % kCoarse;
+    const int y = at / kCoarse;
+    for (int i = -1; i <= 1; ++i) {
+      for (int j = -1; j <= 1; ++j) {
+        if (i != 0 || j != 0) {
+          reach(x + i, y + j, -minus + (i != 0 && j != 0 ? kAslantS : kStraightS));
+        }
+      }
+    }
+  }
+}
+
+void HullSearch::push(const Node& node) {
+  const Eigen::Vector2d off = node.position - start_.position;
+  if (off.cwiseAbs().maxCoeff() >= kReachM) {
+    return;
+  }
+  const double left = leftS(node.position);
+  float& least = least_s_[keyOf(node)];
+  if (!std::isfinite(left) || node.cost_s >= least) {
+    return;
+  }
+  least = node.cost_s;
+  nodes_.push_back(node);
+  front_.emplace_back(-(node.cost_s + static_cast<float>(kGreed * left)),
+                      static_cast<int>(nodes_.size()) - 1);
+  std::push_heap(front_.begin(), front_.end());
+}
+
+void HullSearch::expand(int k) {
+  const Node from = nodes_[static_cast<std::size_t>(k)];
+  const double from_slack = slack(from.position, psiOf(from.heading));
+  for (const Motion motion : {Motion::kTurn, Motion::kAhead, Motion::kAstern}) {
+    for (const int side : {-1, 1}) {
+      if (motion != Motion::kTurn && side != (motion == Motion::kAhead ? 1 : -1)) {
+        continue;
+      }
+      Node to = from;
+      to.from = k;
+      to.motion = motion;
+      double takes_s = from.motion == motion ? 0.0 : kPauseS;
+      if (motion == Motion::kTurn) {
+        to.heading += side;
+        takes_s += 2.0 * kPi / kHeadings / kTurnRadps;
+      } else {
+        to.position += side * kStepM * unitVector(psiOf(from.heading));
+      }
+      const double left = slack(to.position, psiOf(to.heading));
+      if (left < 0.0 || !isClearBetween({from.position, psiOf(from.heading), from_slack},
+                                        {to.position, psiOf(to.heading), left})) {
+        continue;
+      }
+      if (motion != Motion::kTurn) {
+        const double tight = 1.0 + kTightPrice * std::max(0.0, 1.0 - left / kRoomyM);
+        takes_s += (side > 0 ? 1.0 : kAsternShare) * tight * kStepM / kLegMps;
+      }
+      to.cost_s += static_cast<float>(takes_s);
+      push(to);
+    }
+  }
+}
+
+// A turn, a leg ahead and a turn to the goal's heading.
+void HullSearch::tryToGoal(int k) {
+  const Node& at = nodes_[static_cast<std::size_t>(k)];
+  const Eigen::Vector2d leg = goal_.position - at.position;
+  if (leg.norm() > kStraightToGoalM) {
+    return;
+  }
+  const double psi = psiOf(at.heading);
+  const double course = leg.norm() < kSameM ? psi : angleOf(leg);
+  if (turnIsClear(at.position, psi, wrapAngle(course - psi)) &&
+      legIsClear(at.position, goal_.position, course) &&
+      turnIsClear(goal_.position, course, wrapAngle(goal_.psi_rad - course))) {
+    found_ = k;
+  }
+}
+
+std::vector<Pose> HullSearch::posesTo(int k) const {
+  std::vector<Pose> poses;
+  for (int i = k; i >= 0; i = nodes_[static_cast<std::size_t>(i)].from) {
+    const Node& node = nodes_[static_cast<std::size_t>(i)];
+    poses.push_back({node.position, psiOf(node.heading)});
+  }
+  std::reverse(poses.begin(), poses.end());
+  const Eigen::Vector2d leg = goal_.position - poses.back().position;
+  if (leg.norm() >= kSameM) {
+    const double course = poses.back().psi_rad + wrapAngle(angleOf(leg) - poses.back().psi_rad);
+    poses.push_back({poses.back().position, course});
+    poses.push_back({goal_.position, course});
+  }
+  poses.push_back(
+      {goal_.position, poses.back().psi_rad + wrapAngle(goal_.psi_rad - poses.back().psi_rad)});
+  return poses;
+}
+
+// Steps of the same motion joined, and what a turn, a leg and a turn do sooner put in their place.
+std::vector<Pose> HullSearch::shortened(const std::vector<Pose>& way) const {
+  const auto isTurn = [&](std::size_t a, std::size_t b) {
+    return (way[b].position - way[a].position).norm() < kSameM;
+  };
+  std::vector<double> reached_s(way.size(), 0.0);
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const bool turns = isTurn(i - 1, i);
+    const bool goes_on = i > 1 && isTurn(i - 2, i - 1) == turns;
+    reached_s[i] = reached_s[i - 1] + (goes_on ? 0.0 : kPauseS) +
+                   (turns ? std::abs(way[i].psi_rad - way[i - 1].psi_rad) / kTurnRadps
+                          : (way[i].position - way[i - 1].position).norm() / kLegMps);
+  }
+  std::vector<Pose> shorter = {way.front()};
+  std::size_t at = 0;
+  while (at + 1 < way.size()) {
+    const Pose here = shorter.back();
+    std::size_t next = at + 1;
+    for (std::size_t to = way.size() - 1; to > at + 1; --to) {
+      const Eigen::Vector2d leg = way[to].position - here.position;
+      if (leg.norm() < kSameM) {
+        continue;
+      }
+      const double turn = wrapAngle(angleOf(leg) - here.psi_rad);
+      const double course = here.psi_rad + turn;
+      const double turn_on = wrapAngle(way[to].psi_rad - course);
+      const double takes_s = turnS(turn) + legS(leg.norm()) + turnS(turn_on);
+      if (takes_s < reached_s[to] - reached_s[at] &&
+          turnIsClear(here.position, here.psi_rad, turn) &&
+          legIsClear(here.position, way[to].position, course) &&
+          turnIsClear(way[to].position, course, turn_on)) {
+        shorter.push_back({here.position, course});
+        shorter.push_back({way[to].position, course});
+        next = to;
+        break;
+      }
+    }
+    // The same heading as the way's, but for whole turns.
+    const double psi =
+        shorter.back().psi_rad + wrapAngle(way[next].psi_rad - shorter.back().psi_rad);
+    shorter.push_back({way[next].position, psi});
+    at = next;
+  }
+  // Steps that go on in the same motion are one.
+  std::vector<Pose> joined = {shorter.front()};
+  for (std::size_t i = 1; i < shorter.size(); ++i) {
+    const Pose& to = shorter[i];
+    const bool turns = (to.position - joined.back().position).norm() < kSameM;
+    if (turns && std::abs(to.psi_rad - joined.back().psi_rad) < kSameM) {
+      continue;
+    }
+    if (joined.size() > 1) {
+      const Pose& before = joined[joined.size() - 2];
+      const Eigen::Vector2d leg = joined.back().position - before.position;
+      const bool turned = leg.norm() < kSameM;
+      const bool goes_on = !turned && leg.dot(to.position - joined.back().position) > 0.0;
+      const bool turns_on =
+          turned &&
+          (joined.back().psi_rad - before.psi_rad) * (to.psi_rad - joined.back().psi_rad) > 0.0;
+      if (turns == turned && (turns ? turns_on : goes_on)) {
+        joined.back() = to;
+        continue;
+      }
+    }
+    joined.push_back(to);
+  }
+  return joined;
+}
+
+std::vector<Pose> HullSearch::find(const feasibility::Obstacles& obstacles, const Pose& start,
+                                   const Pose& goal, const HullRoom& room, int expansions_most,
+                                   const std::function<bool()>& is_late) {
+  constexpr int kLookEach = 256;
+  obstacles_ = &obstacles;
+  room_ = room;
+  start_ = start;
+  goal_ = goal;
+  found_ = -1;
+  nodes_.clear();
+  front_.clear();
+  if ((goal.position - start.position).cwiseAbs().maxCoeff() >= kReachM ||
+      slack(start.position, start.psi_rad) < 0.0 || slack(goal.position, goal.psi_rad) < 0.0) {
+    return {};
+  }
+  least_s_.assign(static_cast<std::size_t>(kCells) * kCells * kHeadings, kFar);
+  measureLeft(goal.position);
+  push({start.position, 0, Motion::kTurn, 0.0F, -1});
+  for (int looked = 0; found_ < 0 && !front_.empty() && looked < expansions_most; ++looked) {
+    std::pop_heap(front_.begin(), front_.end());
+    const int k = front_.back().second;
+    front_.pop_back();
+    if (nodes_[static_cast<std::size_t>(k)].cost_s >
+        least_s_[keyOf(nodes_[static_cast<std::size_t>(k)])]) {
+      continue;
+    }
+    if (looked % kLookEach == kLookEach - 1 && is_late && is_late()) {
+      break;
+    }
+    tryToGoal(k);
+    if (found_ < 0) {
+      expand(k);
+    }
+  }
+  return found_ < 0 ? std::vector<Pose>{} : shortened(posesTo(found_));
+}
+
+}  // namespace otter_nav::planner
