@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace otter_nav::traffic {
 namespace {
 
-// More than this many ways to give out detections: only each track's best links are kept.
-constexpr double kMostEvents = 20000.0;
-constexpr std::size_t kFewLinks = 2;
+// More than this many ways to give out detections in a group, and weak links are left out, those
+// first that are below a thousandth of a track's best, then more: where many pass close by, one in
+// a chain of improbable links would tie all of them together.
+constexpr double kMostEvents = 2000.0;
+constexpr double kWeak[] = {0.0, 1e-3, 1e-2, 0.1, 0.5, 1.0};
 
-// Tracks that share detections, directly or through others.
-std::vector<std::vector<std::size_t>> groupsOf(const std::vector<std::vector<Link>>& links,
-                                               std::size_t detections) {
+using Groups = std::vector<std::vector<std::size_t>>;
+
+// Of `tracks`, those that share detections, directly or through others.
+Groups groupsOf(const std::vector<std::size_t>& tracks, const std::vector<std::vector<Link>>& links,
+                std::size_t detections) {
   std::vector<std::size_t> root(links.size() + detections);
   std::iota(root.begin(), root.end(), std::size_t{0});
   const auto find = [&](std::size_t k) {
@@ -21,13 +26,15 @@ std::vector<std::vector<std::size_t>> groupsOf(const std::vector<std::vector<Lin
     }
     return k;
   };
-  for (std::size_t t = 0; t < links.size(); ++t) {
+  for (const std::size_t t : tracks) {
     for (const Link& link : links[t]) {
-      root[find(t)] = find(links.size() + link.detection);
+      if (link.weight > 0.0) {
+        root[find(t)] = find(links.size() + link.detection);
+      }
     }
   }
-  std::vector<std::vector<std::size_t>> by_root(root.size());
-  for (std::size_t t = 0; t < links.size(); ++t) {
+  Groups by_root(root.size());
+  for (const std::size_t t : tracks) {
     by_root[find(t)].push_back(t);
   }
   by_root.erase(std::remove_if(by_root.begin(), by_root.end(),
@@ -44,11 +51,6 @@ class Enumeration {
 
   void run(const std::vector<std::size_t>& group) {
     group_ = &group;
-    double events = 1.0;
-    for (const std::size_t t : group) {
-      events *= static_cast<double>(links_[t].size() + 1);
-    }
-    limit_ = events > kMostEvents ? kFewLinks : static_cast<std::size_t>(-1);
     const double sum = visit(0, 1.0);
     for (const std::size_t t : group) {
       out_.none[t] /= sum;
@@ -68,9 +70,9 @@ class Enumeration {
     const double without = visit(place + 1, product * none_[t]);
     out_.none[t] += without;
     double sum = without;
-    for (std::size_t k = 0; k < std::min(links_[t].size(), limit_); ++k) {
+    for (std::size_t k = 0; k < links_[t].size(); ++k) {
       const Link& link = links_[t][k];
-      if (used_[link.detection]) {
+      if (used_[link.detection] || link.weight <= 0.0) {
         continue;
       }
       used_[link.detection] = true;
@@ -87,8 +89,29 @@ class Enumeration {
   std::vector<bool> used_;
   Marginals& out_;
   const std::vector<std::size_t>* group_ = nullptr;
-  std::size_t limit_ = 0;
 };
+
+double eventsOf(const std::vector<std::size_t>& group,
+                const std::vector<std::vector<Link>>& links) {
+  double events = 1.0;
+  for (const std::size_t t : group) {
+    events *=
+        1.0 + static_cast<double>(std::count_if(links[t].begin(), links[t].end(),
+                                                [](const Link& l) { return l.weight > 0.0; }));
+  }
+  return events;
+}
+
+// Links that are weak beside the track's best one no longer count; the best one always does.
+void leaveOutWeak(std::vector<Link>& links, double weak) {
+  double best = 0.0;
+  for (const Link& link : links) {
+    best = std::max(best, link.weight);
+  }
+  for (Link& link : links) {
+    link.weight = link.weight < weak * best ? 0.0 : link.weight;
+  }
+}
 
 }  // namespace
 
@@ -99,9 +122,23 @@ Marginals jointMarginals(const std::vector<double>& none,
   for (const std::vector<Link>& of_track : links) {
     out.links.emplace_back(of_track.size(), 0.0);
   }
-  Enumeration enumeration(none, links, detections, out);
-  for (const std::vector<std::size_t>& group : groupsOf(links, detections)) {
-    enumeration.run(group);
+  std::vector<std::vector<Link>> kept = links;
+  Enumeration enumeration(none, kept, detections, out);
+  std::vector<std::size_t> left(links.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  for (const double weak : kWeak) {
+    for (const std::size_t t : left) {
+      leaveOutWeak(kept[t], weak);
+    }
+    std::vector<std::size_t> tied;
+    for (const std::vector<std::size_t>& group : groupsOf(left, kept, detections)) {
+      if (weak < 1.0 && eventsOf(group, kept) > kMostEvents) {
+        tied.insert(tied.end(), group.begin(), group.end());
+      } else {
+        enumeration.run(group);
+      }
+    }
+    left = std::move(tied);
   }
   return out;
 }

@@ -85,7 +85,8 @@ class Tracker::Impl {
 
   const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor, const vessel::Pose& own,
                              const Scan& scan) {
-    const std::vector<Cluster>& clusters = clusters_.gather(stamp_s, sensor, own, scan);
+    const std::vector<Cluster> clusters =
+        partedAmong(stamp_s, clusters_.gather(stamp_s, sensor, own, scan));
     const Eigen::Vector2d eye = sensor.position.head<2>();
     verdict_.on_vessel.assign(scan.ranges_m.size(), false);
     verdict_.ghosts.clear();
@@ -321,6 +322,90 @@ class Tracker::Impl {
       ++vessel.hits;
       vessel.sources |= look.source;
       look.seen(vessel, links[best].detection, vessel.followCourse());
+    }
+  }
+
+  // Two that pass close by are met as one thing, which is larger than either: each has the echoes
+  // that are nearer to her outline than to the other's.
+  [[nodiscard]] std::vector<Cluster> partedAmong(double stamp_s,
+                                                 const std::vector<Cluster>& clusters) const {
+    constexpr double kLargerM = 0.8;
+    constexpr double kNearM = 1.5;
+    constexpr double kFreshS = 1.5;
+    PredictionOptions now;
+    now.sigmas = 0.0;
+    now.horizon_s = kFreshS;
+    std::vector<Outline> outlines;
+    for (const TrackedVessel& vessel : vessels_) {
+      if (vessel.confirmed && vessel.heading_rad && vessel.size != TrackedVessel::Size::kGuessed &&
+          stamp_s - vessel.motion.stamp() < kFreshS) {
+        outlines.push_back(PredictedPath(vessel.track(), now).at(stamp_s));
+      }
+    }
+    std::vector<Cluster> parted;
+    for (const Cluster& cluster : clusters) {
+      std::vector<std::size_t> near;
+      for (std::size_t k = 0; k < outlines.size(); ++k) {
+        if (std::any_of(cluster.points.begin(), cluster.points.end(), [&](const auto& point) {
+              return outlines[k].distanceTo(point).distance_m < kNearM;
+            })) {
+          near.push_back(k);
+        }
+      }
+      const bool shared = near.size() > 1 && std::all_of(near.begin(), near.end(), [&](auto k) {
+                            const Outline& outline = outlines[k];
+                            const Eigen::Vector2d ahead = unitVector(outline.heading_rad);
+                            return spanOf(cluster.points, ahead).length() >
+                                       2.0 * outline.half_length_m + kLargerM ||
+                                   spanOf(cluster.points, across(ahead)).length() >
+                                       2.0 * outline.half_beam_m + kLargerM;
+                          });
+      if (!shared) {
+        parted.push_back(cluster);
+        continue;
+      }
+      std::vector<std::size_t> whose;
+      for (const Eigen::Vector2d& point : cluster.points) {
+        whose.push_back(*std::min_element(near.begin(), near.end(), [&](auto a, auto b) {
+          return outlines[a].distanceTo(point).distance_m <
+                 outlines[b].distanceTo(point).distance_m;
+        }));
+      }
+      part(cluster, whose, parted);
+    }
+    return parted;
+  }
+
+  // Runs of echoes that are one's; a few of another's between them are hers too.
+  static void part(const Cluster& cluster, const std::vector<std::size_t>& whose,
+                   std::vector<Cluster>& parted) {
+    constexpr std::size_t kFewest = 3;
+    const std::size_t all = cluster.points.size();
+    std::vector<std::size_t> cuts = {0};
+    std::size_t hers = whose.front();
+    for (std::size_t k = 1; k + kFewest <= all; ++k) {
+      const bool turns = std::all_of(whose.begin() + static_cast<std::ptrdiff_t>(k),
+                                     whose.begin() + static_cast<std::ptrdiff_t>(k + kFewest),
+                                     [&](std::size_t one) { return one == whose[k]; });
+      if (turns && whose[k] != hers && k - cuts.back() >= kFewest) {
+        cuts.push_back(k);
+        hers = whose[k];
+      }
+    }
+    cuts.push_back(all);
+    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
+      Cluster one = cluster;
+      const auto from = static_cast<std::ptrdiff_t>(cuts[c]);
+      const auto to = static_cast<std::ptrdiff_t>(cuts[c + 1]);
+      one.points.assign(cluster.points.begin() + from, cluster.points.begin() + to);
+      one.beams.assign(cluster.beams.begin() + from, cluster.beams.begin() + to);
+      const double share = static_cast<double>(to - from) / static_cast<double>(all);
+      one.new_points = static_cast<int>(std::lround(share * cluster.new_points));
+      one.standing_points = static_cast<int>(std::lround(share * cluster.standing_points));
+      // She may go on behind the other.
+      one.first_hidden = c == 0 ? cluster.first_hidden : true;
+      one.last_hidden = c + 2 == cuts.size() ? cluster.last_hidden : true;
+      parted.push_back(std::move(one));
     }
   }
 
