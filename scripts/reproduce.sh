@@ -47,7 +47,7 @@ kept() {
 encounters() { # SET SEED
   local scenario folder=$out/encounters
   "$(program scenario_generator)" --encounters "$1" --out "$folder"
-  for scenario in "$folder/$1"_$cases.yaml; do
+  for scenario in "$folder/$1"_*$cases.yaml; do
     "$(program mission_benchmark)" --scenarios "$scenario" --vessel otter_gazebo --seed "$2" \
       --out "${scenario%.yaml}.json" --tracks "$folder/tracks" || status=1
   done

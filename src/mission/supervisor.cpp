@@ -11,6 +11,7 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
+#include "otter_nav/encounter/evasion.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
@@ -50,6 +51,7 @@ constexpr unsigned kUnderWay = kSailing | kReplanning;
 constexpr unsigned kWaiting = in(Phase::kPlanning) | in(Phase::kStopped);
 constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBack);
 constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
+constexpr unsigned kEvading = in(Phase::kEvading);
 
 // What a decision is made on.
 struct Moment {
@@ -73,7 +75,8 @@ class Decider final : public Supervisor {
         vessel_(vessel),
         plans_(options, vessel, seed),
         retries_(options.rounds_from_rest, options.stops_max),
-        pilot_(options.encounter, vessel) {}
+        pilot_(options.encounter, vessel),
+        evasion_(vessel) {}
 
   Result<Orders> setGoal(double now_s, const vessel::Pose& goal, const Situation& situation,
                          const Obstacles& obstacles) override {
@@ -82,6 +85,7 @@ class Decider final : public Supervisor {
       return failure(status.error().message);
     }
     goal_ = goal;
+    way_.clear();
     plans_.forgetDeadEnds();
     sailed_since_s_ = m.now_s;
     safety().newGoal();
@@ -400,6 +404,47 @@ class Decider final : public Supervisor {
       aside_ = stopping::standAside(x, now, vessel_);
     }
     return aside_.has_value();
+  }
+  // Many others near, or one about to come too near: no time for plans to the goal.
+  bool mustEvade(const Moment& m) {
+    constexpr int kMany = 4;
+    constexpr double kNearM = 35.0;
+    constexpr double kSailsS = 6.0;  // ahead
+    constexpr double kLiesS = 8.0;
+    constexpr double kTooNearM = 0.8;
+    const bool arrives = (in(phase_) & kUnderWay) != 0 && hasArrived(m);
+    if (!near_ || !hasMission() || suspended_ || hasFault(m) || arrives) {
+      return false;
+    }
+    if (moversWithin(m, kNearM) >= kMany) {
+      return true;
+    }
+    const std::vector<traffic::Track> movers = moversOf(m);
+    if (movers.empty()) {
+      return false;
+    }
+    const bool sails = !sailed_.trajectory.empty() && sailed_.left(m.now_s) > 0.0;
+    const encounter::Danger danger =
+        sails ? evasion_.danger(sailed_, m.now_s, kSailsS, movers)
+              : evasion_.danger({m.situation.state.head<2>(), m.situation.state[vessel::kPsi]},
+                                m.now_s, kLiesS, movers);
+    return danger.gap_m < kTooNearM;
+  }
+  // Few others near, and none in the way.
+  bool hasRoomAgain(const Moment& m) {
+    constexpr int kFew = 2;
+    constexpr double kNearM = 40.0;
+    constexpr double kAheadS = 8.0;
+    constexpr double kClearM = 2.0;
+    return !plans_.waits() && moversWithin(m, kNearM) <= kFew &&
+           evasion_.danger(sailed_, m.now_s, kAheadS, moversOf(m)).gap_m > kClearM;
+  }
+  // By whatever way.
+  bool isThere(const Moment& m) {
+    const vessel::State& x = m.situation.state;
+    return (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
+           (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields()) &&
+           vessel::speedOf(x) <= vessel::kRestMps;
   }
   // Plans from rest begin bow to a firm load. The tracker turns the resting hull there. Nor is one
   // begun from a heading lost in strong wind, bow and stern off it: the next gust would have it.
@@ -759,6 +804,56 @@ class Decider final : public Supervisor {
     is_aside_ = true;
     return orders;
   }
+  Orders evade(const Moment& m) {
+    constexpr double kAgainS = 0.25;
+    constexpr double kWorthS = 0.4;  // another way: tracks wander
+    constexpr double kWorthAPlanS = 4.0;
+    constexpr double kLeastLeftS = 4.0;
+    const bool evades = phase_ == Phase::kEvading;
+    if (evades && m.now_s - evaded_s_ < kAgainS) {
+      return {};
+    }
+    evaded_s_ = m.now_s;
+    const encounter::Evasion::Task task = evasionFrom(m);
+    // Not into water that nobody has seen, unless it lies in such.
+    constexpr double kInKnownM = 0.5;
+    const map::DistanceField& known = m.obstacles.inKnownWater().field();
+    const bool in_known = known.clearance(task.start.position) > kInKnownM;
+    const map::DistanceField& still = in_known ? known : m.obstacles.field();
+    encounter::Evasion::Way found = evasion_.find(task, m.situation.tracks, still);
+    // The search looks at steps; between them nothing that lies still may be touched either. Its
+    // thrusts are those of the model it was made with.
+    if (stopping::outlineConflict(found.path.trajectory, 0.0, found.path.trajectory.duration(),
+                                  still, vessel_, 0.0)
+            .found) {
+      found.path = {};
+    }
+    const bool from_sailed = task.start_s > m.now_s;
+    if (evades && from_sailed && sailed_.left(m.now_s) > kLeastLeftS) {
+      const double kept = evasion_.judge(task, sailed_, m.situation.tracks, still).price;
+      if (kept < found.price + (plans_.waits() ? kWorthAPlanS : kWorthS)) {
+        return {};
+      }
+    }
+    if (found.path.trajectory.empty()) {
+      return evades ? Orders{} : stopByItself(m, "no way among other vessels");
+    }
+    plans_.drop();  // what is asked for begins on what was sailed
+    if (!evades) {
+      fallback_.reset();
+      stop_time_s_ = m.now_s;
+      is_aside_ = makes_room_ = holds_ = false;
+      planned_clearance_m_ = 0.0;
+    }
+    enter(Phase::kEvading, text("%zu other vessels, the nearest way passes %.1f m off",
+                                m.situation.tracks.size(), found.danger.gap_m));
+    sailed_ = from_sailed ? stopping::splice(sailed_, m.now_s, found.path) : found.path;
+    return {std::nullopt, sailed_, false};
+  }
+  Orders planAfterEvading(const Moment& m) {
+    Orders orders = planFromSailed(m);
+    return orders.plan ? orders : evade(m);
+  }
   Orders stopSetAside(const Moment& m) {
     return stopByItself(m,
                         text("set aside, %.1f m off the trajectory", m.situation.tracking_error_m));
@@ -830,7 +925,7 @@ class Decider final : public Supervisor {
   // A goal was accepted.
   static constexpr Rule kGoalRules[] = {
       {kUnderWay, &Decider::always, &Decider::planForNewGoal},
-      {kComingToRest, &Decider::always, &Decider::keepOn},
+      {kComingToRest | kEvading, &Decider::always, &Decider::keepOn},
       {kAny, &Decider::moves, &Decider::stopUnplanned},
       {kAny, &Decider::always, &Decider::planFirst},
   };
@@ -856,6 +951,13 @@ class Decider final : public Supervisor {
   };
   // Several times a second.
   static constexpr Rule kRules[] = {
+      {kEvading, &Decider::hasFault, &Decider::stopForFault},
+      {kEvading, &Decider::isThere, &Decider::arrive},
+      {kEvading, &Decider::hasRoomAgain, &Decider::planAfterEvading},
+      {kEvading, &Decider::always, &Decider::evade},
+
+      {kUnderWay | kWaiting | in(Phase::kStopping) | in(Phase::kBackingOff), &Decider::mustEvade,
+       &Decider::evade},
       {kWaiting | in(Phase::kStopping), &Decider::isRunDown, &Decider::standAside},
       {kWaiting, &Decider::mustWait, &Decider::keepOn},
       {kWaiting, &Decider::hasFault, &Decider::loseRound},
@@ -1092,6 +1194,7 @@ class Decider final : public Supervisor {
 
   void lookOut(const Moment& m) {
     constexpr double kCruiseShare = 0.99;  // of the speed that plans may have
+    evasion_.observe(m.situation.tracks);
     if (!knowsPlace(m) || sailed_.trajectory.empty() ||
         (m.situation.tracks.empty() && pilot_.encounters().empty())) {
       return;
@@ -1104,6 +1207,79 @@ class Decider final : public Supervisor {
     pilot_.observe(m.now_s, {x.head<2>(), map_from_base * x.segment<2>(vessel::kSurge)}, steered,
                    m.situation.tracks, goal_.position,
                    kCruiseShare * planned_limits_.speed_max_mps);
+  }
+  static bool makesWay(const traffic::Track& track) {
+    constexpr double kMakesWayMps = 0.5;
+    return track.velocity.norm() > kMakesWayMps;
+  }
+  static std::vector<traffic::Track> moversOf(const Moment& m) {
+    std::vector<traffic::Track> movers;
+    std::copy_if(m.situation.tracks.begin(), m.situation.tracks.end(), std::back_inserter(movers),
+                 makesWay);
+    return movers;
+  }
+  static int moversWithin(const Moment& m, double range_m) {
+    const Eigen::Vector2d here = m.situation.state.head<2>();
+    return static_cast<int>(std::count_if(
+        m.situation.tracks.begin(), m.situation.tracks.end(), [&](const traffic::Track& track) {
+          return makesWay(track) && (track.position - here).norm() < range_m;
+        }));
+  }
+  // A little ahead on what is sailed, or where the hull is if it is off that or lies still.
+  encounter::Evasion::Task evasionFrom(const Moment& m) {
+    constexpr double kAheadS = 0.15;
+    constexpr double kOffM = 0.5;
+    constexpr double kStillMps = 0.3;
+    encounter::Evasion::Task task;
+    const vessel::State& x = m.situation.state;
+    const double at = sailed_.trajectory.empty() ? 0.0 : sailed_.elapsed(m.now_s + kAheadS);
+    if (!sailed_.trajectory.empty() && at < sailed_.trajectory.duration() && at >= 0.0 &&
+        m.situation.tracking_error_m < kOffM) {
+      const trajectory::Sample sample = sailed_.trajectory.sample(at, vessel_);
+      task.start_s = m.now_s + kAheadS;
+      task.start = sample.flat;
+      task.state = sample.state;
+      task.thrusts = sample.thrusts;
+      if (!std::isinf(sample.heading_force_n)) {
+        task.state[vessel::kPsi] = x[vessel::kPsi] + kAheadS * x[vessel::kYawRate];
+      }
+    } else {
+      task.start_s = m.now_s;
+      task.start.position = x.head<2>();
+      task.state = x;
+      if (vessel::speedOf(x) < kStillMps) {
+        task.state.tail<3>().setZero();
+      }
+      task.start.velocity =
+          Eigen::Rotation2D<double>(x[vessel::kPsi]) * task.state.segment<2>(vessel::kSurge);
+    }
+    task.disturbance = weather().mean();
+    feasibility::SafetyLimits limits =
+        feasibility::SafetyLimits::of(vessel_, 0.0, safety().calmThrustShare());
+    limits.limitSpeed(safety().speedMax());
+    task.speed_max_mps = std::min(limits.speed_max_mps, safety().speedInWaves());
+    // From the nearest point of the way on.
+    auto nearest = way_.begin();
+    for (auto it = way_.begin(); it != way_.end(); ++it) {
+      nearest = (*it - task.start.position).norm() < (*nearest - task.start.position).norm()
+                    ? it
+                    : nearest;
+    }
+    task.way.assign(nearest, way_.end());
+    task.goal = {goal_.position, safety().restHeading(goal_.psi_rad)};
+    return task;
+  }
+  // Of a plan that leads to the goal.
+  void rememberTheWay() {
+    constexpr double kApartM = 3.0;
+    way_.clear();
+    const double end = sailed_.trajectory.duration();
+    for (double t = 0.0; t < end; t += 0.5) {
+      const Eigen::Vector2d there = sailed_.trajectory.flat(t).position;
+      if (way_.empty() || (there - way_.back()).norm() > kApartM) {
+        way_.push_back(there);
+      }
+    }
   }
   bool knowsPlace(const Moment& m) {
     return m.situation.state.allFinite() &&
@@ -1245,6 +1421,9 @@ class Decider final : public Supervisor {
     replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;
     sailed_ = std::move(plan);
     planned_left_m_ = asked.left_m;
+    if (planned_left_m_ == 0.0) {
+      rememberTheWay();
+    }
     is_last_resort_ =
         asked.slow || asked.left_m > 0.0 || stopping::restsBeforeItsEnd(sailed_.trajectory);
     planned_level_ = asked.level;
@@ -1474,15 +1653,18 @@ class Decider final : public Supervisor {
   std::optional<encounter::NearFuture> near_;  // other vessels now
   std::optional<Obstacles> seen_;              // and what lies still
   encounter::Pilot pilot_;
+  encounter::Evasion evasion_;
+  double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
+  std::vector<Eigen::Vector2d> way_;              // that the last plan to the goal took
   std::optional<encounter::Manoeuvre> way_made_;  // what the last decision found
 };
 
 }  // namespace
 
 const char* name(Phase phase) {
-  constexpr const char* kNames[] = {"idle",     "planning", "sailing",     "replanning",
-                                    "stopping", "stopped",  "backing off", "turning back",
-                                    "paused",   "holding",  "arrived",     "failed"};
+  constexpr const char* kNames[] = {"idle",    "planning",    "sailing", "replanning",   "stopping",
+                                    "stopped", "backing off", "evading", "turning back", "paused",
+                                    "holding", "arrived",     "failed"};
   return kNames[static_cast<std::size_t>(phase)];
 }
 

@@ -96,6 +96,7 @@ TEST(PlannerStatusMessage, NamesThePhases) {
                                                {Phase::kStopping, PlannerStatus::STOPPING},
                                                {Phase::kStopped, PlannerStatus::STOPPED},
                                                {Phase::kBackingOff, PlannerStatus::BACKING_OFF},
+                                               {Phase::kEvading, PlannerStatus::EVADING},
                                                {Phase::kTurningBack, PlannerStatus::TURNING_BACK},
                                                {Phase::kPaused, PlannerStatus::PAUSED},
                                                {Phase::kHolding, PlannerStatus::HOLDING},

@@ -1,5 +1,6 @@
 #include "archipelago/encounters.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -63,55 +64,103 @@ std::vector<Encounter> meetings(const std::vector<std::vector<Course>>& cases) {
   return encounters;
 }
 
-// A circle that a square goes round on, in legs of 10 degrees.
-struct Ring {
-  Eigen::Vector2d centre;
-  double radius_m = 0.0;
-  double mps = 0.0;
-  double phase_rad = 0.0;
-  double sense = 1.0;  // counter-clockwise, or -1
-};
-
 constexpr double kFieldM = 80.0;
-constexpr double kFieldEndM = 34.0;  // where we start and end, from the middle
+constexpr double kFieldEndM = 34.0;   // where we start and end, from the middle
+constexpr double kFieldSideM = 20.0;  // and at most to either side of it
+constexpr double kFieldMps = 4.0;
 constexpr double kSquareM = 4.0;
+constexpr double kInsideM = 37.0;  // middles of squares, from the field's middle on each axis
 constexpr double kRoundsS = 300.0;
 
-Ring drawRing(Random& random) {
-  Ring ring;
-  ring.radius_m = random.uniform(5.0, 15.0);
-  const double reach = kFieldM / 2.0 - ring.radius_m;
-  ring.centre.x() = random.uniform(-reach, reach);
-  ring.centre.y() = random.uniform(-reach, reach);
-  ring.mps = random.uniform(1.0, 2.5);
-  ring.phase_rad = random.uniform(-kPi, kPi);
-  ring.sense = random.uniform() < 0.5 ? 1.0 : -1.0;
-  return ring;
+struct Difficulty {
+  const char* name;
+  int squares;
+  double mps_max;
+};
+constexpr Difficulty kDifficulties[] = {{"easy", 5, 2.0}, {"medium", 12, 3.0}, {"hard", 24, 4.0}};
+
+// A loop's corners around the origin; the last leads back to the first.
+using Loop = std::vector<Eigen::Vector2d>;
+
+Loop drawLoop(Random& random) {
+  constexpr int kCircleLegs = 36;
+  const double shape = random.uniform();
+  const double radius = random.uniform(5.0, 15.0);
+  const double first = random.uniform(-kPi, kPi);
+  if (shape < 0.25) {  // to and fro
+    return {radius * unitVector(first), -radius * unitVector(first)};
+  }
+  const bool is_circle = shape > 0.6;
+  const int corners = is_circle ? kCircleLegs : 3 + static_cast<int>(4.0 * random.uniform());
+  Loop loop;
+  for (int k = 0; k < corners; ++k) {
+    const double reach = is_circle ? radius : radius * random.uniform(0.7, 1.0);
+    loop.emplace_back(reach * unitVector(first + 2.0 * kPi * k / corners));
+  }
+  if (random.uniform() < 0.5) {
+    std::reverse(loop.begin(), loop.end());
+  }
+  return loop;
 }
 
-bool clearOfEnds(const Ring& ring) {
-  constexpr double kClearM = 8.0;
-  for (const double y : {-kFieldEndM, kFieldEndM}) {
-    if ((ring.centre - Eigen::Vector2d(0.0, y)).norm() < ring.radius_m + kClearM) {
+// On a loop somewhere in the field, from somewhere on it.
+vessel::ScriptedVessel drawSquare(Random& random, double mps_max, int id) {
+  Loop loop = drawLoop(random);
+  double reach = 0.0;
+  for (const Eigen::Vector2d& corner : loop) {
+    reach = std::max(reach, corner.cwiseAbs().maxCoeff());
+  }
+  const double free = kInsideM - reach;
+  const Eigen::Vector2d middle(random.uniform(-free, free), random.uniform(-free, free));
+  vessel::ScriptedVessel square;
+  square.id = id;
+  square.hull = {kSquareM, kSquareM};
+  square.speeds_mps = {random.uniform(1.0, mps_max)};
+  const auto from = static_cast<std::size_t>(random.uniform() * static_cast<double>(loop.size()));
+  const double share = random.uniform();
+  const auto corner = [&](std::size_t k) -> Eigen::Vector2d {
+    return middle + loop[(from + k) % loop.size()];
+  };
+  square.waypoints = {corner(0) + share * (corner(1) - corner(0))};
+  double length = 0.0;
+  for (std::size_t k = 1; length < kRoundsS * square.speeds_mps.front(); ++k) {
+    length += (corner(k) - square.waypoints.back()).norm();
+    square.waypoints.push_back(corner(k));
+  }
+  return square;
+}
+
+bool leavesRoomToStart(const vessel::ScriptedVessel& square, const Eigen::Vector2d& start) {
+  constexpr double kRoomM = 10.0;
+  constexpr double kFirstS = 6.0;
+  for (double t = 0.0; t <= kFirstS; t += 0.5) {
+    if ((vessel::motionAt(square, t).pose.position - start).norm() < kRoomM) {
       return false;
     }
   }
   return true;
 }
 
-vessel::ScriptedVessel onRing(const Ring& ring, int id) {
-  constexpr double kLegRad = kPi / 18.0;
-  vessel::ScriptedVessel square;
-  square.id = id;
-  square.hull = {kSquareM, kSquareM};
-  square.speeds_mps = {ring.mps};
-  const double leg_m = 2.0 * ring.radius_m * std::sin(kLegRad / 2.0);
-  const int legs = static_cast<int>(std::ceil(kRoundsS * ring.mps / leg_m));
-  for (int k = 0; k <= legs; ++k) {
-    const double angle = ring.phase_rad + ring.sense * k * kLegRad;
-    square.waypoints.emplace_back(ring.centre + ring.radius_m * unitVector(angle));
+Encounter drawField(const Difficulty& difficulty, Random& random) {
+  const double ahead = 0.5 * kPi * std::floor(4.0 * random.uniform());
+  const Eigen::Vector2d along = unitVector(ahead);
+  const auto end = [&](double side) {
+    const double aside = random.uniform(-kFieldSideM, kFieldSideM);
+    return vessel::Pose{side * kFieldEndM * along + aside * across(along), ahead};
+  };
+  Encounter field;
+  field.kind = difficulty.name;
+  const vessel::Pose start = end(-1.0);
+  const vessel::Pose goal = end(1.0);
+  field.mission = {"encounter", start, goal, kFieldMps};
+  while (static_cast<int>(field.vessels.size()) < difficulty.squares) {
+    vessel::ScriptedVessel square =
+        drawSquare(random, difficulty.mps_max, static_cast<int>(field.vessels.size()) + 1);
+    if (leavesRoomToStart(square, start.position)) {
+      field.vessels.push_back(std::move(square));
+    }
   }
-  return square;
+  return field;
 }
 
 }  // namespace
@@ -152,20 +201,15 @@ std::vector<Encounter> stubbornCaptains() {
                    {{90.0, kOwnMps, 80.0, 130.0}}});
 }
 
-std::vector<Encounter> movingFields() {
+std::vector<Encounter> movingFields(std::uint64_t seed, int each) {
   std::vector<Encounter> fields;
-  for (const int squares : {5, 5, 5, 5, 12, 12, 12}) {
-    Random random(fields.size() + 1);
-    Encounter field;
-    field.mission = {
-        "encounter", {{0.0, -kFieldEndM}, kPi / 2.0}, {{0.0, kFieldEndM}, kPi / 2.0}, 4.0};
-    while (static_cast<int>(field.vessels.size()) < squares) {
-      const Ring ring = drawRing(random);
-      if (clearOfEnds(ring)) {
-        field.vessels.push_back(onRing(ring, static_cast<int>(field.vessels.size()) + 1));
-      }
+  for (const Difficulty& difficulty : kDifficulties) {
+    for (int k = 0; k < each; ++k) {
+      // A field is the same however many are asked for.
+      Random random(seed * 1000003U + static_cast<std::uint64_t>(difficulty.squares) * 1009U +
+                    static_cast<std::uint64_t>(k));
+      fields.push_back(drawField(difficulty, random));
     }
-    fields.push_back(std::move(field));
   }
   return fields;
 }

@@ -2,6 +2,8 @@
 // 100 s if we sail our speed from the first second on.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "otter_nav/map/occupancy_grid.hpp"
@@ -10,6 +12,7 @@
 namespace otter_nav::scenario {
 
 struct Encounter {
+  std::string kind;  // part of a set; may be empty
   Mission mission;
   std::vector<vessel::ScriptedVessel> vessels;
 };
@@ -21,9 +24,11 @@ struct Encounter {
 // course; two that overtake; one head-on who turns to port; one from port who turns after us.
 [[nodiscard]] std::vector<Encounter> stubbornCaptains();
 
-// Seven waters of 80 m by 80 m to cross at up to 4 m/s, four with five and three with twelve
-// squares of 4 m that go round on circles at 1 to 2.5 m/s, clear of where we start and end.
-[[nodiscard]] std::vector<Encounter> movingFields();
+// Waters of 80 m by 80 m to cross at up to 4 m/s from one side to the opposite one, among squares
+// of 4 m that go round for ever on loops: circles, polygons, to and fro. `each` of every kind:
+// easy, 5 at 1 to 2 m/s; medium, 12 at up to 3 m/s; hard, 24 at up to 4 m/s. In the first seconds
+// none is near where we start; later they go where their loops lead, over start and goal too.
+[[nodiscard]] std::vector<Encounter> movingFields(std::uint64_t seed, int each);
 
 // A square around the origin, free all over.
 [[nodiscard]] map::OccupancyGrid openWater(double side_m);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <string>
@@ -37,16 +38,17 @@ Result<std::string> writeCylinders(const otter_nav::scenario::CylinderFieldOptio
 }
 
 struct Encounters {
-  std::vector<Encounter> (*make)();
+  std::function<std::vector<Encounter>(std::uint64_t seed, int each)> make;
   double side_m;  // of their water
 };
 const std::map<std::string, Encounters> kEncounters = {
-    {"imazu", {otter_nav::scenario::imazuCases, 520.0}},
-    {"captains", {otter_nav::scenario::stubbornCaptains, 520.0}},
+    {"imazu", {[](auto...) { return otter_nav::scenario::imazuCases(); }, 520.0}},
+    {"captains", {[](auto...) { return otter_nav::scenario::stubbornCaptains(); }, 520.0}},
     {"moving", {otter_nav::scenario::movingFields, 80.0}}};
 
 // One scenario a case, all in one open water; how many, or why not.
-Result<std::size_t> writeEncounters(const std::string& set, const std::string& folder) {
+Result<std::size_t> writeEncounters(const std::string& set, std::uint64_t seed, int each,
+                                    const std::string& folder) {
   const Encounters& encounters = kEncounters.at(set);
   const std::string water = set + "_water.yaml";
   std::error_code error;
@@ -58,11 +60,14 @@ Result<std::size_t> writeEncounters(const std::string& set, const std::string& f
     return failure(saved.error().message);
   }
   std::size_t count = 0;
-  for (const Encounter& encounter : encounters.make()) {
+  std::map<std::string, int> of_kind;
+  for (const Encounter& encounter : encounters.make(seed, each)) {
+    ++count;
     char number[24];
-    std::snprintf(number, sizeof(number), "_%02zu", ++count);
+    std::snprintf(number, sizeof(number), "_%02d", ++of_kind[encounter.kind]);
+    const std::string kind = encounter.kind.empty() ? "" : "_" + encounter.kind;
     if (const auto saved = otter_nav::scenario::saveMissions(
-            folder, set + number, water, water, {encounter.mission}, encounter.vessels);
+            folder, set + kind + number, water, water, {encounter.mission}, encounter.vessels);
         !saved) {
       return failure(saved.error().message);
     }
@@ -120,16 +125,22 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->needs(cylinders);
   std::string encounters;
-  app.add_option("--encounters", encounters,
-                 "instead: SET_01.yaml and so on, other vessels in open water: 'imazu', his 22 "
-                 "cases; 'captains' who never give way; 'moving', squares that go round on circles")
+  app.add_option(
+         "--encounters", encounters,
+         "instead: SET_01.yaml and so on, other vessels in open water: 'imazu', his 22 "
+         "cases; 'captains' who never give way; 'moving' (SET_easy_01.yaml and so on, by the "
+         "seed), squares on loops: 5 at up to 2 m/s, 12 at up to 3, 24 at up to 4")
       ->check(CLI::IsMember(kEncounters))
       ->excludes(cylinders)
       ->excludes(walled);
+  int each = 7;
+  app.add_option("--fields", each, "moving: of each difficulty")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 999));
   CLI11_PARSE(app, argc, argv);
 
   if (!encounters.empty()) {
-    const auto written = writeEncounters(encounters, folder);
+    const auto written = writeEncounters(encounters, seed, each, folder);
     if (!written) {
       std::cerr << "scenario_generator: " << written.error().message << '\n';
       return 1;

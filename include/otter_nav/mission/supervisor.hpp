@@ -31,13 +31,14 @@
 namespace otter_nav::mission {
 
 enum class Phase {
-  kIdle,         // no goal
-  kPlanning,     // at rest, waiting for the first plan
-  kSailing,      // on a plan that is clear as far as is known
-  kReplanning,   // on a plan that is not clear any more, waiting for a better one
-  kStopping,     // braking
-  kStopped,      // at rest on the way, waiting for a plan
-  kBackingOff,   // from where there is no room to turn
+  kIdle,        // no goal
+  kPlanning,    // at rest, waiting for the first plan
+  kSailing,     // on a plan that is clear as far as is known
+  kReplanning,  // on a plan that is not clear any more, waiting for a better one
+  kStopping,    // braking
+  kStopped,     // at rest on the way, waiting for a plan
+  kBackingOff,  // from where there is no room to turn
+  kEvading,     // among others who give way to nobody, on a way of seconds that is always made anew
   kTurningBack,  // into the map, over whose edge the vessel went
   kPaused,       // at rest by the operator's wish, with its mission kept
   kHolding,      // likewise, with or without a mission

@@ -94,22 +94,23 @@ TEST(BackOff, EndsWhenTheTrackerCannotFollowOrOdometryStays) {
   EXPECT_EQ(blind.supervisor->reason(), "no odometry");
 }
 
-// A square of 4 m that goes north at 1.5 m/s, `at` 100 s where it is said.
-traffic::Track northward(const Eigen::Vector2d& at, double now_s) {
+// A square of 4 m that goes north, `at` 100 s where it is said.
+traffic::Track northward(const Eigen::Vector2d& at, double now_s, double mps = 1.5) {
   traffic::Track track;
   track.id = 1;
   track.stamp_s = now_s;
-  track.velocity = {0.0, 1.5};
+  track.velocity = {0.0, mps};
   track.position = at + (now_s - 100.0) * track.velocity;
   track.heading_rad = 1.5707963;
   track.length_m = track.beam_m = 4.0;
   return track;
 }
 
-TEST(StandAside, LeavesTheWayOfWhoComesOverHer) {
+TEST(StandAside, LeavesTheWayOfWhoDriftsOverHer) {
+  constexpr double kDriftMps = 0.4;
   test::ScriptedMission mission;
   const auto orders = mission.goTo({-20.0, 0.0});
-  mission.tracks = {northward({0.0, -15.0}, mission.now_s)};
+  mission.tracks = {northward({0.0, -5.5}, mission.now_s, kDriftMps)};
   (void)mission.refuse(orders->plan.value(), "the hull touches");
   const Orders aside = mission.update(0.1);
   ASSERT_TRUE(aside.sail);
@@ -119,13 +120,53 @@ TEST(StandAside, LeavesTheWayOfWhoComesOverHer) {
   // Something ahead doesn't hold her up; by and by she plans again, and it was no stop that counts.
   Orders next;
   for (int k = 0; k < 300 && !next.plan; ++k) {
-    mission.tracks = {northward({0.0, -15.0}, mission.now_s + 0.1)};
+    mission.tracks = {northward({0.0, -5.5}, mission.now_s + 0.1, kDriftMps)};
     next = mission.update(0.1);
     EXPECT_FALSE(next.stop) << mission.now_s;
   }
   ASSERT_TRUE(next.plan);
   EXPECT_LT((next.plan->query.start.flat.position - end).norm(), 0.1);
   EXPECT_EQ(mission.supervisor->stops(), 0);
+}
+
+// Whoever makes way is evaded, and the mission goes on from there.
+TEST(Evading, LeavesTheWayOfWhoComesOverHerAndGoesOn) {
+  test::ScriptedMission mission;
+  const auto orders = mission.goTo({-20.0, 0.0});
+  mission.tracks = {northward({0.0, -12.0}, mission.now_s)};
+  (void)mission.refuse(orders->plan.value(), "the hull touches");
+  const Orders away = mission.update(0.1);
+  ASSERT_TRUE(away.sail);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kEvading);
+  constexpr double kHalfM = 2.0 + 1.1;  // hers and ours
+  bool plans = false;
+  for (int k = 0; k < 600 && mission.supervisor->phase() != Phase::kArrived; ++k) {
+    mission.tracks = {northward({0.0, -12.0}, mission.now_s + 0.1)};
+    const Orders next = mission.update(0.1);
+    EXPECT_FALSE(next.stop) << mission.now_s;
+    plans = plans || next.plan.has_value();
+    const Eigen::Vector2d off =
+        mission.situation().state.head<2>() - mission.tracks.front().position;
+    EXPECT_GT(off.cwiseAbs().maxCoeff(), kHalfM) << mission.now_s;
+  }
+  EXPECT_TRUE(plans || mission.supervisor->phase() == Phase::kArrived);
+  EXPECT_EQ(mission.supervisor->stops(), 0);
+}
+
+TEST(Evading, EndsWithTheMissionAndWaitsForNoPlan) {
+  test::ScriptedMission mission;
+  (void)mission.goTo({-20.0, 0.0});
+  for (int k = 0; k < 4; ++k) {  // one beside the other
+    mission.tracks.push_back(northward({-12.0 + 8.0 * k, -25.0}, mission.now_s));
+    mission.tracks.back().id = k;
+  }
+  (void)mission.update(0.1);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kEvading);
+  EXPECT_TRUE(
+      mission.supervisor->cancel(mission.now_s, mission.situation(), mission.obstacles()).stop ||
+      mission.supervisor->phase() == Phase::kIdle);
+  (void)mission.update(0.1);
+  EXPECT_NE(mission.supervisor->phase(), Phase::kEvading);
 }
 
 TEST(StandAside, LosesNoRoundToOthersForAMinute) {

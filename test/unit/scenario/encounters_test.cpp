@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "otter_nav/base/angles.hpp"
@@ -85,25 +86,42 @@ TEST(Encounters, CaptainsComeFromPortOrOvertakeOrTurn) {
   }
 }
 
-TEST(Encounters, SquaresGoRoundClearOfBothEndsAndInsideTheWater) {
-  const std::vector<Encounter> fields = movingFields();
-  ASSERT_EQ(fields.size(), 7U);
+TEST(Encounters, SquaresGoRoundInsideTheWaterAndLeaveRoomToStart) {
+  const std::vector<Encounter> fields = movingFields(7, 4);
+  ASSERT_EQ(fields.size(), 12U);
   const map::GridGeometry water = openWater(80.0).geometry;
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const Encounter& field = fields[k];
-    ASSERT_EQ(field.vessels.size(), k < 4 ? 5U : 12U);
+    const std::size_t difficulty = k / 4;
+    EXPECT_EQ(field.kind, std::vector<std::string>({"easy", "medium", "hard"})[difficulty]);
+    ASSERT_EQ(field.vessels.size(), std::vector<std::size_t>({5, 12, 24})[difficulty]);
+    const Eigen::Vector2d across = field.mission.goal.position - field.mission.start.position;
+    EXPECT_GE(across.cwiseAbs().maxCoeff(), 68.0 - 1e-9);
     for (const vessel::ScriptedVessel& square : field.vessels) {
       for (double t = 0.0; t < 300.0; t += 1.0) {
         const vessel::ScriptedMotion motion = vessel::motionAt(square, t);
         EXPECT_GE(motion.speed_mps, 1.0);
-        EXPECT_LE(motion.speed_mps, 2.5);
+        EXPECT_LE(motion.speed_mps, 2.0 + static_cast<double>(difficulty));
         EXPECT_TRUE(water.contains(motion.pose.position));
-        EXPECT_GT((motion.pose.position - field.mission.start.position).norm(), 7.9);
-        EXPECT_GT((motion.pose.position - field.mission.goal.position).norm(), 7.9);
+        if (t <= 5.0) {
+          EXPECT_GT((motion.pose.position - field.mission.start.position).norm(), 8.0);
+        }
       }
     }
   }
-  EXPECT_NE(fields[0].vessels[0].waypoints, fields[1].vessels[0].waypoints);
+}
+
+TEST(Encounters, AFieldIsTheSameHoweverManyAreAskedForAndAnotherWithAnotherSeed) {
+  const auto way = [](const Encounter& field) { return field.vessels.front().waypoints; };
+  const std::vector<Encounter> few = movingFields(7, 1);
+  const std::vector<Encounter> more = movingFields(7, 2);
+  ASSERT_EQ(few.size(), 3U);
+  ASSERT_EQ(more.size(), 6U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(way(few[k]), way(more[2 * k]));
+    EXPECT_NE(way(more[2 * k]), way(more[2 * k + 1]));
+  }
+  EXPECT_NE(way(few[0]), way(movingFields(8, 1)[0]));
 }
 
 TEST(Encounters, TheWaterIsOpenAndHoldsTheWay) {

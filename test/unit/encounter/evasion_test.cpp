@@ -1,0 +1,219 @@
+#include "otter_nav/encounter/evasion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "encounter/space_time_search.hpp"
+#include "open_water.hpp"
+#include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
+#include "otter_nav/trajectory/joint.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
+
+namespace otter_nav::encounter {
+namespace {
+
+constexpr double kHorizonS = SpaceTimeSearch::kHorizonS;
+
+vessel::Parameters vesselNamed(const std::string& name) {
+  return *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/" + name +
+                                 ".yaml");
+}
+
+traffic::Track square(int id, const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
+  traffic::Track track;
+  track.id = id;
+  track.position = position;
+  track.velocity = velocity;
+  track.heading_rad = angleOf(velocity);
+  track.length_m = track.beam_m = 4.0;
+  track.covariance.diagonal() << 0.02, 0.02, 0.02, 0.02;
+  return track;
+}
+
+// Under way east at 2 m/s, or at rest; the goal 40 m ahead.
+Evasion::Task taskAt(double mps, double speed_max_mps) {
+  Evasion::Task task;
+  task.start.velocity = {mps, 0.0};
+  task.state << 0.0, 0.0, 0.0, mps, 0.0, 0.0;
+  task.speed_max_mps = speed_max_mps;
+  task.goal = {{40.0, 0.0}, 0.0};
+  return task;
+}
+
+// The least distance between the outline of a square and a disc round our hull.
+double leastGap(const trajectory::TimedTrajectory& path, const traffic::Track& track) {
+  double least = 1e3;
+  for (double t = 0.0; t <= path.trajectory.duration(); t += 0.05) {
+    const Eigen::Vector2d off =
+        path.trajectory.flat(t).position - track.position - t * track.velocity;
+    const Eigen::Vector2d local = turned(off, -track.heading_rad).cwiseAbs();
+    least = std::min(least, (local - Eigen::Vector2d(2.0, 2.0)).cwiseMax(0.0).norm());
+  }
+  return least;
+}
+
+TEST(Helmsman, DoesAsToldWithinTheThrustersAndTheSpeedLimit) {
+  for (const char* name : {"otter_gazebo", "otter"}) {
+    const vessel::Parameters vessel = vesselNamed(name);
+    const Helmsman helmsman(vessel, {}, 2.0);
+    Hull hull;
+    for (const Helm& helm : {Helm{helmsman.speedMost(), 0.0}, Helm{0.5, 0.5 * helmsman.turnMost()},
+                             Helm{0.0, 0.0}, Helm{-0.5, 0.0}}) {
+      for (int k = 0; k < 100; ++k) {
+        helmsman.step(hull, helm, 0.1);
+        const vessel::Thrusts thrusts = vessel::thrustsFromTau(hull.tau, vessel.thrusters);
+        EXPECT_LE(vessel::shareOfLimit(thrusts, vessel.thrusters), 0.91) << name;
+        EXPECT_LT(hull.velocity().norm(), 2.0) << name;
+      }
+      EXPECT_NEAR(hull.surge_mps, helm.surge_mps, 0.15) << name;
+      EXPECT_NEAR(hull.yaw_rate_radps, helm.turn_radps, 0.1) << name;
+    }
+  }
+}
+
+TEST(Evasion, PassesWhoCrossesWithoutAJumpAndComesNearerToTheGoal) {
+  const map::DistanceField water = test::openWater();
+  for (const char* name : {"otter_gazebo", "otter"}) {
+    const Evasion evasion(vesselNamed(name));
+    const Evasion::Task task = taskAt(2.0, 3.0);
+    // She would be where we are after 5 s.
+    const traffic::Track she = square(1, {10.0, -12.0}, {0.0, 2.4});
+    const Evasion::Way way = evasion.find(task, {she}, water);
+    ASSERT_FALSE(way.path.trajectory.empty()) << name;
+    EXPECT_GT(leastGap(way.path, she), 1.14) << name;
+    EXPECT_GT(way.danger.gap_m, 0.5) << name;
+    const vessel::FlatPoint first = way.path.trajectory.flat(0.0);
+    EXPECT_NEAR((first.velocity - task.start.velocity).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((first.acceleration - task.start.acceleration).norm(), 0.0, 1e-9);
+    EXPECT_TRUE(trajectory::checkPieces(way.path.trajectory.pieces(), {1e-6, 1e-6, 1e-6, 1e-6}));
+    EXPECT_GT(way.path.trajectory.flat(kHorizonS).position.x(), 5.0) << name;
+  }
+}
+
+TEST(Evasion, DoesNotLieStillInTheWayOfWhoComesOverHer) {
+  const map::DistanceField water = test::openWater();
+  const Evasion evasion(vesselNamed("otter_gazebo"));
+  Evasion::Task task = taskAt(0.0, 3.0);
+  const traffic::Track she = square(1, {18.0, 0.0}, {-3.0, 0.0});
+  EXPECT_LT(evasion.danger(vessel::Pose{}, 0.0, 8.0, {she}).gap_m, 0.0);
+  const Evasion::Way way = evasion.find(task, {she}, water);
+  EXPECT_GT(leastGap(way.path, she), 1.14);
+  // Nor where what is sailed ends.
+  trajectory::TimedTrajectory stays;
+  vessel::FlatPoint here;
+  stays.trajectory = trajectory::Trajectory({trajectory::hermitePiece(here, here, 1.0)});
+  EXPECT_LT(evasion.danger(stays, 0.0, 8.0, {she}).gap_m, 0.0);
+  EXPECT_GT(evasion.judge(task, stays, {she}, water).price, way.price + 5.0);
+}
+
+// A wall across from beside the vessel: through it there is no way.
+TEST(Evasion, KeepsClearOfWhatLiesStill) {
+  map::OccupancyGrid grid;
+  grid.geometry = {160, 160, 0.5, {-40.0, -40.0}};
+  grid.cells.assign(160U * 160U, map::Cell::kFree);
+  for (int row = 60; row < 100; ++row) {
+    for (int column = 90; column < 92; ++column) {  // x from 5 m, y from -10 to 10 m
+      grid.cells[grid.geometry.index(column, row)] = map::Cell::kOccupied;
+    }
+  }
+  const map::DistanceField walled(grid, {});
+  const Evasion evasion(vesselNamed("otter_gazebo"));
+  const Evasion::Way way = evasion.find(taskAt(1.0, 3.0), {}, walled);
+  ASSERT_FALSE(way.path.trajectory.empty());
+  for (double t = 0.0; t <= way.path.trajectory.duration(); t += 0.05) {
+    EXPECT_GT(walled.clearance(way.path.trajectory.flat(t).position), 0.54) << t;
+  }
+}
+
+// What begins in a way that costs time is not given up for what ends in contact.
+TEST(SpaceTimeSearch, FindsNothingDearerThanAnOrderThatIsHeld) {
+  const vessel::Parameters vessel = vesselNamed("otter_gazebo");
+  const map::DistanceField water = test::openWater();
+  const Helmsman helmsman(vessel, {}, 4.0);
+  // A wall of squares comes from ahead, and one from either side: astern alone it is free.
+  std::vector<traffic::Track> tracks;
+  for (int k = -3; k <= 3; ++k) {
+    tracks.push_back(square(k, {14.0, 5.0 * k}, {-1.5, 0.0}));
+  }
+  tracks.push_back(square(10, {2.0, -12.0}, {-0.3, 1.0}));
+  tracks.push_back(square(11, {2.0, 12.0}, {-0.3, -1.0}));
+  const Foretold foretold(tracks, {}, 0.0, kHorizonS, {0.0, 0.0}, helmsman.speedMost(),
+                          vessel.hull);
+  Aim aim;
+  aim.points = {{40.0, 0.0}};
+  aim.left_m = {0.0};
+  aim.goal = {{40.0, 0.0}, 0.0};
+  Hull start;
+  start.surge_mps = 2.0;
+  const SpaceTimeSearch search(vessel.hull, helmsman, aim, foretold, water, start);
+  const SpaceTimeSearch::Way found = search.find();
+  const std::vector<int> all = foretold.all();
+  for (const double speed : {1.0, 0.5, 0.0, -0.6}) {
+    Hull hull = start;
+    double price = 0.0;
+    Foretold::Nearness worst;
+    for (int k = 1; k <= foretold.steps(); ++k) {
+      for (int half = 0; half < 2; ++half) {
+        helmsman.step(hull, {speed * helmsman.speedMost(), 0.0}, 0.5 * Foretold::kStepS);
+      }
+      price += search.priceOf(hull, k, all, worst);
+    }
+    EXPECT_LT(found.price, price + search.left(hull) + 1e-6) << speed;
+  }
+  EXPECT_GT(found.worst.gap_m, 0.0);
+}
+
+// To and fro between x = 0 and 20 m at 2 m/s.
+Eigen::Vector2d toAndFro(double t) {
+  const double s = std::fmod(2.0 * t, 40.0);
+  return {s < 20.0 ? s : 40.0 - s, 0.0};
+}
+
+TEST(Habits, WhoHasTurnedThereBeforeIsForetoldToTurnAgain) {
+  Habits habits;
+  const auto track = [](double t) {
+    traffic::Track she = square(t < 21.0 ? 1 : 2, toAndFro(t), {0.0, 0.0});
+    she.stamp_s = t;
+    she.velocity = (toAndFro(t + 0.01) - toAndFro(t)) / 0.01;
+    return she;
+  };
+  // From x = 14 m eastward; she turns 3 s later. As another track she is the same.
+  for (const double now : {7.0, 27.0}) {
+    for (double t = now < 10.0 ? 0.0 : 7.1; t <= now; t += 0.1) {
+      habits.observe({track(t)});
+    }
+    const std::vector<Eigen::Vector2d> told = habits.foretell(track(now), now, 0.5, 16);
+    if (now < 10.0) {
+      EXPECT_TRUE(told.empty());
+      continue;
+    }
+    ASSERT_EQ(told.size(), 17U);
+    for (std::size_t k = 0; k < told.size(); ++k) {
+      EXPECT_LT((told[k] - toAndFro(now + 0.5 * static_cast<double>(k))).norm(), 1.2) << k;
+    }
+  }
+}
+
+TEST(Habits, TellsARoundFromACorner) {
+  constexpr double kTurnRadps = 0.3;
+  Habits round;
+  Habits corner;
+  traffic::Track she;
+  for (double t = 0.0; t <= 6.0; t += 0.2) {
+    she = square(1, {0.0, 0.0}, 2.0 * unitVector(kTurnRadps * t));
+    she.stamp_s = t;
+    round.observe({she});
+    traffic::Track turns = square(1, {0.0, 0.0}, 2.0 * unitVector(t < 5.0 ? 0.0 : 1.5));
+    turns.stamp_s = t;
+    corner.observe({turns});
+  }
+  ASSERT_TRUE(round.steadyTurn(she));
+  EXPECT_NEAR(*round.steadyTurn(she), kTurnRadps, 0.02);
+  EXPECT_FALSE(corner.steadyTurn(she));
+}
+
+}  // namespace
+}  // namespace otter_nav::encounter
