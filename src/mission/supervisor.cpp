@@ -412,7 +412,7 @@ class Decider final : public Supervisor {
     constexpr double kSailsS = 6.0;  // ahead
     constexpr double kLiesS = 8.0;
     constexpr double kTooNearM = 0.8;
-    const bool arrives = (in(phase_) & kUnderWay) != 0 && hasArrived(m);
+    const bool arrives = (in(phase_)&kUnderWay) != 0 && hasArrived(m);
     if (!near_ || !hasMission() || suspended_ || hasFault(m) || arrives) {
       return false;
     }

@@ -250,8 +250,8 @@ TEST(TrafficTracker, LeavesToTheMapWhatHasComeToRest) {
   bool on_vessel = false;
   sea.run(30.0, {0.0, 0.0}, [&](const ScanVerdict& verdict) {
     known = known || sea.trackOf(0).has_value();
-    on_vessel = std::any_of(verdict.on_vessel.begin(), verdict.on_vessel.end(),
-                            [](bool on) { return on; });
+    on_vessel =
+        std::any_of(verdict.on_vessel.begin(), verdict.on_vessel.end(), [](bool on) { return on; });
   });
   EXPECT_TRUE(known);
   EXPECT_TRUE(sea.tracker.tracks().empty());
