@@ -145,6 +145,29 @@ TEST(Handover, CrawlsWithoutSwingingAgainstTheWaves) {
   EXPECT_LT(std::sqrt(corners), 0.16);
 }
 
+// Along its heading a hull has thrusters: what waves from ahead do there is made good at any pace.
+TEST(Handover, MakesGoodWhatWavesDoAlongTheHeading) {
+  constexpr double kSpeedMps = 0.4;
+  constexpr double kDurationS = 130.0;
+  VesselAtSea sea("paper", 0.0, "otter");
+  sea.plant().placeAt({0.0, 0.0}, 0.0);
+  vessel::FlatPoint start;
+  vessel::FlatPoint end;
+  start.velocity = end.velocity = {kSpeedMps, 0.0};
+  end.position = {kSpeedMps * kDurationS, 0.0};
+  const double begins_s = sea.now();
+  ASSERT_TRUE(sea.tracker().setTrajectory(
+      {trajectory::Trajectory({trajectory::hermitePiece(start, end, kDurationS)}), begins_s}));
+  sea.sail(20.0);
+  double squares = 0.0;
+  constexpr int kTimes = 400;
+  for (int i = 0; i < kTimes; ++i) {
+    sea.sail(0.25);
+    squares += std::pow(sea.truth()[0] - kSpeedMps * (sea.now() - begins_s), 2) / kTimes;
+  }
+  EXPECT_LT(std::sqrt(squares), 0.04);
+}
+
 // A fresh wind on the beam: the hull cannot push sideways, so it turns along the load.
 TEST(Handover, WeathervanesWhereTheHeadingCannotBeHeld) {
   VesselAtSea sea("hard");
