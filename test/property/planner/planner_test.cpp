@@ -210,7 +210,7 @@ TEST(Planner, DoesNotEndEarlyInADeadEnd) {
   // A pond whose only way on is a slot for the hull's centre, not for the hull.
   test::fill(grid, 2.0, -40.0, 1.0, 39.35);
   test::fill(grid, 2.0, 0.65, 1.0, 39.35);
-  test::fill(grid, 3.75, -1.6, 1.0, 3.2);
+  test::fill(grid, 4.5, -3.0, 1.0, 6.0);
   const map::DistanceField field(grid, map::DistanceFieldOptions{});
   Query query;
   query.limits = feasibility::SafetyLimits::of(vessel::Parameters{}, 0.55);

@@ -200,6 +200,11 @@ TEST(Safety, ReckonsWithWanderingInUnknownWater) {
   EXPECT_EQ(safety.reach(), 0.2);
   feel(4.0, 8.0);
   EXPECT_LT(safety.reach(), 0.06);
+  // Turns and stops come when they must there, so a little more is kept until there is no plan so.
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).hull_margin_m, 0.1, 1e-9);
+  while (safety.refused()) {
+  }
+  EXPECT_NEAR(safety.limits(0.95, kWideWater).hull_margin_m, 0.05, 1e-9);
 }
 
 vessel::Parameters otter() {
