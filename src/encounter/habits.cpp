@@ -16,9 +16,9 @@ constexpr double kKnownMps = 0.8;  // standard deviation of a velocity worth rem
 constexpr std::size_t kMost = 20000;
 
 // Who is taken to be on the same way.
-constexpr double kBesideM = 1.0;
+constexpr double kSameWayM = 1.0;
 constexpr double kCourseCosine = 0.966;  // 15 degrees
-constexpr double kSpeedShare = 0.15;
+constexpr double kChangeShare = 0.15;
 constexpr double kBeforeS = 3.0;
 constexpr double kSameTrackM = 0.5;  // worth so much
 constexpr double kLeastS = 2.0;      // of a way told
@@ -67,7 +67,7 @@ void Habits::forgetOldest() {
 Habits::Match Habits::match(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
                             int id, double before_s) const {
   Match best;
-  double least = kBesideM;
+  double least = kSameWayM;
   const double speed = velocity.norm();
   for (std::size_t k = 0; k < records_.size(); ++k) {
     const Record& record = records_[k];
@@ -79,7 +79,7 @@ Habits::Match Habits::match(const Eigen::Vector2d& position, const Eigen::Vector
       continue;
     }
     const double then = record.velocity.norm();
-    if (std::abs(then - speed) > kSpeedShare * speed ||
+    if (std::abs(then - speed) > kChangeShare * speed ||
         velocity.dot(record.velocity) < kCourseCosine * then * speed) {
       continue;
     }

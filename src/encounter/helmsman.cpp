@@ -17,7 +17,7 @@ constexpr double kTurnShare = 0.8;    // of the steadiest turn on the spot
 constexpr double kTurnMostRadps = 1.3;
 // In which he has speed and rate of turn as told, if the thrusters give that.
 constexpr double kSpeedS = 0.4;
-constexpr double kTurnS = 0.3;
+constexpr double kTurnSettleS = 0.3;
 constexpr double kThrustS = 0.15;  // thrust follows orders no quicker, so that nothing jumps
 
 }  // namespace
@@ -52,7 +52,7 @@ vessel::Tau Helmsman::order(const Hull& hull, const Helm& helm, double cosine, d
   const double most = vessel::greatestMoment(thrusters_);
   vessel::Tau tau;
   tau.yaw_nm =
-      std::clamp(model_.yaw_inertia_kgm2 * (helm.turn_radps - hull.yaw_rate_radps) / kTurnS -
+      std::clamp(model_.yaw_inertia_kgm2 * (helm.turn_radps - hull.yaw_rate_radps) / kTurnSettleS -
                      water.yaw - outside.yaw,
                  -most, most);
   const double taken = std::abs(tau.yaw_nm) / arm;

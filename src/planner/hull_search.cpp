@@ -22,7 +22,7 @@ constexpr int kCoarse = static_cast<int>(2.0 * HullSearch::kReachM / kCoarseM);
 // What a slow vessel takes: a metre, a turn, and coming to rest for another motion.
 constexpr double kLegMps = 0.5;
 constexpr double kTurnRadps = 0.35;
-constexpr double kPauseS = 2.0;
+constexpr double kRestS = 2.0;
 constexpr double kAsternShare = 1.5;  // a metre astern beside one ahead
 // Next to obstacles a metre is dearer, for waves set the hull aside.
 constexpr double kRoomyM = 0.25;
@@ -35,10 +35,10 @@ constexpr double kSameM = 1e-6;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 double legS(double length_m) {
-  return kPauseS + length_m / kLegMps;
+  return kRestS + length_m / kLegMps;
 }
 double turnS(double turn_rad) {
-  return turn_rad == 0.0 ? 0.0 : kPauseS + std::abs(turn_rad) / kTurnRadps;
+  return turn_rad == 0.0 ? 0.0 : kRestS + std::abs(turn_rad) / kTurnRadps;
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ void HullSearch::expand(int k) {
       Node to = from;
       to.from = k;
       to.motion = motion;
-      double takes_s = from.motion == motion ? 0.0 : kPauseS;
+      double takes_s = from.motion == motion ? 0.0 : kRestS;
       if (motion == Motion::kTurn) {
         to.heading += side;
         takes_s += 2.0 * kPi / kHeadings / kTurnRadps;
@@ -244,7 +244,7 @@ std::vector<Pose> HullSearch::shortened(const std::vector<Pose>& way) const {
   for (std::size_t i = 1; i < way.size(); ++i) {
     const bool turns = isTurn(i - 1, i);
     const bool goes_on = i > 1 && isTurn(i - 2, i - 1) == turns;
-    reached_s[i] = reached_s[i - 1] + (goes_on ? 0.0 : kPauseS) +
+    reached_s[i] = reached_s[i - 1] + (goes_on ? 0.0 : kRestS) +
                    (turns ? std::abs(way[i].psi_rad - way[i - 1].psi_rad) / kTurnRadps
                           : (way[i].position - way[i - 1].position).norm() / kLegMps);
   }
