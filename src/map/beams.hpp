@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "otter_nav/map/occupancy_grid.hpp"
 
@@ -25,35 +24,40 @@ struct Layers {
 
 // Calls visit(cell index, layer) for each cell the ray crosses from `origin` along `direction`
 // (unit) up to `length`, in order, while it is within the grid and for where it is within the
-// layers, each cell at the height of the ray's middle in it (Amanatides and Woo 1987).
+// layers, each cell at the height of the ray's middle in it (Amanatides and Woo 1987). Which side a
+// ray leaves a cell by is anybody's guess, so nothing branches on it.
 template <typename Visit>
 void walkBeam(const GridGeometry& grid, const Layers& layers, const Eigen::Vector3d& origin,
               const Eigen::Vector3d& direction, double length, const Visit& visit) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d start = (origin.head<2>() - grid.origin) / grid.resolution_m;
-  int cell[2];
-  int step[2];
-  double next[2];
-  double stride[2];
-  for (int axis = 0; axis < 2; ++axis) {
-    cell[axis] = static_cast<int>(std::floor(start[axis]));
-    const double d = direction[axis];
-    step[axis] = d > 0.0 ? 1 : -1;
-    const double to_side = d > 0.0 ? cell[axis] + 1 - start[axis] : start[axis] - cell[axis];
-    stride[axis] = d != 0.0 ? grid.resolution_m / std::abs(d) : kNever;
-    next[axis] = d != 0.0 ? to_side * stride[axis] : kNever;
-  }
-  double entered = 0.0;
-  while (entered < length && grid.containsCell(cell[0], cell[1])) {
-    const int axis = next[0] < next[1] ? 0 : 1;
-    const double leaves = std::min(next[axis], length);
-    const int layer = layers.at(origin.z() + 0.5 * (entered + leaves) * direction.z());
-    if (layer >= 0) {
-      visit(grid.index(cell[0], cell[1]), layer);
+  constexpr double kNever = 1e30;  // finite, for it is multiplied by 0
+  struct Axis {
+    Axis(double start, double d, double resolution_m)
+        : cell(static_cast<int>(std::floor(start))),
+          step(d > 0.0 ? 1 : -1),
+          stride(d != 0.0 ? resolution_m / std::abs(d) : kNever),
+          next(d != 0.0 ? stride * (d > 0.0 ? cell + 1 - start : start - cell) : kNever) {}
+    void advance(bool crossed) {
+      cell += static_cast<int>(crossed) * step;
+      next += static_cast<double>(crossed) * stride;
     }
-    entered = next[axis];
-    next[axis] += stride[axis];
-    cell[axis] += step[axis];
+    int cell, step;
+    double stride, next;  // along the ray, m
+  };
+  const Eigen::Vector2d start = (origin.head<2>() - grid.origin) / grid.resolution_m;
+  Axis x(start.x(), direction.x(), grid.resolution_m);
+  Axis y(start.y(), direction.y(), grid.resolution_m);
+  double entered = 0.0;
+  while (entered < length && grid.containsCell(x.cell, y.cell)) {
+    const double leaves = std::min(x.next, y.next);
+    const int layer =
+        layers.at(origin.z() + 0.5 * (entered + std::min(leaves, length)) * direction.z());
+    if (layer >= 0) {
+      visit(grid.index(x.cell, y.cell), layer);
+    }
+    entered = leaves;
+    const bool through_x = x.next < y.next;
+    x.advance(through_x);
+    y.advance(!through_x);
   }
 }
 

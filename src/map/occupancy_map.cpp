@@ -149,7 +149,8 @@ void OccupancyMap::Sensed::insert(const SensorPose& sensor, const vessel::Pose& 
     walkBeam(g, layers.layers(), sensor.position, rotation * scan.direction(i),
              scan.metNothing(i) ? scan.range_max_m : scan.ranges_m[i],
              [&](std::size_t index, int layer) {
-               if (chart.cells[index] != Cell::kOccupied && layers.miss(index, layer)) {
+               if (!layers.freeForCertain(index, layer) && chart.cells[index] != Cell::kOccupied &&
+                   layers.miss(index, layer)) {
                  project(index, changed);
                }
              });

@@ -7,6 +7,7 @@ namespace otter_nav::map {
 namespace {
 
 constexpr int kMostLayers = 32;  // a bit each
+constexpr int kBlockLevels = 4;  // 16 voxels a side
 
 Layers layersOf(const HeightBand& band, double resolution_m) {
   const double height = band.max_m - band.min_m;
@@ -29,6 +30,7 @@ SensedLayers::SensedLayers(const GridGeometry& grid, const OccupancyMapOptions& 
   const Eigen::Vector2d corner = grid.centreOf(0, 0);
   first_ = tree_.coordToKey(corner.x(), corner.y(), options.band.min_m + 0.5 * grid.resolution_m);
   columns_.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
+  certainly_free_.resize(columns_.size());
 }
 
 octomap::OcTreeKey SensedLayers::keyOf(std::size_t column, int layer) const {
@@ -58,32 +60,57 @@ bool SensedLayers::claim(Column& column, std::uint32_t bit) {
   return first;
 }
 
-bool SensedLayers::judge(Column& column, std::uint32_t bit, const octomap::OcTreeNode& node) {
+octomap::OcTreeNode* SensedLayers::find(const octomap::OcTreeKey& key) {
+  const auto childOf = [&](octomap::OcTreeNode* node, int level) {
+    const unsigned child = octomap::computeChildIdx(key, level);
+    return tree_.nodeChildExists(node, child) ? tree_.getNodeChild(node, child) : nullptr;
+  };
+  const octomap::OcTreeKey block = {static_cast<octomap::key_type>(key[0] >> kBlockLevels),
+                                    static_cast<octomap::key_type>(key[1] >> kBlockLevels),
+                                    static_cast<octomap::key_type>(key[2] >> kBlockLevels)};
+  if (block_ == nullptr || block != block_key_) {
+    block_key_ = block;
+    block_ = tree_.getRoot();
+    for (int level = static_cast<int>(tree_.getTreeDepth()) - 1;
+         block_ != nullptr && level >= kBlockLevels; --level) {
+      block_ = childOf(block_, level);
+    }
+  }
+  octomap::OcTreeNode* node = block_;
+  for (int level = kBlockLevels - 1; node != nullptr && level >= 0; --level) {
+    node = childOf(node, level);
+  }
+  return node;
+}
+
+const octomap::OcTreeNode& SensedLayers::add(const octomap::OcTreeKey& key, float log_odds) {
+  octomap::OcTreeNode* node = find(key);
+  if (node == nullptr) {
+    return *tree_.updateNode(key, log_odds, true);
+  }
+  tree_.updateNodeLogOdds(node, log_odds);
+  return *node;
+}
+
+bool SensedLayers::judge(std::size_t index, std::uint32_t bit, const octomap::OcTreeNode& node) {
+  Column& column = columns_[index];
   const bool was_occupied = column.occupied != 0;
   const bool was_seen = column.seen != 0;
   column.seen |= bit;
   column.occupied = tree_.isNodeOccupied(node) ? column.occupied | bit : column.occupied & ~bit;
-  const bool certain = node.getLogOdds() <= tree_.getClampingThresMinLog();
-  column.certainly_free = certain ? column.certainly_free | bit : column.certainly_free & ~bit;
+  std::uint32_t& free = certainly_free_[index];
+  free = node.getLogOdds() <= tree_.getClampingThresMinLog() ? free | bit : free & ~bit;
   return was_occupied != (column.occupied != 0) || !was_seen;
 }
 
 bool SensedLayers::hit(std::size_t index, int layer) {
-  Column& column = columns_[index];
   const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
-  if (!claim(column, bit)) {
-    return false;
-  }
-  return judge(column, bit, *tree_.updateNode(keyOf(index, layer), hit_log_odds_, true));
+  return claim(columns_[index], bit) && judge(index, bit, add(keyOf(index, layer), hit_log_odds_));
 }
 
 bool SensedLayers::miss(std::size_t index, int layer) {
-  Column& column = columns_[index];
   const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
-  if ((column.certainly_free & bit) != 0 || !claim(column, bit)) {
-    return false;
-  }
-  return judge(column, bit, *tree_.updateNode(keyOf(index, layer), miss_log_odds_, true));
+  return claim(columns_[index], bit) && judge(index, bit, add(keyOf(index, layer), miss_log_odds_));
 }
 
 bool SensedLayers::clear(std::size_t index) {
@@ -92,7 +119,7 @@ bool SensedLayers::clear(std::size_t index) {
   for (int layer = 0; column.occupied != 0; ++layer) {
     const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
     if ((column.occupied & bit) != 0) {
-      judge(column, bit,
+      judge(index, bit,
             *tree_.setNodeValue(keyOf(index, layer), tree_.getClampingThresMinLog(), true));
     }
   }
@@ -101,6 +128,8 @@ bool SensedLayers::clear(std::size_t index) {
 
 void SensedLayers::reset() {
   tree_.clear();
+  block_ = nullptr;
+  std::fill(certainly_free_.begin(), certainly_free_.end(), 0U);
   std::fill(columns_.begin(), columns_.end(), Column{});
 }
 

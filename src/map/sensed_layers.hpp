@@ -27,6 +27,10 @@ class SensedLayers {
   void beginScan();
   bool hit(std::size_t column, int layer);
   bool miss(std::size_t column, int layer);
+  // Another miss would change nothing.
+  [[nodiscard]] bool freeForCertain(std::size_t column, int layer) const {
+    return (certainly_free_[column] >> static_cast<unsigned>(layer) & 1U) != 0;
+  }
   // As free as can be, in all layers that were occupied.
   bool clear(std::size_t column);
 
@@ -39,12 +43,15 @@ class SensedLayers {
     std::uint32_t scan = 0;     // the last one that touched it, for which `touched` holds
     std::uint32_t touched = 0;  // layers, a bit each, as below
     std::uint32_t occupied = 0;
-    std::uint32_t certainly_free = 0;
     std::uint32_t seen = 0;
   };
   // Whether this is the scan's first word on the voxel.
   bool claim(Column& column, std::uint32_t bit);
-  bool judge(Column& column, std::uint32_t bit, const octomap::OcTreeNode& node);
+  // Adds to the voxel's log-odds, within the tree's limits.
+  const octomap::OcTreeNode& add(const octomap::OcTreeKey& key, float log_odds);
+  // The voxel's node, or null.
+  octomap::OcTreeNode* find(const octomap::OcTreeKey& key);
+  bool judge(std::size_t column, std::uint32_t bit, const octomap::OcTreeNode& node);
 
   GridGeometry grid_;
   Layers layers_;
@@ -53,6 +60,12 @@ class SensedLayers {
   float hit_log_odds_, miss_log_odds_;
   std::uint32_t scan_ = 0;
   std::vector<Column> columns_;
+  // Layers, a bit each, apart from the rest: most beams pass where nothing else is asked for.
+  std::vector<std::uint32_t> certainly_free_;
+  // The part of the tree that was looked into last: a beam's next voxel is mostly in it too. Nodes
+  // stay where they are until the tree is cleared, for it isn't pruned.
+  octomap::OcTreeKey block_key_;
+  octomap::OcTreeNode* block_ = nullptr;
 };
 
 }  // namespace otter_nav::map

@@ -19,7 +19,12 @@ TrackLayer::TrackLayer(const std::vector<Track>& tracks, const PredictionOptions
 }
 
 double TrackLayer::clearance(const Eigen::Vector2d& position, double time_s) const {
-  double least = kInfinity;
+  return clearanceWithin(position, time_s, kInfinity);
+}
+
+double TrackLayer::clearanceWithin(const Eigen::Vector2d& position, double time_s,
+                                   double enough_m) const {
+  double least = enough_m;
   for (const PredictedPath& path : paths_) {
     // What lies farther off than what was found needs no closer look.
     if (path.distanceBound(position, time_s) < least) {

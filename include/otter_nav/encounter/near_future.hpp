@@ -20,6 +20,10 @@ class NearFuture final : public feasibility::ObstacleLayer {
   [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const override {
     return time_s <= until_s_ ? tracks_.clearance(position, time_s) : kFarM;
   }
+  [[nodiscard]] double clearanceWithin(const Eigen::Vector2d& position, double time_s,
+                                       double enough_m) const override {
+    return time_s <= until_s_ ? tracks_.clearanceWithin(position, time_s, enough_m) : kFarM;
+  }
   [[nodiscard]] double rateBound() const override { return tracks_.rateBound(); }
   [[nodiscard]] map::DistanceField::Smooth smooth(const Eigen::Vector2d& position,
                                                   double time_s) const override {

@@ -22,6 +22,12 @@ class ObstacleLayer {
   virtual ~ObstacleLayer() = default;
   // A lower bound of the distance from `position` to the layer's obstacles at `time_s`.
   [[nodiscard]] virtual double clearance(const Eigen::Vector2d& position, double time_s) const = 0;
+  // The same for who has found something at `enough_m`: what is farther off may be told as anything
+  // from there on.
+  [[nodiscard]] virtual double clearanceWithin(const Eigen::Vector2d& position, double time_s,
+                                               double /*enough_m*/) const {
+    return clearance(position, time_s);
+  }
   // The most by which a clearance at a fixed position may fall in a second, m/s.
   [[nodiscard]] virtual double rateBound() const = 0;
   // Smooth and signed, with its gradient, for optimisation. Not a bound.
@@ -76,7 +82,7 @@ class Obstacles {
     double least = std::numeric_limits<double>::infinity();
     for (const ObstacleLayer* layer : layers_) {
       if (layer->rateBound() > 0.0) {
-        least = std::min(least, layer->clearance(position, start_s_ + time_s));
+        least = std::min(least, layer->clearanceWithin(position, start_s_ + time_s, least));
       }
     }
     return least;
@@ -89,7 +95,7 @@ class Obstacles {
   [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const {
     double least = field_->clearance(position);
     for (const ObstacleLayer* layer : layers_) {
-      least = std::min(least, layer->clearance(position, start_s_ + time_s));
+      least = std::min(least, layer->clearanceWithin(position, start_s_ + time_s, least));
     }
     return least;
   }

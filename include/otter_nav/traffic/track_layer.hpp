@@ -18,6 +18,8 @@ class TrackLayer : public feasibility::ObstacleLayer {
   [[nodiscard]] const std::vector<PredictedPath>& paths() const { return paths_; }
 
   [[nodiscard]] double clearance(const Eigen::Vector2d& position, double time_s) const override;
+  [[nodiscard]] double clearanceWithin(const Eigen::Vector2d& position, double time_s,
+                                       double enough_m) const override;
   [[nodiscard]] double rateBound() const override { return rate_bound_mps_; }
   // Of the nearest outline: its signed distance, with the direction away from it.
   [[nodiscard]] map::DistanceField::Smooth smooth(const Eigen::Vector2d& position,

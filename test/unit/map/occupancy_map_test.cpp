@@ -1,12 +1,19 @@
 #include "otter_nav/map/occupancy_map.hpp"
 
 #include <gtest/gtest.h>
+#include <octomap/OcTree.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
+#include <set>
+#include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/random.hpp"
 
 namespace otter_nav::map {
 namespace {
@@ -195,6 +202,98 @@ TEST(OccupancyMap, MalformedScansAreRefusedWithAReason) {
   expect(reason(sensorAt(0.0, 0.0), {0.0, 0.1, 5.0, 2.0, {1.0F}}), "range_min");
   expect(reason(sensorAt(0.0, 0.0), {0.0, 0.1, 0.2, 15.0, {3.0F, -1.0F}}), "range 1 is negative");
   EXPECT_EQ(map.projection().cells, coast().cells);
+}
+
+// Columns that a level beam crosses: one for each stretch between two lines of the grid.
+std::set<std::pair<int, int>> crossed(const GridGeometry& grid, const Eigen::Vector2d& from,
+                                      const Eigen::Vector2d& along, double length) {
+  std::vector<double> lines = {0.0, length};
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int k = 0; k <= grid.width; ++k) {
+      lines.push_back((grid.origin[axis] + k * grid.resolution_m - from[axis]) / along[axis]);
+    }
+  }
+  std::sort(lines.begin(), lines.end());
+  std::set<std::pair<int, int>> cells;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const double middle = 0.5 * (lines[i - 1] + lines[i]);
+    if (middle > 0.0 && middle < length) {
+      const Eigen::Vector2i cell = grid.cellAt(from + middle * along);
+      cells.emplace(cell.x(), cell.y());
+    }
+  }
+  return cells;
+}
+
+// Scan by scan what a plain OctoMap holds that is told of each voxel once, hits before misses.
+TEST(OccupancyMap, BelievesWhatAnOctoMapWould) {
+  Random random(5);
+  OccupancyGrid chart = coast();
+  chart.cells.assign(chart.cells.size(), Cell::kUnknown);
+  const GridGeometry& grid = chart.geometry;
+  OccupancyMapOptions options;
+  options.band = {0.75, 1.0};
+  OccupancyMap map(chart, kHull, options);
+  octomap::OcTree tree(grid.resolution_m);
+  tree.setClampingThresMin(OccupancyMapOptions::kMinProbability);
+  tree.setClampingThresMax(OccupancyMapOptions::kMaxProbability);
+  const auto keyOf = [&](const std::pair<int, int>& cell) {
+    const Eigen::Vector2d at = grid.centreOf(cell.first, cell.second);
+    return tree.coordToKey(at.x(), at.y(), 0.875);
+  };
+  for (int k = 0; k < 60; ++k) {
+    const SensorPose sensor =
+        sensorAt(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
+    Scan scan = openWater(90);
+    for (float& range : scan.ranges_m) {
+      range = random.uniform() < 0.4 ? kInf : static_cast<float>(random.uniform(0.5, 12.0));
+    }
+    ASSERT_TRUE(map.insertScan(sensor, {{-18.0, -18.0}, 0.0}, scan));
+    std::set<std::pair<int, int>> hits, misses;
+    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+      const Eigen::Vector2d along = (sensor.rotation() * scan.direction(i)).head<2>();
+      const Eigen::Vector2d from = sensor.position.head<2>();
+      const bool met = scan.metSomething(i);
+      if (met) {
+        const Eigen::Vector2i cell = grid.cellAt(from + (scan.ranges_m[i] + 0.03) * along);
+        hits.emplace(cell.x(), cell.y());
+      }
+      misses.merge(crossed(grid, from, along, met ? scan.ranges_m[i] : scan.range_max_m));
+    }
+    for (const auto& cell : hits) {
+      tree.updateNode(keyOf(cell), octomap::logodds(options.hit_probability));
+      misses.erase(cell);
+    }
+    for (const auto& cell : misses) {
+      tree.updateNode(keyOf(cell), octomap::logodds(options.miss_probability));
+    }
+    if (k == 30) {
+      map.reset();
+      tree.clear();
+    }
+  }
+  const std::string path = testing::TempDir() + "/believes.ot";
+  ASSERT_TRUE(map.save(path));
+  const std::unique_ptr<octomap::AbstractOcTree> saved(octomap::AbstractOcTree::read(path));
+  std::filesystem::remove(path);
+  const auto* ours = dynamic_cast<const octomap::OcTree*>(saved.get());
+  ASSERT_NE(ours, nullptr);
+  int seen = 0;
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) {
+      const octomap::OcTreeKey key = keyOf({column, row});
+      const octomap::OcTreeNode* wanted = tree.search(key);
+      const octomap::OcTreeNode* is = ours->search(key);
+      ASSERT_EQ(is != nullptr, wanted != nullptr) << column << ", " << row;
+      if (wanted != nullptr) {
+        ++seen;
+        EXPECT_NEAR(is->getLogOdds(), wanted->getLogOdds(), 1e-5) << column << ", " << row;
+        EXPECT_EQ(map.projection().at(column, row) == Cell::kOccupied,
+                  wanted->getOccupancy() >= options.occupied_probability);
+      }
+    }
+  }
+  EXPECT_GT(seen, 8000);
 }
 
 TEST(OccupancyMap, SavesAndResets) {

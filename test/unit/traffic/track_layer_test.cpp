@@ -141,6 +141,9 @@ TEST(TrackLayer, KeepsItsBounds) {
       const double here = layer.clearance(p, t);
       EXPECT_LE(std::abs(layer.clearance(q, t) - here), (q - p).norm() + 1e-9);
       EXPECT_LE(std::abs(layer.clearance(p, t + dt) - here), layer.rateBound() * dt + 1e-9);
+      const double enough = random.uniform(0.0, 40.0);
+      const double within = layer.clearanceWithin(p, t, enough);
+      EXPECT_TRUE(here < enough ? within == here : within >= enough);
       const auto smooth = layer.smooth(p, t);
       EXPECT_NEAR(std::max(0.0, smooth.distance_m), here, 1e-12);
       EXPECT_NEAR(smooth.gradient.norm(), 1.0, 1e-9);
