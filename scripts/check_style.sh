@@ -26,6 +26,25 @@ for name in sys.argv[1:]:
 sys.exit("\n".join(unused) or None)
 PY
 
+# Sources of a room are compiled together: a file's own constant must not have the name of another's,
+# nor of one within a function there.
+/usr/bin/python3 - $(git ls-files 'src/*.cpp') <<'PY'
+import collections, re, sys
+alone = ("src/identification/", "src/nodes/", "src/plant/")  # not compiled together, or not all
+own, within = (collections.defaultdict(set) for _ in range(2))
+for name in sys.argv[1:]:
+    room = "/".join(name.split("/")[:2]) + "/"
+    if room not in alone:
+        for found in re.finditer(r"^( *)constexpr [\w:<>, ]+? (k\w+)\b", open(name).read(), re.M):
+            (within if found[1] else own)[room, found[2]].add(name)
+shared = []
+for key, files in own.items():
+    every = files | within[key]
+    if len(every) > 1:
+        shared.append("%s stands in %s" % (key[1], ", ".join(sorted(every))))
+sys.exit("\n".join(shared) or None)
+PY
+
 # Headers beside the sources are their room's own, those of a folder with a door are that folder's;
 # of the others a room includes those of the rooms that it links, and of theirs.
 /usr/bin/python3 - $(git ls-files 'src/*.?pp' 'include/*.hpp') <<'PY'

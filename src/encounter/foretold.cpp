@@ -22,8 +22,8 @@ constexpr double kNotFromHabit = 0.5;
 constexpr double kMayTurnFromHabit = 0.04;
 constexpr double kGrownShare = 0.6;  // of what a track itself says it may stray
 constexpr double kHabitPerS = 0.15;  // standard deviation, m, of who goes on as before
-constexpr double kTurnM = 0.3;
-constexpr double kTurnS = 0.4;
+constexpr double kSheerM = 0.3;
+constexpr double kSheerS = 0.4;
 
 }  // namespace
 
@@ -123,7 +123,7 @@ Foretold::Nearness Foretold::at(const Eigen::Vector2d& position, const Eigen::Ve
         1.0 / (1.0 + 2.0 * kPi * there.deviation_m * there.deviation_m / mover.hits_m2);
     nearness.danger +=
         mover.probable * sure * sure * std::exp(-apart * apart) +
-        mover.may_turn * std::exp(-std::max(0.0, gap) / (kTurnM + kTurnS * mover.mps));
+        mover.may_turn * std::exp(-std::max(0.0, gap) / (kSheerM + kSheerS * mover.mps));
   }
   return nearness;
 }

@@ -13,7 +13,7 @@ constexpr double kEachS = 0.4;
 constexpr double kGapS = 1.2;  // a longer one is no stretch of a way
 constexpr double kMakesWayMps = 0.5;
 constexpr double kKnownMps = 0.8;  // standard deviation of a velocity worth remembering
-constexpr std::size_t kMost = 20000;
+constexpr std::size_t kMostRecords = 20000;
 
 // Who is taken to be on the same way.
 constexpr double kSameWayM = 1.0;
@@ -21,7 +21,7 @@ constexpr double kCourseCosine = 0.966;  // 15 degrees
 constexpr double kChangeShare = 0.15;
 constexpr double kBeforeS = 3.0;
 constexpr double kSameTrackM = 0.5;  // worth so much
-constexpr double kLeastS = 2.0;      // of a way told
+constexpr double kLeastToldS = 2.0;  // of a way told
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void Habits::observe(const std::vector<traffic::Track>& tracks) {
     last_[track.id] = static_cast<int>(records_.size());
     records_.push_back(record);
   }
-  if (records_.size() > kMost) {
+  if (records_.size() > kMostRecords) {
     forgetOldest();
   }
 }
@@ -183,7 +183,7 @@ std::vector<Eigen::Vector2d> Habits::foretell(const traffic::Track& track, doubl
     velocity = record->velocity;
     told_s = first_s + record->time_s - began;
   }
-  if (told_s < kLeastS) {
+  if (told_s < kLeastToldS) {
     return {};
   }
   while (static_cast<int>(places.size()) <= steps) {

@@ -11,9 +11,9 @@ namespace otter_nav::encounter {
 namespace {
 
 // Of the thrusters' limits; the rest is the tracker's, for waves.
-constexpr double kThrustShare = 0.9;
-constexpr double kSpeedShare = 0.95;  // of the speed limit, likewise
-constexpr double kTurnShare = 0.8;    // of the steadiest turn on the spot
+constexpr double kHelmThrustShare = 0.9;
+constexpr double kSpeedShare = 0.95;    // of the speed limit, likewise
+constexpr double kHelmTurnShare = 0.8;  // of the steadiest turn on the spot
 constexpr double kTurnMostRadps = 1.3;
 // In which he has speed and rate of turn as told, if the thrusters give that.
 constexpr double kSpeedS = 0.4;
@@ -28,17 +28,18 @@ Helmsman::Helmsman(const vessel::Parameters& vessel, const vessel::Disturbance& 
       mobility_(vessel.manoeuvring),
       thrusters_(vessel.thrusters),
       disturbance_(disturbance) {
-  thrusters_.ahead_max_n *= kThrustShare;
-  thrusters_.astern_max_n *= kThrustShare;
+  thrusters_.ahead_max_n *= kHelmThrustShare;
+  thrusters_.astern_max_n *= kHelmThrustShare;
   const auto steady = [](double linear, double quadratic, double force) {
     return force / vessel::steadyDrag(linear, quadratic, force);
   };
   const double top = steady(model_.surge_drag_kgps, model_.surge_drag_quadratic_kgpm,
                             2.0 * thrusters_.ahead_max_n);
   speed_most_mps_ = std::min(kSpeedShare * speed_max_mps, top);
-  turn_most_radps_ = std::min(
-      kTurnMostRadps, kTurnShare * steady(model_.yaw_drag_kgm2ps, model_.yaw_drag_quadratic_kgm2,
-                                          vessel::greatestMoment(thrusters_)));
+  turn_most_radps_ =
+      std::min(kTurnMostRadps,
+               kHelmTurnShare * steady(model_.yaw_drag_kgm2ps, model_.yaw_drag_quadratic_kgm2,
+                                       vessel::greatestMoment(thrusters_)));
   speed_lag_s_ =
       model_.surge_inertia_kg * speed_most_mps_ / std::max(1e-6, 2.0 * thrusters_.ahead_max_n);
 }

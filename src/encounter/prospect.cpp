@@ -10,7 +10,7 @@
 namespace otter_nav::encounter {
 namespace {
 
-constexpr double kStillMps = 0.15;
+constexpr double kStandsMps = 0.15;
 // A turn takes its time: it begins so much before the corner of the polyline that stands for it.
 constexpr double kTurnLeadS = 4.0;
 // More than the rules ask: what sailing along the polyline only roughly may lose.
@@ -82,7 +82,7 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
   Outlook out;
   out.outlines_m = std::numeric_limits<double>::infinity();
   const double her_speed = other.motion.velocity.norm();
-  const double her_course = her_speed > kStillMps ? other.motion.course() : other.heading_rad;
+  const double her_course = her_speed > kStandsMps ? other.motion.course() : other.heading_rad;
   const Eigen::Vector2d ahead = unitVector(her_course);
   const Eigen::Vector2d port = across(ahead);
   const auto inHerFrame = [&](const Eigen::Vector2d& v) {
@@ -115,8 +115,8 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
         return Eigen::Vector2d(v.dot(bow), v.dot(side));
       };
       const double speed = leg.velocity.norm();
-      const double c = speed > kStillMps ? std::abs(leg.velocity.dot(bow)) / speed : 1.0;
-      const double s = speed > kStillMps ? std::abs(leg.velocity.dot(side)) / speed : 1.0;
+      const double c = speed > kStandsMps ? std::abs(leg.velocity.dot(bow)) / speed : 1.0;
+      const double s = speed > kStandsMps ? std::abs(leg.velocity.dot(side)) / speed : 1.0;
       const Eigen::Vector2d half(0.5 * other.length_m + half_length * c + half_beam * s,
                                  0.5 * other.beam_m + half_length * s + half_beam * c);
       out.outlines_m = std::min(
@@ -163,7 +163,7 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
       // Each course that the turn sweeps over counts, then the leg's.
       constexpr double kSweepRad = 0.26;
       const double turn = -starboardTurn(before, leg.velocity);
-      const int steps = before.norm() > kStillMps && leg.velocity.norm() > kStillMps
+      const int steps = before.norm() > kStandsMps && leg.velocity.norm() > kStandsMps
                             ? static_cast<int>(std::abs(turn) / kSweepRad)
                             : 0;
       for (int i = k == 0 ? steps + 1 : 1; i <= steps + 1 && record.role == Role::kNone; ++i) {
@@ -193,7 +193,7 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
     const double kept_speed = record.kept_velocity.norm();
     const double share = leg.velocity.norm() / std::max(0.1, kept_speed);
     const double turn =
-        leg.velocity.norm() > kStillMps ? starboardTurn(record.kept_velocity, leg.velocity) : 0.0;
+        leg.velocity.norm() > kStandsMps ? starboardTurn(record.kept_velocity, leg.velocity) : 0.0;
     const bool turns = std::abs(turn) > kActionRad;
     settling = settling && share < 1.0 - kActionShare && leg.velocity.norm() > speed_before - 0.02;
     speed_before = leg.velocity.norm();

@@ -20,10 +20,10 @@ constexpr std::array<int, 9> kLayers = {3, 3, 4, 4, 5, 5, 6, 6, 6};
 constexpr std::size_t kBeam = 64;
 constexpr std::size_t kOfEach = 3;  // of those that begin with the same order, at least
 
-constexpr double kContactS = 60.0;  // a second of sure contact, in seconds
-constexpr double kSoonS = 6.0;      // in which what is foretold counts a third
-constexpr double kBesideM = 0.15;   // off what lies still
-constexpr double kRoomM = 0.6;      // preferred there
+constexpr double kSureContactS = 60.0;  // a second of sure contact, in seconds
+constexpr double kThirdS = 6.0;         // in which what is foretold counts a third
+constexpr double kBesideM = 0.15;       // off what lies still
+constexpr double kRoomM = 0.6;          // preferred there
 constexpr double kNoRoomPerS = 0.5;
 
 // Near the goal.
@@ -170,7 +170,7 @@ double SpaceTimeSearch::priceOf(const Hull& hull, int k, const std::vector<int>&
     const Foretold::Nearness nearness = foretold_.at(hull.position, hull.ahead, k, near);
     worst.gap_m = std::min(worst.gap_m, nearness.gap_m);
     worst.danger = std::max(worst.danger, nearness.danger);
-    price += kContactS * nearness.danger * std::exp(-k * Foretold::kStepS / kSoonS);
+    price += kSureContactS * nearness.danger * std::exp(-k * Foretold::kStepS / kThirdS);
   }
   return Foretold::kStepS * price;
 }

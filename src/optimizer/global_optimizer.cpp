@@ -37,7 +37,7 @@ constexpr double kHopelessUnderWay[] = {kInfinity, kInfinity, 3.0, 0.2};
 constexpr double kSpinShare = 0.97;
 constexpr double kTurnShare = 0.905;
 
-constexpr int kRounds = 5;
+constexpr int kRoundsUnloaded = 5;
 constexpr double kMostKeptShare = 0.5;  // of a thruster's force, for what the objective leaves out
 constexpr int kIterationsPerRound = 12;
 constexpr double kWeightGrowth = 1.5;  // of the weights of what fails, from round to round
@@ -181,7 +181,7 @@ class GlobalOptimizer::Solver {
     smoothFirst(stop);
     inRealTime([&] { chooser_.guide(chosen_, spline_); });
     const bool loaded = underLoad();
-    const int rounds = loaded ? kRoundsUnderLoad : kRounds;
+    const int rounds = loaded ? kRoundsUnderLoad : kRoundsUnloaded;
     for (int round = 0; round < rounds; ++round) {
       improve(stop);
       followEnds();

@@ -16,7 +16,7 @@ using vessel::Pose;
 
 constexpr double kCellM = 0.125;
 constexpr int kCells = static_cast<int>(2.0 * HullSearch::kReachM / kCellM);
-constexpr double kStepM = 0.15;
+constexpr double kMoveM = 0.15;
 constexpr double kCoarseM = 0.125;
 constexpr int kCoarse = static_cast<int>(2.0 * HullSearch::kReachM / kCoarseM);
 // What a slow vessel takes: a metre, a turn, and coming to rest for another motion.
@@ -184,7 +184,7 @@ void HullSearch::expand(int k) {
         to.heading += side;
         takes_s += 2.0 * kPi / kHeadings / kTurnRadps;
       } else {
-        to.position += side * kStepM * unitVector(psiOf(from.heading));
+        to.position += side * kMoveM * unitVector(psiOf(from.heading));
       }
       const double left = slack(to.position, psiOf(to.heading));
       if (left < 0.0 || !isClearBetween({from.position, psiOf(from.heading), from_slack},
@@ -193,7 +193,7 @@ void HullSearch::expand(int k) {
       }
       if (motion != Motion::kTurn) {
         const double tight = 1.0 + kTightPrice * std::max(0.0, 1.0 - left / kRoomyM);
-        takes_s += (side > 0 ? 1.0 : kAsternShare) * tight * kStepM / kLegMps;
+        takes_s += (side > 0 ? 1.0 : kAsternShare) * tight * kMoveM / kLegMps;
       }
       to.cost_s += static_cast<float>(takes_s);
       push(to);

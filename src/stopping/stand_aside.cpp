@@ -16,14 +16,14 @@ using trajectory::Trajectory;
 
 constexpr double kAheadS = 8.0;  // how far ahead is looked at least
 constexpr double kStaysS = 4.0;  // and after the vessel has come to rest
-constexpr double kStepS = 0.2;
+constexpr double kAsideStepS = 0.2;
 constexpr double kAsideClearM = 0.3;  // of the outline, off what lies still
 
 // The least room on the way and at its end, until the others have passed.
 double leastRoom(const Piece& piece, const feasibility::Obstacles& obstacles) {
   const double until = std::max(kAheadS, piece.duration_s + kStaysS);
   double least = obstacles.clearance(piece.flat(0.0).position, 0.0);
-  for (double t = kStepS; t <= until; t += kStepS) {
+  for (double t = kAsideStepS; t <= until; t += kAsideStepS) {
     const Eigen::Vector2d there = piece.flat(std::min(t, piece.duration_s)).position;
     least = std::min(least, obstacles.clearance(there, t));
   }
@@ -60,7 +60,7 @@ bool isRunDown(const Eigen::Vector2d& position, const feasibility::Obstacles& ob
   constexpr double kNearerM = 0.5;  // than now: what lies still comes no nearer
   const double room = turningRoom(hull);
   const double now = obstacles.clearance(position, 0.0);
-  for (double t = kStepS; t <= kAheadS; t += kStepS) {
+  for (double t = kAsideStepS; t <= kAheadS; t += kAsideStepS) {
     const double there = obstacles.clearance(position, t);
     if (there < room && there < now - kNearerM) {
       return true;

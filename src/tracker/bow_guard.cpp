@@ -16,7 +16,7 @@ constexpr double kLeadS = 0.3;
 // Of the rate's filter: what is measured is noisy.
 constexpr double kRateFilterS = 0.05;
 // After a gap, or a step back in time, the rate isn't known.
-constexpr double kGapS = 0.1;
+constexpr double kLongestStepS = 0.1;
 
 // Of each thruster at most, one way, N, where that will have pitched the hull by `soon_rad`.
 double mostPush(double soon_rad, double this_way_n, double other_way_n) {
@@ -32,7 +32,7 @@ void BowGuard::add(double stamp_s, double bow_up_rad) {
   if (dt_s == 0.0) {
     return;
   }
-  if (dt_s > 0.0 && dt_s < kGapS) {
+  if (dt_s > 0.0 && dt_s < kLongestStepS) {
     const double rate = (now_rad - bow_up_rad_) / dt_s;
     rate_radps_ += dt_s / (kRateFilterS + dt_s) * (rate - rate_radps_);
   } else {

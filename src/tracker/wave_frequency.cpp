@@ -12,7 +12,7 @@ constexpr double kMostRadps = 4.0;   // faster waves are shorter than the hull, 
 // Shorter than the waves that matter, and longer.
 constexpr double kSmoothS = 0.5;
 constexpr double kSteadyS = 3.0;
-constexpr double kMemoryS = 20.0;
+constexpr double kSwellMemoryS = 20.0;
 // Of crawling, before it counts: a launch in gusts sways as slowly as a swell.
 constexpr double kSettlesS = 15.0;
 // Faster turns make sway of their own.
@@ -44,8 +44,8 @@ void WaveFrequency::add(double sway_mps, double yaw_rate_radps, double crawling,
   if (crawled_s_ < kSettlesS || weight <= 0.0) {
     return;
   }
-  follow(mean_square_mps_, to_and_fro_mps * to_and_fro_mps, kMemoryS / weight);
-  follow(mean_square_m_, aside_m_ * aside_m_, kMemoryS / weight);
+  follow(mean_square_mps_, to_and_fro_mps * to_and_fro_mps, kSwellMemoryS / weight);
+  follow(mean_square_m_, aside_m_ * aside_m_, kSwellMemoryS / weight);
   constexpr double kLittle = kLittleMps * kLittleMps;
   const double ratio =
       (mean_square_mps_ + kLittle) / (mean_square_m_ + kLittle / (kUsualRadps * kUsualRadps));

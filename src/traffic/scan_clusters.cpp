@@ -139,15 +139,16 @@ void ScanClusters::divide(std::size_t beams, double increment_rad) {
 }
 
 void ScanClusters::findCuts(Cluster& cluster) const {
-  constexpr double kNearerM = 1.0;
+  constexpr double kEchoNearerM = 1.0;
   const std::size_t beams = free_m_.size();
   const auto hidden = [&](std::size_t beam, const Eigen::Vector2d& point, std::size_t step) {
-    return free_m_[(beam + step) % beams] < (point - eye_).norm() - kNearerM;
+    return free_m_[(beam + step) % beams] < (point - eye_).norm() - kEchoNearerM;
   };
   cluster.first_hidden = hidden(cluster.beams.front(), cluster.points.front(), beams - 1);
   cluster.last_hidden = hidden(cluster.beams.back(), cluster.points.back(), 1);
   for (const Eigen::Vector2d& point : {cluster.points.front(), cluster.points.back()}) {
-    cluster.out_of_range = cluster.out_of_range || (point - eye_).norm() > range_max_m_ - kNearerM;
+    cluster.out_of_range =
+        cluster.out_of_range || (point - eye_).norm() > range_max_m_ - kEchoNearerM;
   }
 }
 

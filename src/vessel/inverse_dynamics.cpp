@@ -243,7 +243,7 @@ FirmHeading firmHeading(const ManoeuvringModel& model, const Disturbance& distur
                         double psi_near_rad) {
   constexpr double kStepRad = 0.1;
   constexpr int kSteps = 15;
-  constexpr int kHalvings = 12;
+  constexpr int kFirmHalvings = 12;
   constexpr double kAboutRad = 0.2;
   const auto lacks = [&](double psi) {
     return thrustDemand(model, disturbance, std::cos(psi), std::sin(psi), 0.0, 0.0, velocity,
@@ -261,7 +261,7 @@ FirmHeading firmHeading(const ManoeuvringModel& model, const Disturbance& distur
     if (to_port || to_starboard) {
       double low = to_port ? psi_near_rad + from : psi_near_rad - from - kStepRad;
       double high = low + kStepRad;
-      for (int i = 0; i < kHalvings; ++i) {
+      for (int i = 0; i < kFirmHalvings; ++i) {
         const double middle = 0.5 * (low + high);
         (lacks(middle) >= 0.0 ? low : high) = middle;
       }

@@ -8,9 +8,9 @@
 namespace otter_nav::optimizer {
 namespace {
 
-constexpr double kStepS = 0.05;      // of Runge and Kutta's method
-constexpr double kPieceS = 0.25;     // a piece lasts no longer
-constexpr double kOneJointS = 1e-4;  // joints nearer than this are one
+constexpr double kRungeKuttaS = 0.05;  // of Runge and Kutta's method
+constexpr double kPieceS = 0.25;       // a piece lasts no longer
+constexpr double kOneJointS = 1e-4;    // joints nearer than this are one
 
 }  // namespace
 
@@ -52,7 +52,7 @@ vessel::FlatPoint ForcedMotion::pushed(const Motion& motion, double t_s, double 
 
 ForcedMotion::Motion ForcedMotion::integrate(const Motion& motion, double from_s,
                                              double to_s) const {
-  const int steps = partsOf(std::abs(to_s - from_s), kStepS);
+  const int steps = partsOf(std::abs(to_s - from_s), kRungeKuttaS);
   const double h = (to_s - from_s) / steps;
   const double within = 0.5 * (from_s + to_s);
   using Eigen::Vector2d;
