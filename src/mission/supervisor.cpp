@@ -225,12 +225,14 @@ class Decider final : public Supervisor {
   bool isLostOverTheEdge(const Moment& m) { return isFarOff(m) && inside(m) < 0.0; }
 
   bool isAtTheEnd(const Moment& m) { return sailed_.left(m.now_s) <= 0.0; }
-  bool hasArrived(const Moment& m) {
+  // By whatever way.
+  bool isThere(const Moment& m) {
     const vessel::State& x = m.situation.state;
-    return isAtTheEnd(m) && (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
+    return (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
            (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields()) &&
            vessel::speedOf(x) <= vessel::kRestMps;
   }
+  bool hasArrived(const Moment& m) { return isAtTheEnd(m) && isThere(m); }
   // A trajectory that ends elsewhere belongs to a goal that was replaced: nothing to wait for.
   bool settlesNoMore(const Moment& m) {
     constexpr double kSettleS = 10.0;
@@ -438,13 +440,6 @@ class Decider final : public Supervisor {
     constexpr double kClearM = 2.0;
     return !plans_.waits() && moversWithin(m, kNearM) <= kFew &&
            evasion_.danger(sailed_, m.now_s, kAheadS, moversOf(m)).gap_m > kClearM;
-  }
-  // By whatever way.
-  bool isThere(const Moment& m) {
-    const vessel::State& x = m.situation.state;
-    return (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
-           (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields()) &&
-           vessel::speedOf(x) <= vessel::kRestMps;
   }
   // Plans from rest begin bow to a firm load. The tracker turns the resting hull there. Nor is one
   // begun from a heading lost in strong wind, bow and stern off it: the next gust would have it.
@@ -729,6 +724,12 @@ class Decider final : public Supervisor {
                       options_.arrival_distance_m, headingOff(m),
                       vessel::setAside(vessel_.manoeuvring, weather().mean(), goal_.psi_rad)));
   }
+  // The way that is sailed would lead on.
+  Orders arriveEvading(const Moment& m) {
+    Orders orders = stopByItself(m, {});
+    arrive(m);
+    return orders;
+  }
   Orders lookForAnother(const Moment& /*m*/) {
     return replan(conflictText(conflict_), Cause::kClearance);
   }
@@ -932,6 +933,7 @@ class Decider final : public Supervisor {
   // The mission is given up.
   static constexpr Rule kCancelRules[] = {
       {kUnderWay, &Decider::always, &Decider::brakeCancelled},
+      {kEvading, &Decider::always, &Decider::stopCancelled},
       {kComingToRest, &Decider::always, &Decider::endAtRest},
       {kAny, &Decider::moves, &Decider::stopCancelled},
       {kAny, &Decider::always, &Decider::idle},
@@ -939,6 +941,7 @@ class Decider final : public Supervisor {
   // The vessel is to rest for a while.
   static constexpr Rule kSuspendRules[] = {
       {kUnderWay, &Decider::always, &Decider::brakeSuspended},
+      {kEvading, &Decider::always, &Decider::stopSuspended},
       {kComingToRest, &Decider::always, &Decider::keepOn},
       {kAny, &Decider::moves, &Decider::stopSuspended},
       {kAny, &Decider::always, &Decider::restSuspended},
@@ -952,7 +955,7 @@ class Decider final : public Supervisor {
   // Several times a second.
   static constexpr Rule kRules[] = {
       {kEvading, &Decider::hasFault, &Decider::stopForFault},
-      {kEvading, &Decider::isThere, &Decider::arrive},
+      {kEvading, &Decider::isThere, &Decider::arriveEvading},
       {kEvading, &Decider::hasRoomAgain, &Decider::planAfterEvading},
       {kEvading, &Decider::always, &Decider::evade},
 
