@@ -52,6 +52,7 @@ constexpr unsigned kWaiting = in(Phase::kPlanning) | in(Phase::kStopped);
 constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBack);
 constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
 constexpr unsigned kEvading = in(Phase::kEvading);
+constexpr double kEvadeAgainS = 0.25;  // from one decision about others to the next
 
 // What a decision is made on.
 struct Moment {
@@ -415,7 +416,7 @@ class Decider final : public Supervisor {
     constexpr double kLiesS = 8.0;
     constexpr double kTooNearM = 0.8;
     const bool arrives = (in(phase_)&kUnderWay) != 0 && hasArrived(m);
-    if (!near_ || !hasMission() || suspended_ || hasFault(m) || arrives) {
+    if (!near_ || !hasMission() || suspended_ || hasFault(m) || arrives || hasJustFoundNoWay(m)) {
       return false;
     }
     if (moversWithin(m, kNearM) >= kMany) {
@@ -431,6 +432,10 @@ class Decider final : public Supervisor {
               : evasion_.danger({m.situation.state.head<2>(), m.situation.state[vessel::kPsi]},
                                 m.now_s, kLiesS, movers);
     return danger.gap_m < kTooNearM;
+  }
+  // Then the rules for who rests, or comes to rest, are followed for a moment.
+  bool hasJustFoundNoWay(const Moment& m) {
+    return (in(phase_)&kUnderWay) == 0 && m.now_s - no_way_s_ < kEvadeAgainS;
   }
   // Few others near, and none in the way.
   bool hasRoomAgain(const Moment& m) {
@@ -806,12 +811,12 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders evade(const Moment& m) {
-    constexpr double kAgainS = 0.25;
     constexpr double kWorthS = 0.4;  // another way: tracks wander
     constexpr double kWorthAPlanS = 4.0;
     constexpr double kLeastLeftS = 4.0;
     const bool evades = phase_ == Phase::kEvading;
-    if (evades && m.now_s - evaded_s_ < kAgainS) {
+    const bool under_way = (in(phase_)&kUnderWay) != 0;
+    if (evades && m.now_s - evaded_s_ < kEvadeAgainS) {
       return {};
     }
     evaded_s_ = m.now_s;
@@ -837,7 +842,8 @@ class Decider final : public Supervisor {
       }
     }
     if (found.path.trajectory.empty()) {
-      return evades ? Orders{} : stopByItself(m, "no way among other vessels");
+      no_way_s_ = m.now_s;
+      return under_way ? stopByItself(m, "no way among other vessels") : Orders{};
     }
     plans_.drop();  // what is asked for begins on what was sailed
     if (!evades) {
@@ -1658,6 +1664,7 @@ class Decider final : public Supervisor {
   encounter::Pilot pilot_;
   encounter::Evasion evasion_;
   double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
+  double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found
   std::vector<Eigen::Vector2d> way_;              // that the last plan to the goal took
   std::optional<encounter::Manoeuvre> way_made_;  // what the last decision found
 };

@@ -206,6 +206,27 @@ TEST(Evading, StaysAtTheGoal) {
   EXPECT_TRUE(orders.stop);
 }
 
+// Where she lies against something the search has no way; what else there is goes on.
+TEST(Evading, HoldsNothingUpWhereThereIsNoWay) {
+  test::ScriptedMission mission;
+  mission.put({0.9, -3.0}, {1.5, 3.0});
+  auto orders = mission.goTo({-20.0, 0.0});
+  ASSERT_TRUE(orders);
+  std::optional<PlanRequest> plan = orders->plan;
+  int refused = 0;
+  for (int k = 0; k < 30; ++k) {
+    putManyNear(mission);
+    if (plan) {
+      (void)mission.refuse(*plan, "the hull touches");
+      ++refused;
+    }
+    const Orders next = mission.update(0.1);
+    EXPECT_FALSE(next.stop) << mission.now_s;
+    plan = next.plan;
+  }
+  EXPECT_GT(refused, 5);
+}
+
 TEST(StandAside, LosesNoRoundToOthersForAMinute) {
   for (const bool near : {false, true}) {
     test::ScriptedMission mission;
