@@ -852,7 +852,7 @@ class Decider final : public Supervisor {
       is_aside_ = makes_room_ = holds_ = false;
       planned_clearance_m_ = 0.0;
     }
-    enter(Phase::kEvading, text("%zu other vessels, the nearest way passes %.1f m off",
+    enter(Phase::kEvading, text("among %zu other vessels, the nearest %.1f m beside the way",
                                 m.situation.tracks.size(), found.danger.gap_m));
     sailed_ = from_sailed ? stopping::splice(sailed_, m.now_s, found.path) : found.path;
     return {std::nullopt, sailed_, false};
@@ -1217,21 +1217,17 @@ class Decider final : public Supervisor {
                    m.situation.tracks, goal_.position,
                    kCruiseShare * planned_limits_.speed_max_mps);
   }
-  static bool makesWay(const traffic::Track& track) {
-    constexpr double kMakesWayMps = 0.5;
-    return track.velocity.norm() > kMakesWayMps;
-  }
   static std::vector<traffic::Track> moversOf(const Moment& m) {
     std::vector<traffic::Track> movers;
     std::copy_if(m.situation.tracks.begin(), m.situation.tracks.end(), std::back_inserter(movers),
-                 makesWay);
+                 [](const traffic::Track& track) { return track.makesWay(); });
     return movers;
   }
   static int moversWithin(const Moment& m, double range_m) {
     const Eigen::Vector2d here = m.situation.state.head<2>();
     return static_cast<int>(std::count_if(
         m.situation.tracks.begin(), m.situation.tracks.end(), [&](const traffic::Track& track) {
-          return makesWay(track) && (track.position - here).norm() < range_m;
+          return track.makesWay() && (track.position - here).norm() < range_m;
         }));
   }
   // A little ahead on what is sailed, or where the hull is if it is off that or lies still.
