@@ -186,8 +186,8 @@ std::vector<Eigen::Vector2d> Habits::foretell(const traffic::Track& track, doubl
     return {};
   }
   while (static_cast<int>(places.size()) <= steps) {
-    position += step_s * velocity;
-    places.push_back(position);
+    const double t = static_cast<double>(places.size()) * step_s;
+    places.emplace_back(position + (t - told_s) * velocity);
   }
   return places;
 }
