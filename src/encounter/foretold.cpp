@@ -30,9 +30,7 @@ constexpr double kSheerS = 0.4;
 Foretold::Foretold(const std::vector<traffic::Track>& tracks, const Habits& habits, double from_s,
                    double horizon_s, const Eigen::Vector2d& place, double own_mps,
                    const vessel::Hull& own)
-    : steps_(static_cast<int>(std::ceil(horizon_s / kStepS - 1e-9))),
-      disc_ahead_m_(0.25 * own.length_m),
-      disc_radius_m_(std::hypot(0.25 * own.length_m, 0.5 * own.beam_m)) {
+    : steps_(static_cast<int>(std::ceil(horizon_s / kStepS - 1e-9))), discs_(own) {
   for (const traffic::Track& track : tracks) {
     const double speed = track.velocity.norm();
     const double reach = horizon_s * (speed + own_mps) + kFarM + track.length_m;
@@ -54,8 +52,8 @@ Foretold::Foretold(const std::vector<traffic::Track>& tracks, const Habits& habi
     mover.half_length_m = disc ? 0.0 : 0.5 * track.length_m;
     mover.half_beam_m = disc ? 0.0 : 0.5 * track.beam_m;
     mover.radius_m = disc ? 0.5 * track.length_m : 0.0;
-    mover.hits_m2 = 4.0 * (mover.half_length_m + mover.radius_m + disc_radius_m_) *
-                    (mover.half_beam_m + mover.radius_m + disc_radius_m_);
+    mover.hits_m2 = 4.0 * (mover.half_length_m + mover.radius_m + discs_.radius_m) *
+                    (mover.half_beam_m + mover.radius_m + discs_.radius_m);
     mover.reach_m = std::hypot(mover.half_length_m, mover.half_beam_m) + mover.radius_m;
     const std::vector<Eigen::Vector2d> as_before =
         habits.foretell(track, from_s, kStepS, steps_ + 1);
@@ -98,12 +96,12 @@ Foretold::Foretold(const std::vector<traffic::Track>& tracks, const Habits& habi
 Foretold::Nearness Foretold::at(const Eigen::Vector2d& position, const Eigen::Vector2d& ahead,
                                 int k, const std::vector<int>& near) const {
   Nearness nearness;
-  const Eigen::Vector2d to_disc = disc_ahead_m_ * ahead;
+  const Eigen::Vector2d to_disc = discs_.ahead_m * ahead;
   for (const int m : near) {
     const Mover& mover = movers_[static_cast<std::size_t>(m)];
     const Place& there = mover.places[static_cast<std::size_t>(std::min(k, steps_))];
     const Eigen::Vector2d off = position - there.middle;
-    const double far = mover.reach_m + disc_ahead_m_ + disc_radius_m_ + kFarM;
+    const double far = mover.reach_m + discs_.ahead_m + discs_.radius_m + kFarM;
     if (off.squaredNorm() > far * far) {
       continue;
     }
@@ -114,7 +112,7 @@ Foretold::Nearness Foretold::at(const Eigen::Vector2d& position, const Eigen::Ve
       const double x = std::abs(there.ahead.dot(disc)) - mover.half_length_m;
       const double y = std::abs(port.dot(disc)) - mover.half_beam_m;
       const double distance = x > 0.0 && y > 0.0 ? std::hypot(x, y) : std::max(x, y);
-      gap = std::min(gap, distance - mover.radius_m - disc_radius_m_);
+      gap = std::min(gap, distance - mover.radius_m - discs_.radius_m);
     }
     nearness.gap_m = std::min(nearness.gap_m, gap);
     const double apart = std::max(0.0, gap) / there.deviation_m;
@@ -137,7 +135,7 @@ void Foretold::whoIsNear(const Eigen::Vector2d& position, int k, int for_steps, 
     const Eigen::Vector2d& there =
         mover.places[static_cast<std::size_t>(std::min(k, steps_))].middle;
     const double reach =
-        mover.reach_m + kFarM + disc_ahead_m_ + disc_radius_m_ + time * (own_mps + mover.mps);
+        mover.reach_m + kFarM + discs_.ahead_m + discs_.radius_m + time * (own_mps + mover.mps);
     if ((position - there).squaredNorm() < reach * reach) {
       near.push_back(static_cast<int>(m));
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "encounter/habits.hpp"
@@ -10,6 +11,17 @@
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::encounter {
+
+// The hull as two discs on its centre line that cover its rectangle, one ahead of its centre and
+// one astern: fewer than feasibility::HullCover has, for they are looked at more often.
+struct HullDiscs {
+  double ahead_m;
+  double radius_m;
+
+  explicit HullDiscs(const vessel::Hull& hull)
+      : ahead_m(0.25 * hull.length_m),
+        radius_m(std::hypot(0.25 * hull.length_m, 0.5 * hull.beam_m)) {}
+};
 
 class Foretold {
  public:
@@ -56,9 +68,7 @@ class Foretold {
   };
 
   int steps_ = 0;
-  // The hull as two discs on its centre line.
-  double disc_ahead_m_ = 0.0;
-  double disc_radius_m_ = 0.0;
+  HullDiscs discs_;
   std::vector<Mover> movers_;
 };
 

@@ -10,8 +10,7 @@ namespace otter_nav::encounter {
 namespace {
 
 constexpr double kEachS = 0.4;
-constexpr double kGapS = 1.2;  // a longer one is no stretch of a way
-constexpr double kMakesWayMps = 0.5;
+constexpr double kGapS = 1.2;      // a longer one is no stretch of a way
 constexpr double kKnownMps = 0.8;  // standard deviation of a velocity worth remembering
 constexpr std::size_t kMostRecords = 20000;
 
@@ -28,7 +27,7 @@ constexpr double kLeastToldS = 2.0;  // of a way told
 void Habits::observe(const std::vector<traffic::Track>& tracks) {
   for (const traffic::Track& track : tracks) {
     const double deviation = std::sqrt(std::max(track.covariance(2, 2), track.covariance(3, 3)));
-    if (track.velocity.norm() < kMakesWayMps || deviation > kKnownMps) {
+    if (!track.makesWay() || deviation > kKnownMps) {
       continue;
     }
     Record record{track.stamp_s, track.position, track.velocity, track.id};
@@ -139,7 +138,7 @@ std::optional<double> Habits::steadyTurn(const traffic::Track& track) const {
 
 std::vector<Eigen::Vector2d> Habits::foretell(const traffic::Track& track, double from_s,
                                               double step_s, int steps) const {
-  if (track.velocity.norm() < kMakesWayMps) {
+  if (!track.makesWay()) {
     return {};
   }
   std::vector<Eigen::Vector2d> places;
@@ -187,8 +186,8 @@ std::vector<Eigen::Vector2d> Habits::foretell(const traffic::Track& track, doubl
     return {};
   }
   while (static_cast<int>(places.size()) <= steps) {
-    position += step_s * velocity;
-    places.push_back(position);
+    const double t = static_cast<double>(places.size()) * step_s;
+    places.emplace_back(position + (t - told_s) * velocity);
   }
   return places;
 }

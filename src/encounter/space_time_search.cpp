@@ -17,6 +17,15 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Steps of Foretold each: short where the next decision is near.
 constexpr std::array<int, 9> kLayers = {3, 3, 4, 4, 5, 5, 6, 6, 6};
+constexpr double horizonOf(const std::array<int, 9>& layers) {
+  int steps = 0;
+  for (const int of_layer : layers) {
+    steps += of_layer;
+  }
+  return steps * Foretold::kStepS;
+}
+static_assert(horizonOf(kLayers) > SpaceTimeSearch::kHorizonS - 1e-9 &&
+              horizonOf(kLayers) < SpaceTimeSearch::kHorizonS + 1e-9);
 constexpr std::size_t kBeam = 64;
 constexpr std::size_t kOfEach = 3;  // of those that begin with the same order, at least
 
@@ -45,8 +54,7 @@ bool ranksBefore(const Node& a, const Node& b) {
   return a.rank < b.rank;
 }
 
-// Nodes that are alike: a metre, a quarter of a right angle in heading and course, half a metre a
-// second.
+// Nodes that are alike: to a metre, a quarter of a right angle, 0.8 m/s ahead and abeam.
 std::uint64_t cellOf(const Hull& hull) {
   const auto part = [](double value, double step) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / step)) & 0xFFF);
@@ -65,8 +73,7 @@ SpaceTimeSearch::SpaceTimeSearch(const vessel::Hull& hull, const Helmsman& helms
       aim_(aim),
       foretold_(foretold),
       still_(still),
-      disc_ahead_m_(0.25 * hull.length_m),
-      disc_radius_m_(std::hypot(0.25 * hull.length_m, 0.5 * hull.beam_m)),
+      discs_(hull),
       start_(start) {
   slack_least_m_ = std::min(kBesideM, slackAt(start) - 0.02);
   orders_.push_back({Order::Kind::kHome, {}});
@@ -148,15 +155,15 @@ double SpaceTimeSearch::left(const Hull& hull) const {
 }
 
 double SpaceTimeSearch::slackAt(const Hull& hull) const {
-  const double reach = disc_ahead_m_ + disc_radius_m_;
+  const double reach = discs_.ahead_m + discs_.radius_m;
   const double centre = still_.clearance(hull.position);
   if (centre > reach + kRoomM) {
     return kRoomM;
   }
-  const Eigen::Vector2d ahead = disc_ahead_m_ * hull.ahead;
+  const Eigen::Vector2d ahead = discs_.ahead_m * hull.ahead;
   return std::min(still_.clearance(hull.position + ahead),
                   still_.clearance(hull.position - ahead)) -
-         disc_radius_m_;
+         discs_.radius_m;
 }
 
 double SpaceTimeSearch::priceOf(const Hull& hull, int k, const std::vector<int>& near,

@@ -26,7 +26,7 @@ struct Order {
 };
 
 // Where the search leads: points of the way to the goal that can be reached straight from here,
-// and what is left of the way from each; the last may be the goal.
+// the farthest first, and what is left of the way from each.
 struct Aim {
   std::vector<Eigen::Vector2d> points;
   std::vector<double> left_m;
@@ -68,8 +68,7 @@ class SpaceTimeSearch {
   const Aim& aim_;
   const Foretold& foretold_;
   const map::DistanceField& still_;
-  double disc_ahead_m_;
-  double disc_radius_m_;
+  HullDiscs discs_;
   Hull start_;
   double slack_least_m_ = 0.0;  // off what lies still; less where it begins with less
   std::vector<Order> orders_;

@@ -52,6 +52,7 @@ constexpr unsigned kWaiting = in(Phase::kPlanning) | in(Phase::kStopped);
 constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBack);
 constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
 constexpr unsigned kEvading = in(Phase::kEvading);
+constexpr double kEvadeAgainS = 0.25;  // from one decision about others to the next
 
 // What a decision is made on.
 struct Moment {
@@ -225,12 +226,14 @@ class Decider final : public Supervisor {
   bool isLostOverTheEdge(const Moment& m) { return isFarOff(m) && inside(m) < 0.0; }
 
   bool isAtTheEnd(const Moment& m) { return sailed_.left(m.now_s) <= 0.0; }
-  bool hasArrived(const Moment& m) {
+  // By whatever way.
+  bool isThere(const Moment& m) {
     const vessel::State& x = m.situation.state;
-    return isAtTheEnd(m) && (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
+    return (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
            (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields()) &&
            vessel::speedOf(x) <= vessel::kRestMps;
   }
+  bool hasArrived(const Moment& m) { return isAtTheEnd(m) && isThere(m); }
   // A trajectory that ends elsewhere belongs to a goal that was replaced: nothing to wait for.
   bool settlesNoMore(const Moment& m) {
     constexpr double kSettleS = 10.0;
@@ -413,7 +416,7 @@ class Decider final : public Supervisor {
     constexpr double kLiesS = 8.0;
     constexpr double kTooNearM = 0.8;
     const bool arrives = (in(phase_)&kUnderWay) != 0 && hasArrived(m);
-    if (!near_ || !hasMission() || suspended_ || hasFault(m) || arrives) {
+    if (!near_ || !hasMission() || suspended_ || hasFault(m) || arrives || hasJustFoundNoWay(m)) {
       return false;
     }
     if (moversWithin(m, kNearM) >= kMany) {
@@ -430,6 +433,10 @@ class Decider final : public Supervisor {
                                 m.now_s, kLiesS, movers);
     return danger.gap_m < kTooNearM;
   }
+  // Then the rules for who rests, or comes to rest, are followed for a moment.
+  bool hasJustFoundNoWay(const Moment& m) {
+    return (in(phase_)&kUnderWay) == 0 && m.now_s - no_way_s_ < kEvadeAgainS;
+  }
   // Few others near, and none in the way.
   bool hasRoomAgain(const Moment& m) {
     constexpr int kFew = 2;
@@ -438,13 +445,6 @@ class Decider final : public Supervisor {
     constexpr double kClearM = 2.0;
     return !plans_.waits() && moversWithin(m, kNearM) <= kFew &&
            evasion_.danger(sailed_, m.now_s, kAheadS, moversOf(m)).gap_m > kClearM;
-  }
-  // By whatever way.
-  bool isThere(const Moment& m) {
-    const vessel::State& x = m.situation.state;
-    return (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
-           (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields()) &&
-           vessel::speedOf(x) <= vessel::kRestMps;
   }
   // Plans from rest begin bow to a firm load. The tracker turns the resting hull there. Nor is one
   // begun from a heading lost in strong wind, bow and stern off it: the next gust would have it.
@@ -729,6 +729,12 @@ class Decider final : public Supervisor {
                       options_.arrival_distance_m, headingOff(m),
                       vessel::setAside(vessel_.manoeuvring, weather().mean(), goal_.psi_rad)));
   }
+  // The way that is sailed would lead on.
+  Orders arriveEvading(const Moment& m) {
+    Orders orders = stopByItself(m, {});
+    arrive(m);
+    return orders;
+  }
   Orders lookForAnother(const Moment& /*m*/) {
     return replan(conflictText(conflict_), Cause::kClearance);
   }
@@ -805,12 +811,12 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders evade(const Moment& m) {
-    constexpr double kAgainS = 0.25;
     constexpr double kWorthS = 0.4;  // another way: tracks wander
     constexpr double kWorthAPlanS = 4.0;
     constexpr double kLeastLeftS = 4.0;
     const bool evades = phase_ == Phase::kEvading;
-    if (evades && m.now_s - evaded_s_ < kAgainS) {
+    const bool under_way = (in(phase_)&kUnderWay) != 0;
+    if (evades && m.now_s - evaded_s_ < kEvadeAgainS) {
       return {};
     }
     evaded_s_ = m.now_s;
@@ -836,7 +842,8 @@ class Decider final : public Supervisor {
       }
     }
     if (found.path.trajectory.empty()) {
-      return evades ? Orders{} : stopByItself(m, "no way among other vessels");
+      no_way_s_ = m.now_s;
+      return under_way ? stopByItself(m, "no way among other vessels") : Orders{};
     }
     plans_.drop();  // what is asked for begins on what was sailed
     if (!evades) {
@@ -845,7 +852,7 @@ class Decider final : public Supervisor {
       is_aside_ = makes_room_ = holds_ = false;
       planned_clearance_m_ = 0.0;
     }
-    enter(Phase::kEvading, text("%zu other vessels, the nearest way passes %.1f m off",
+    enter(Phase::kEvading, text("among %zu other vessels, the nearest %.1f m beside the way",
                                 m.situation.tracks.size(), found.danger.gap_m));
     sailed_ = from_sailed ? stopping::splice(sailed_, m.now_s, found.path) : found.path;
     return {std::nullopt, sailed_, false};
@@ -932,6 +939,7 @@ class Decider final : public Supervisor {
   // The mission is given up.
   static constexpr Rule kCancelRules[] = {
       {kUnderWay, &Decider::always, &Decider::brakeCancelled},
+      {kEvading, &Decider::always, &Decider::stopCancelled},
       {kComingToRest, &Decider::always, &Decider::endAtRest},
       {kAny, &Decider::moves, &Decider::stopCancelled},
       {kAny, &Decider::always, &Decider::idle},
@@ -939,6 +947,7 @@ class Decider final : public Supervisor {
   // The vessel is to rest for a while.
   static constexpr Rule kSuspendRules[] = {
       {kUnderWay, &Decider::always, &Decider::brakeSuspended},
+      {kEvading, &Decider::always, &Decider::stopSuspended},
       {kComingToRest, &Decider::always, &Decider::keepOn},
       {kAny, &Decider::moves, &Decider::stopSuspended},
       {kAny, &Decider::always, &Decider::restSuspended},
@@ -952,7 +961,7 @@ class Decider final : public Supervisor {
   // Several times a second.
   static constexpr Rule kRules[] = {
       {kEvading, &Decider::hasFault, &Decider::stopForFault},
-      {kEvading, &Decider::isThere, &Decider::arrive},
+      {kEvading, &Decider::isThere, &Decider::arriveEvading},
       {kEvading, &Decider::hasRoomAgain, &Decider::planAfterEvading},
       {kEvading, &Decider::always, &Decider::evade},
 
@@ -1208,21 +1217,17 @@ class Decider final : public Supervisor {
                    m.situation.tracks, goal_.position,
                    kCruiseShare * planned_limits_.speed_max_mps);
   }
-  static bool makesWay(const traffic::Track& track) {
-    constexpr double kMakesWayMps = 0.5;
-    return track.velocity.norm() > kMakesWayMps;
-  }
   static std::vector<traffic::Track> moversOf(const Moment& m) {
     std::vector<traffic::Track> movers;
     std::copy_if(m.situation.tracks.begin(), m.situation.tracks.end(), std::back_inserter(movers),
-                 makesWay);
+                 [](const traffic::Track& track) { return track.makesWay(); });
     return movers;
   }
   static int moversWithin(const Moment& m, double range_m) {
     const Eigen::Vector2d here = m.situation.state.head<2>();
     return static_cast<int>(std::count_if(
         m.situation.tracks.begin(), m.situation.tracks.end(), [&](const traffic::Track& track) {
-          return makesWay(track) && (track.position - here).norm() < range_m;
+          return track.makesWay() && (track.position - here).norm() < range_m;
         }));
   }
   // A little ahead on what is sailed, or where the hull is if it is off that or lies still.
@@ -1655,6 +1660,7 @@ class Decider final : public Supervisor {
   encounter::Pilot pilot_;
   encounter::Evasion evasion_;
   double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
+  double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found
   std::vector<Eigen::Vector2d> way_;              // that the last plan to the goal took
   std::optional<encounter::Manoeuvre> way_made_;  // what the last decision found
 };

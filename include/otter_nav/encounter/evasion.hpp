@@ -23,7 +23,6 @@ class Habits;
 struct Danger {
   double gap_m = 1e3;     // the least between the outlines; negative: contact
   double probable = 0.0;  // about how probable contact is, where it is most
-  double price = 0.0;     // of all of it, s
 };
 
 class Evasion {
@@ -55,8 +54,8 @@ class Evasion {
   // `still`: what does not move.
   [[nodiscard]] Way find(const Task& task, const std::vector<traffic::Track>& tracks,
                          const map::DistanceField& still) const;
-  // What a trajectory is worth from the task's start on, and what is left to the goal from its end
-  // or the search's horizon: to be compared with find()'s.
+  // What a trajectory is worth from the task's start on, with what is left to the goal at the
+  // search's horizon: to be compared with find()'s. What ends before goes on as it ended.
   [[nodiscard]] Way judge(const Task& task, const trajectory::TimedTrajectory& path,
                           const std::vector<traffic::Track>& tracks,
                           const map::DistanceField& still) const;

@@ -31,6 +31,12 @@ struct Track {
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
   double existence = 1.0;     // probability that there is a vessel at all
   std::uint32_t sources = 0;  // bits of Source
+
+  // Faster than what lies still is taken to be while its track wanders.
+  [[nodiscard]] bool makesWay() const {
+    constexpr double kMakesWayMps = 0.5;
+    return velocity.norm() >= kMakesWayMps;
+  }
 };
 
 // How a track goes on. The turn dies out; the velocity strays from the present one as an

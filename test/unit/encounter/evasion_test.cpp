@@ -197,6 +197,27 @@ TEST(Habits, WhoHasTurnedThereBeforeIsForetoldToTurnAgain) {
   }
 }
 
+// Where a known way ends she is carried on straight from there, without a jump.
+TEST(Habits, CarriesOnFromTheEndOfAKnownWay) {
+  constexpr double kMps = 3.0;
+  constexpr double kStepS = 0.2;
+  Habits habits;
+  traffic::Track she;
+  const auto at = [&](double x, double now) {
+    she = square(1, {x, 0.0}, {kMps, 0.0});
+    she.stamp_s = now;
+    return she;
+  };
+  for (double t = 0.0; t <= 4.3; t += 0.1) {
+    habits.observe({at(kMps * t, t)});
+  }
+  const std::vector<Eigen::Vector2d> told = habits.foretell(at(1.0, 20.0), 20.0, kStepS, 30);
+  ASSERT_EQ(told.size(), 31U);
+  for (std::size_t k = 1; k < told.size(); ++k) {
+    EXPECT_NEAR((told[k] - told[k - 1]).norm(), kMps * kStepS, 1e-6) << k;
+  }
+}
+
 TEST(Habits, TellsARoundFromACorner) {
   constexpr double kTurnRadps = 0.3;
   Habits round;

@@ -140,9 +140,13 @@ TEST(Evading, LeavesTheWayOfWhoComesOverHerAndGoesOn) {
   EXPECT_EQ(mission.supervisor->phase(), Phase::kEvading);
   constexpr double kHalfM = 2.0 + 1.1;  // hers and ours
   bool plans = false;
-  for (int k = 0; k < 600 && mission.supervisor->phase() != Phase::kArrived; ++k) {
+  for (int k = 0; k < 600; ++k) {
     mission.tracks = {northward({0.0, -12.0}, mission.now_s + 0.1)};
     const Orders next = mission.update(0.1);
+    if (mission.supervisor->phase() == Phase::kArrived) {
+      EXPECT_TRUE(next.stop);
+      break;
+    }
     EXPECT_FALSE(next.stop) << mission.now_s;
     plans = plans || next.plan.has_value();
     const Eigen::Vector2d off =
@@ -153,20 +157,74 @@ TEST(Evading, LeavesTheWayOfWhoComesOverHerAndGoesOn) {
   EXPECT_EQ(mission.supervisor->stops(), 0);
 }
 
-TEST(Evading, EndsWithTheMissionAndWaitsForNoPlan) {
-  test::ScriptedMission mission;
-  (void)mission.goTo({-20.0, 0.0});
-  for (int k = 0; k < 4; ++k) {  // one beside the other
+// Four beside each other come over her, still some way off.
+void putManyNear(test::ScriptedMission& mission) {
+  mission.tracks.clear();
+  for (int k = 0; k < 4; ++k) {
     mission.tracks.push_back(northward({-12.0 + 8.0 * k, -25.0}, mission.now_s));
     mission.tracks.back().id = k;
   }
-  (void)mission.update(0.1);
+}
+
+TEST(Evading, WaitsForNoPlan) {
+  test::ScriptedMission mission;
+  (void)mission.goTo({-20.0, 0.0});
+  putManyNear(mission);
+  EXPECT_TRUE(mission.update(0.1).sail);
   EXPECT_EQ(mission.supervisor->phase(), Phase::kEvading);
-  EXPECT_TRUE(
-      mission.supervisor->cancel(mission.now_s, mission.situation(), mission.obstacles()).stop ||
-      mission.supervisor->phase() == Phase::kIdle);
-  (void)mission.update(0.1);
-  EXPECT_NE(mission.supervisor->phase(), Phase::kEvading);
+}
+
+// Also where she has hardly begun to move: the way would lead on.
+TEST(Evading, EndsAtRestWithTheMissionOrAtAPause) {
+  for (const bool is_cancelled : {false, true}) {
+    test::ScriptedMission mission;
+    (void)mission.goTo({-20.0, 0.0});
+    putManyNear(mission);
+    ASSERT_TRUE(mission.update(0.1).sail);
+    Supervisor& supervisor = *mission.supervisor;
+    const Orders orders =
+        is_cancelled ? supervisor.cancel(mission.now_s, mission.situation(), mission.obstacles())
+                     : *supervisor.pause(mission.now_s, mission.situation(), mission.obstacles());
+    EXPECT_TRUE(orders.stop) << is_cancelled;
+    for (int k = 0; k < 20; ++k) {
+      EXPECT_FALSE(mission.update(0.1).sail) << is_cancelled;
+    }
+    EXPECT_EQ(supervisor.phase(), is_cancelled ? Phase::kIdle : Phase::kPaused);
+  }
+}
+
+// The way that she is on leads past it.
+TEST(Evading, StaysAtTheGoal) {
+  test::ScriptedMission mission;
+  (void)mission.goTo({-20.0, 0.0});
+  putManyNear(mission);
+  ASSERT_TRUE(mission.update(0.1).sail);
+  Situation there = mission.situation();
+  there.state << -20.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const Orders orders = mission.supervisor->update(mission.now_s, there, mission.obstacles());
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kArrived);
+  EXPECT_TRUE(orders.stop);
+}
+
+// Where she lies against something the search has no way; what else there is goes on.
+TEST(Evading, HoldsNothingUpWhereThereIsNoWay) {
+  test::ScriptedMission mission;
+  mission.put({0.9, -3.0}, {1.5, 3.0});
+  auto orders = mission.goTo({-20.0, 0.0});
+  ASSERT_TRUE(orders);
+  std::optional<PlanRequest> plan = orders->plan;
+  int refused = 0;
+  for (int k = 0; k < 30; ++k) {
+    putManyNear(mission);
+    if (plan) {
+      (void)mission.refuse(*plan, "the hull touches");
+      ++refused;
+    }
+    const Orders next = mission.update(0.1);
+    EXPECT_FALSE(next.stop) << mission.now_s;
+    plan = next.plan;
+  }
+  EXPECT_GT(refused, 5);
 }
 
 TEST(StandAside, LosesNoRoundToOthersForAMinute) {

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <limits>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/base/random.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/trajectory/boundary.hpp"
 #include "planner/creeping.hpp"
@@ -108,15 +109,14 @@ TEST(HullSearch, GivesUpWhenToldTo) {
 // within the limits, and most goals are reached.
 TEST(HullSearch, ThroughPostsItKeepsWhatItWasAskedFor) {
   const vessel::Parameters vessel;
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(-14.0, 14.0);
+  Random random(7);
   HullSearch search(kHull);
   int found = 0;
   int tried = 0;
   for (int field_no = 0; field_no < 8; ++field_no) {
     map::OccupancyGrid grid = test::openGrid();
     for (int k = 0; k < 150; ++k) {
-      const Eigen::Vector2d p(place(random), place(random));
+      const Eigen::Vector2d p(random.uniform(-14.0, 14.0), random.uniform(-14.0, 14.0));
       if (p.cwiseAbs().maxCoeff() < 13.5) {
         test::fill(grid, p.x(), p.y(), 0.3, 0.3);
       }

@@ -230,7 +230,6 @@ TEST(Braking, EndsASpinInPlaceWithoutAJump) {
   EXPECT_LT(end.head<2>().norm() + end.tail<3>().norm(), 1e-6);
 }
 
-// A stop that is clear as planned may touch on the hull's way back to it.
 // On a leg astern the way says nothing of the heading: it is kept while the way comes off.
 TEST(Braking, KeepsTheHeadingOnALegAstern) {
   const Trajectory leg({trajectory::straightLeg({0.0, 0.0}, 0.3, -8.0, 12.0)});
@@ -249,6 +248,7 @@ TEST(Braking, KeepsTheHeadingOnALegAstern) {
   }
 }
 
+// A stop that is clear as planned may touch on the hull's way back to it.
 TEST(Braking, IsJudgedAsTheHullLies) {
   const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
   map::OccupancyGrid grid = openWater();
