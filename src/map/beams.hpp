@@ -16,9 +16,11 @@ struct Layers {
   int count = 1;
 
   // The layer a height lies in, or -1.
-  [[nodiscard]] int at(double z_m) const {
-    const double layer = (z_m - bottom_m) / thickness_m;
-    return layer >= 0.0 && layer < count ? static_cast<int>(layer) : -1;
+  [[nodiscard]] int at(double z_m) const { return atLevel(level(z_m)); }
+  // A height over the bottom in layers, and the layer that lies in.
+  [[nodiscard]] double level(double z_m) const { return (z_m - bottom_m) / thickness_m; }
+  [[nodiscard]] int atLevel(double level) const {
+    return level >= 0.0 && level < count ? static_cast<int>(level) : -1;
   }
 };
 
@@ -46,11 +48,12 @@ void walkBeam(const GridGeometry& grid, const Layers& layers, const Eigen::Vecto
   const Eigen::Vector2d start = (origin.head<2>() - grid.origin) / grid.resolution_m;
   Axis x(start.x(), direction.x(), grid.resolution_m);
   Axis y(start.y(), direction.y(), grid.resolution_m);
+  const double level = layers.level(origin.z());
+  const double half_rise = 0.5 * direction.z() / layers.thickness_m;  // in a metre of the ray
   double entered = 0.0;
   while (entered < length && grid.containsCell(x.cell, y.cell)) {
     const double leaves = std::min(x.next, y.next);
-    const int layer =
-        layers.at(origin.z() + 0.5 * (entered + std::min(leaves, length)) * direction.z());
+    const int layer = layers.atLevel(level + half_rise * (entered + std::min(leaves, length)));
     if (layer >= 0) {
       visit(grid.index(x.cell, y.cell), layer);
     }
