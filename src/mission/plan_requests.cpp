@@ -8,6 +8,7 @@
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
 #include "otter_nav/stopping/splice.hpp"
+#include "otter_nav/trajectory/joint.hpp"
 #include "otter_nav/trajectory/motion_along.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -37,12 +38,10 @@ std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, doub
 
 // From `at_s` on, the first time before the end at which the vessel rests on its way.
 std::optional<double> restingTime(const trajectory::Trajectory& sailed, double at_s) {
-  constexpr double kRest = 1e-3;  // m/s and rad/s
   for (std::size_t k = sailed.pieceAt(at_s); k + 1 < sailed.pieces().size(); ++k) {
     const trajectory::Piece& piece = sailed.pieces()[k];
-    const double end = piece.duration_s;
     if (sailed.startOf(k + 1) >= at_s && piece.kind == trajectory::PieceKind::kSpin &&
-        piece.flat(end).velocity.norm() < kRest && std::abs(piece.spinHeading(end)[1]) < kRest) {
+        trajectory::endsAtRest(piece)) {
       return sailed.startOf(k + 1);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/text.hpp"
+#include "otter_nav/vessel/crawl.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -32,9 +33,6 @@ constexpr double kMostToGoFaster = 0.6;
 // Of what it wanders, kept on the narrow levels too; and what it is expected to where it was not
 // under way for long enough to tell.
 constexpr double kWanderM = 0.2;
-// Where it wanders by most of the room beside it: a pace at which the tracker leaves waves from
-// abeam alone, in hull's lengths a second.
-constexpr double kCrawlingPerS = 0.4;
 // Among what nobody has charted plans keep so many times what it wanders on the levels that have
 // room for it, for what comes into sight takes some.
 constexpr double kTimesWander = 2.0;
@@ -126,7 +124,7 @@ double Safety::paceAt(std::size_t level, double usual_mps) const {
   if (plansWithWeather() || !wandersMuch(level)) {
     return usual_mps;
   }
-  return std::min(usual_mps, std::max(kCrawlingPerS * vessel_.hull.length_m, leastPace()));
+  return std::min(usual_mps, std::max(vessel::crawlMps(vessel_.hull), leastPace()));
 }
 
 double Safety::leastPace() const {

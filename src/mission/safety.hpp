@@ -90,8 +90,8 @@ class Safety {
   [[nodiscard]] double slowShare() const;
   // Whether headings can be held at a crawl, whatever they are.
   [[nodiscard]] bool mayCreep() const;
-  // Of `usual_mps`: where the vessel wanders by most of the room that a level has, a slower plan
-  // leaves thrust to keep it on its way.
+  // `usual_mps`, or a crawl where the vessel wanders by most of the room that a level has: at speed
+  // it would be farther off its way.
   [[nodiscard]] double paceAt(std::size_t level, double usual_mps) const;
 
   void setOptions(const SupervisorOptions& options) { options_ = options; }

@@ -30,8 +30,8 @@ constexpr double kHopeless = 0.5;
 constexpr int kPatienceUnderLoad = 4;
 constexpr double kHopelessUnderLoad = 3.0;
 constexpr int kRoundsUnderLoad = 8;
-// From a moving start, by rounds made: what asks for so much more than there is at the start or
-// shortly after hardly ever comes within the limits, and another clearance is better than more.
+// From a moving start, after each round: what asks for so much more than there is, mostly right
+// behind the start, hardly ever comes within the limits. Another clearance is better than more.
 constexpr double kHopelessUnderWay[] = {kInfinity, kInfinity, 3.0, 0.2};
 // Of the limits of thrust and yaw rate, on the spot.
 constexpr double kSpinShare = 0.97;

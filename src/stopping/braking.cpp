@@ -14,6 +14,7 @@
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/stopping/watch.hpp"
+#include "otter_nav/trajectory/joint.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "straight_stop.hpp"
 
@@ -122,13 +123,6 @@ bool keepsAsternShare(const Trajectory& trajectory, const vessel::Parameters& ve
     }
   }
   return true;
-}
-
-bool endsAtRest(const Piece& piece) {
-  constexpr double kRest = 1e-3;  // m/s and rad/s
-  const double end = piece.duration_s;
-  return piece.flat(end).velocity.norm() < kRest &&
-         (piece.kind != PieceKind::kSpin || std::abs(piece.spinHeading(end)[1]) < kRest);
 }
 
 // Where a sailed trajectory comes to rest by itself soon, without gathering way before: the rest of

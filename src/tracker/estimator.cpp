@@ -7,6 +7,7 @@
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/rk4.hpp"
+#include "otter_nav/vessel/crawl.hpp"
 
 namespace otter_nav::tracker {
 
@@ -51,8 +52,8 @@ constexpr double kWindWalkM2ps2 = 10.0;
 constexpr double kWindSigmaM2ps2 = 30.0;
 constexpr double kWindMostMps = 20.0;
 constexpr double kWaveDamping = 0.1;  // of the waves' oscillators, relative
-// Hull's lengths a second, at which waves begin to be steered against, and are altogether.
-constexpr double kCrawlingPerS = 0.4;
+// Hull's lengths a second, at which waves from abeam are steered against altogether; beyond a crawl
+// it begins.
 constexpr double kSailingPerS = 0.6;
 
 // Under one drag ahead and abeam a current is a force.
@@ -171,7 +172,8 @@ vessel::State Estimator::innovation(const vessel::State& measured) const {
 
 double Estimator::sailingShare() const {
   const double pace = std::abs(state_[kSurge]) / vessel_.hull.length_m;
-  const double x = std::clamp((pace - kCrawlingPerS) / (kSailingPerS - kCrawlingPerS), 0.0, 1.0);
+  const double x =
+      std::clamp((pace - vessel::kCrawlPerS) / (kSailingPerS - vessel::kCrawlPerS), 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
 }
 

@@ -18,6 +18,13 @@ bool isSound(const Piece& piece) {
          piece.heading.allFinite();
 }
 
+bool endsAtRest(const Piece& piece) {
+  constexpr double kRest = 1e-3;  // m/s and rad/s
+  const double end = piece.duration_s;
+  return piece.flat(end).velocity.norm() < kRest &&
+         (piece.kind != PieceKind::kSpin || std::abs(piece.spinHeading(end)[1]) < kRest);
+}
+
 Status checkPieces(const std::vector<Piece>& pieces, const Gap& largest) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (!(pieces[i].duration_s > 0.0)) {

@@ -64,7 +64,6 @@ std::vector<Encounter> meetings(const std::vector<std::vector<Course>>& cases) {
   return encounters;
 }
 
-constexpr double kFieldM = 80.0;
 constexpr double kFieldEndM = 34.0;   // where we start and end, from the middle
 constexpr double kFieldSideM = 20.0;  // and at most to either side of it
 constexpr double kFieldMps = 4.0;

@@ -21,6 +21,9 @@ struct Gap {
 // Finite, with a positive duration.
 [[nodiscard]] bool isSound(const Piece& piece);
 
+// Without motion at its end, nor turning on, if its heading is its own.
+[[nodiscard]] bool endsAtRest(const Piece& piece);
+
 // Errors name the piece and the fault. Gaps of position and velocity alone count.
 [[nodiscard]] Status checkPieces(const std::vector<Piece>& pieces, const Gap& largest);
 

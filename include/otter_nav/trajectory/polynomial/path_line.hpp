@@ -72,8 +72,9 @@ void PathLine::relax(const Smooth& smooth, double clearance_m, int rounds, std::
                      std::size_t held_tail) {
   constexpr double kLargestPushM = 0.5;
   constexpr double kLeastGradient = 0.3;
-  // A distance falls by no more than this for each metre that its place moves. So a point that was
-  // found clear by more than it has moved since needs no other look.
+  // A distance is taken to fall by no more than this for each metre that its place moves, what
+  // comes nearer in the time that takes included. So a point that was found clear by more than it
+  // has moved since needs no other look.
   constexpr double kSteepest = 3.0;
   moved_.resize(points_.size());
   to_spare_m_.assign(points_.size(), 0.0);
