@@ -239,6 +239,30 @@ TEST(Habits, WhoHasTurnedThereBeforeIsForetoldToTurnAgain) {
   }
 }
 
+// Of who is far off or has just turned course and speed are hardly known.
+TEST(Habits, KnowsWhoIsOnAWayAgainThoughCourseAndSpeedWander) {
+  Habits habits;
+  traffic::Track she;
+  for (double t = 0.0; t <= 8.0; t += 0.4) {
+    she = square(1, {2.0 * t, 0.0}, {2.0, 0.0});
+    she.stamp_s = t;
+    habits.observe({she});
+  }
+  const auto again = [&](const Eigen::Vector2d& velocity) {
+    traffic::Track now = square(1, {4.0, 0.8}, velocity);
+    now.stamp_s = 30.0;
+    return habits.foretell(now, 30.0, 0.5, 8);
+  };
+  for (const Eigen::Vector2d& velocity :
+       {Eigen::Vector2d(2.0, 0.0), Eigen::Vector2d(2.4, 0.0), Eigen::Vector2d(1.8, 0.8)}) {
+    const std::vector<Eigen::Vector2d> told = again(velocity);
+    ASSERT_EQ(told.size(), 9U);
+    EXPECT_LT((told[6] - Eigen::Vector2d(10.0, 0.8)).norm(), 0.3);
+  }
+  EXPECT_TRUE(again({1.0, 1.7}).empty());
+  EXPECT_TRUE(again({3.2, 0.0}).empty());
+}
+
 TEST(Habits, TellsARoundFromACorner) {
   constexpr double kTurnRadps = 0.3;
   Habits round;
