@@ -10,6 +10,7 @@
 #include "encounter/helmsman.hpp"
 #include "encounter/space_time_search.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::encounter {
@@ -182,7 +183,12 @@ Evasion::Way Evasion::find(const Task& task, const std::vector<traffic::Track>& 
   for (std::size_t k = 1; k < joints.size(); ++k) {
     pieces.push_back(pieceOf(joints[k - 1], joints[k], Foretold::kStepS, vessel_));
   }
-  way.path = {trajectory::Trajectory(std::move(pieces)), task.start_s};
+  const trajectory::Trajectory found_way(std::move(pieces));
+  // The search looks at two discs for the hull, and at steps; nothing that lies still may be
+  // touched by its outline either. Its thrusts are those of the model it was made with.
+  if (!stopping::outlineConflict(found_way, 0.0, found_way.duration(), still, vessel_, 0.0).found) {
+    way.path = {found_way, task.start_s};
+  }
   return way;
 }
 

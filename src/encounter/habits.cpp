@@ -15,9 +15,9 @@ constexpr double kKnownMps = 0.8;  // standard deviation of a velocity worth rem
 constexpr std::size_t kMostRecords = 20000;
 
 // Who is taken to be on the same way.
-constexpr double kSameWayM = 1.0;
-constexpr double kCourseCosine = 0.966;  // 15 degrees
-constexpr double kChangeShare = 0.15;
+constexpr double kSameWayM = 1.5;
+constexpr double kCourseCosine = 0.87;  // 30 degrees: of who is hardly seen a course wanders
+constexpr double kChangeShare = 0.3;
 constexpr double kBeforeS = 3.0;
 constexpr double kSameTrackM = 0.5;  // worth so much
 constexpr double kLeastToldS = 2.0;  // of a way told

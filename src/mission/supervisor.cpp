@@ -826,14 +826,7 @@ class Decider final : public Supervisor {
     const map::DistanceField& known = m.obstacles.inKnownWater().field();
     const bool in_known = known.clearance(task.start.position) > kInKnownM;
     const map::DistanceField& still = in_known ? known : m.obstacles.field();
-    encounter::Evasion::Way found = evasion_.find(task, m.situation.tracks, still);
-    // The search looks at steps; between them nothing that lies still may be touched either. Its
-    // thrusts are those of the model it was made with.
-    if (stopping::outlineConflict(found.path.trajectory, 0.0, found.path.trajectory.duration(),
-                                  still, vessel_, 0.0)
-            .found) {
-      found.path = {};
-    }
+    const encounter::Evasion::Way found = evasion_.find(task, m.situation.tracks, still);
     const bool from_sailed = task.start_s > m.now_s;
     if (evades && from_sailed && sailed_.left(m.now_s) > kLeastLeftS) {
       const double kept = evasion_.judge(task, sailed_, m.situation.tracks, still).price;

@@ -18,12 +18,15 @@ struct Law {
   std::array<double, MotionFilter::kModels> follow;  // then, shares
 };
 constexpr std::array<Law, MotionFilter::kModels> kLaws = {
-    {{0.0002, 0.0, 0.0, 120.0, {0.0, 1.0, 0.0}},
-     {0.2, 0.002, 20.0, 2.0, {0.9, 0.0, 0.1}},
-     {0.005, 0.0002, 100.0, 60.0, {0.0, 1.0, 0.0}}}};
+    {{0.0002, 0.0, 0.0, 120.0, {0.0, 1.0, 0.0, 0.0}},
+     {0.2, 0.002, 20.0, 2.0, {0.9, 0.0, 0.1, 0.0}},
+     {0.005, 0.0002, 100.0, 60.0, {0.0, 1.0, 0.0, 0.0}},
+     {0.2, 0.0, 20.0, 0.8, {0.7, 0.3, 0.0, 0.0}}}};
 constexpr std::size_t kStraight = 0;
 constexpr std::size_t kBeginsToTurn = 1;
-constexpr std::array<double, MotionFilter::kModels> kAtFirst = {0.9, 0.09, 0.01};
+constexpr std::size_t kAnew = 3;
+constexpr std::array<double, MotionFilter::kModels> kAtFirst = {0.9, 0.09, 0.01, 0.0};
+constexpr double kAnewCounts = 0.3;  // weight from which its velocity is told
 
 constexpr double kAnySpeedMps = 2.5;  // standard deviation of an unknown velocity, each axis
 constexpr double kAnyTurnRadps = 0.2;
@@ -117,8 +120,9 @@ MotionFilter::MotionFilter(const Measurement& first, double stamp_s) : stamp_s_(
 }
 
 // The models' estimates as each model's start, by how probable it is to have come from there.
-void MotionFilter::mix(double dt_s) {
+void MotionFilter::mix(double dt_s, double anew_per_s) {
   const std::array<Model, kModels> before = models_;
+  const double anew = 1.0 - std::exp(-dt_s * anew_per_s);
   for (std::size_t to = 0; to < kModels; ++to) {
     Model& model = models_[to];
     PerModel share{};
@@ -127,7 +131,17 @@ void MotionFilter::mix(double dt_s) {
       const double leaves = 1.0 - std::exp(-dt_s / kLaws[from].holds_s);
       share[from] =
           before[from].weight * (from == to ? 1.0 - leaves : leaves * kLaws[from].follow[to]);
+      if (from != kAnew) {
+        share[from] = to == kAnew ? anew * before[from].weight : (1.0 - anew) * share[from];
+      }
       model.weight += share[from];
+    }
+    if (model.weight <= 0.0) {
+      continue;
+    }
+    if (to == kAnew) {
+      mixAnew(before, share);
+      continue;
     }
     model.x.setZero();
     for (std::size_t from = 0; from < kModels; ++from) {
@@ -145,15 +159,51 @@ void MotionFilter::mix(double dt_s) {
   }
 }
 
-void MotionFilter::predict(double time_s) {
+// Whoever takes a new course keeps her speed; where she is off to nobody knows.
+void MotionFilter::mixAnew(const std::array<Model, kModels>& before, const PerModel& share) {
+  std::array<Model, kModels> from = before;
+  Model& model = models_[kAnew];
+  for (std::size_t m = 0; m < kModels; ++m) {
+    if (m == kAnew) {
+      continue;
+    }
+    const double speed2 = from[m].x.segment<2>(2).squaredNorm();
+    from[m].x.tail<3>().setZero();
+    from[m].P.rightCols<3>().setZero();
+    from[m].P.bottomRows<3>().setZero();
+    from[m].P.block<2, 2>(2, 2).diagonal().setConstant(0.5 * speed2);
+    from[m].P(4, 4) = kNoTurnRadps * kNoTurnRadps;
+  }
+  model.x.setZero();
+  for (std::size_t m = 0; m < kModels; ++m) {
+    model.x += share[m] / model.weight * from[m].x;
+  }
+  model.P.setZero();
+  for (std::size_t m = 0; m < kModels; ++m) {
+    const MotionState off = from[m].x - model.x;
+    model.P += share[m] / model.weight * (from[m].P + off * off.transpose());
+  }
+}
+
+bool MotionFilter::isUsed(std::size_t model) const {
+  return model != kAnew || models_[model].weight > 0.0;
+}
+
+void MotionFilter::predict(double time_s, double anew_per_s) {
   const double dt = time_s - stamp_s_;
   if (!(dt > 0.0)) {
     return;
   }
   stamp_s_ = time_s;
-  mix(dt);
+  if (anew_per_s <= 0.0 && models_[kAnew].weight < kLeastWeight) {
+    models_[kAnew].weight = 0.0;
+  }
+  mix(dt, anew_per_s);
   for (std::size_t m = 0; m < kModels; ++m) {
     Model& model = models_[m];
+    if (!isUsed(m)) {
+      continue;
+    }
     MotionCovariance f = MotionCovariance::Identity();
     if (m == kStraight) {
       f(0, 2) = f(1, 3) = dt;
@@ -172,7 +222,7 @@ void MotionFilter::predict(double time_s) {
 MotionFilter::PerModel MotionFilter::likelihoods(const Measurement& measurement) const {
   PerModel by_model{};
   for (std::size_t m = 0; m < kModels; ++m) {
-    by_model[m] = density(measurement, models_[m].x, models_[m].P);
+    by_model[m] = isUsed(m) ? density(measurement, models_[m].x, models_[m].P) : 0.0;
   }
   return by_model;
 }
@@ -190,6 +240,16 @@ double MotionFilter::distance2(const Measurement& measurement) const {
   return distance2Of(measurement, state(), covariance(), determinant);
 }
 
+double MotionFilter::gateDistance2(const Measurement& measurement) const {
+  const double together = distance2(measurement);
+  const Model& anew = models_[kAnew];
+  if (anew.weight < kLeastWeight) {
+    return together;
+  }
+  double determinant = 1.0;
+  return std::min(together, distance2Of(measurement, anew.x, anew.P, determinant));
+}
+
 void MotionFilter::update(const std::vector<Candidate>& candidates) {
   double none = 1.0;
   for (const Candidate& candidate : candidates) {
@@ -198,6 +258,9 @@ void MotionFilter::update(const std::vector<Candidate>& candidates) {
   none = std::max(0.0, none);
   double sum = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
+    if (!isUsed(m)) {
+      continue;
+    }
     Model& model = models_[m];
     // How much more probable this model makes what was seen than all models together do.
     double evidence = none;
@@ -228,8 +291,10 @@ void MotionFilter::update(const std::vector<Candidate>& candidates) {
     model.weight *= evidence;
     sum += model.weight;
   }
-  for (Model& model : models_) {
-    model.weight = std::clamp(model.weight / sum, kLeastWeight, 1.0 - kLeastWeight);
+  for (std::size_t m = 0; m < kModels; ++m) {
+    if (isUsed(m)) {
+      models_[m].weight = std::clamp(models_[m].weight / sum, kLeastWeight, 1.0 - kLeastWeight);
+    }
   }
 }
 
@@ -243,32 +308,53 @@ void MotionFilter::shift(const Eigen::Vector2d& by) {
   }
 }
 
-MotionState MotionFilter::state() const {
+std::size_t MotionFilter::usualModels() const {
+  const double anew = models_[kAnew].weight;
+  return anew > kAnewCounts ? kModels : kAnew;
+}
+
+MotionState MotionFilter::meanOf(std::size_t models) const {
   MotionState mean = MotionState::Zero();
-  for (const Model& model : models_) {
-    mean += model.weight * model.x;
+  for (std::size_t m = 0; m < models; ++m) {
+    mean += models_[m].weight * models_[m].x;
   }
   return mean;
 }
 
+MotionCovariance MotionFilter::covarianceOf(std::size_t models, const MotionState& mean) const {
+  MotionCovariance all = MotionCovariance::Zero();
+  for (std::size_t m = 0; m < models; ++m) {
+    const MotionState off = models_[m].x - mean;
+    all += models_[m].weight * (models_[m].P + off * off.transpose());
+  }
+  return all;
+}
+
+MotionState MotionFilter::state() const {
+  return meanOf(kModels);
+}
+MotionCovariance MotionFilter::covariance() const {
+  return covarianceOf(kModels, state());
+}
+
+MotionState MotionFilter::usualState() const {
+  const double left_out = usualModels() < kModels ? models_[kAnew].weight : 0.0;
+  return meanOf(usualModels()) / (1.0 - left_out);
+}
+MotionCovariance MotionFilter::usualCovariance() const {
+  const double left_out = usualModels() < kModels ? models_[kAnew].weight : 0.0;
+  return covarianceOf(usualModels(), usualState()) / (1.0 - left_out);
+}
+
 MotionCovariance MotionFilter::likelyCovariance() const {
   constexpr double kCertain = 0.985;
+  const double left_out = usualModels() < kModels ? models_[kAnew].weight : 0.0;
   for (const Model& model : models_) {
-    if (model.weight > kCertain) {
+    if (model.weight > kCertain * (1.0 - left_out)) {
       return model.P;
     }
   }
-  return covariance();
-}
-
-MotionCovariance MotionFilter::covariance() const {
-  const MotionState mean = state();
-  MotionCovariance all = MotionCovariance::Zero();
-  for (const Model& model : models_) {
-    const MotionState off = model.x - mean;
-    all += model.weight * (model.P + off * off.transpose());
-  }
-  return all;
+  return usualCovariance();
 }
 
 }  // namespace otter_nav::traffic

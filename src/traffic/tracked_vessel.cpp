@@ -109,9 +109,9 @@ Middle middleAlong(const Span& span, const View::Hidden& hidden, double eye, boo
 }  // namespace
 
 std::optional<double> TrackedVessel::course() const {
-  const MotionState x = motion.state();
+  const MotionState x = motion.usualState();
   const double speed = x.segment<2>(2).norm();
-  const double deviation = std::sqrt(0.5 * motion.covariance().block<2, 2>(2, 2).trace());
+  const double deviation = std::sqrt(0.5 * motion.usualCovariance().block<2, 2>(2, 2).trace());
   if (speed < kLeastCourseSpeedMps || speed < kCourseSigmas * deviation) {
     return std::nullopt;
   }
@@ -144,7 +144,7 @@ bool TrackedVessel::isUnderWay() const {
 }
 
 Track TrackedVessel::track() const {
-  const MotionState x = motion.state();
+  const MotionState x = motion.usualState();
   Track track;
   track.id = id;
   track.mmsi = mmsi;

@@ -63,6 +63,11 @@ constexpr double kAisKeptS = 100.0;  // three reports missed
 constexpr double kAisSlowKeptS = 600.0;
 constexpr double kAidDiameterM = 3.0;
 
+// Among many: how often each is off on a new course, and how long a report vouches for who is seen
+// no more.
+constexpr double kAnewPerS = 0.1;
+constexpr double kAisKeptCrowdedS = 1.0;
+
 constexpr double kSameM = 3.0;  // two tracks nearer than this, and alike, are one vessel
 
 double radiansFromEast(double degrees_from_north) {
@@ -90,6 +95,7 @@ class Tracker::Impl {
     const Eigen::Vector2d eye = sensor.position.head<2>();
     verdict_.on_vessel.assign(scan.ranges_m.size(), false);
     verdict_.ghosts.clear();
+    lookRound(eye);
     Look look;
     look.stamp_s = stamp_s;
     look.detections = clusters.size();
@@ -135,6 +141,7 @@ class Tracker::Impl {
 
   void addRadar(double stamp_s, const std::vector<Eigen::Vector2d>& positions,
                 const Eigen::Vector2d& own) {
+    lookRound(own);
     Look look;
     look.stamp_s = stamp_s;
     look.detections = positions.size();
@@ -233,6 +240,48 @@ class Tracker::Impl {
     return {most * kLidarUnplaced, least > 0.0 ? least * kLidarUnplaced : most * kHardlyConcluded};
   }
 
+  // Vessels on passage turn as hulls do, and keep apart. Where many crowd in a small place somebody
+  // may be off on a new course at any time, and right beside another.
+  void lookRound(const Eigen::Vector2d& own) {
+    constexpr std::ptrdiff_t kMany = 4;
+    constexpr double kNearM = 60.0;
+    crowded_ = std::count_if(vessels_.begin(), vessels_.end(), [&](const TrackedVessel& vessel) {
+                 return vessel.confirmed && vessel.isUnderWay() &&
+                        (vessel.motion.state().head<2>() - own).norm() < kNearM;
+               }) >= kMany;
+    if (crowded_) {
+      guessSizes();
+    }
+  }
+  // Those who crowd are of a kind: a size that nothing has told yet is the others' middle one.
+  void guessSizes() {
+    constexpr std::size_t kEnough = 3;
+    std::vector<double> lengths;
+    std::vector<double> beams;
+    for (const TrackedVessel& vessel : vessels_) {
+      if (vessel.size != TrackedVessel::Size::kGuessed) {
+        lengths.push_back(vessel.length_m);
+        beams.push_back(vessel.beam_m);
+      }
+    }
+    if (lengths.size() < kEnough) {
+      return;
+    }
+    const auto middle = [](std::vector<double>& of) {
+      const auto at = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
+      std::nth_element(of.begin(), at, of.end());
+      return *at;
+    };
+    const double length = middle(lengths);
+    const double beam = middle(beams);
+    for (TrackedVessel& vessel : vessels_) {
+      if (vessel.size == TrackedVessel::Size::kGuessed) {
+        vessel.length_m = length;
+        vessel.beam_m = beam;
+      }
+    }
+  }
+
   // Moves the tracks on and updates them; each detection's probability of being somebody's.
   std::vector<double> associate(const Look& look) {
     std::vector<std::size_t> of_track;
@@ -243,7 +292,7 @@ class Tracker::Impl {
     for (std::size_t v = 0; v < vessels_.size(); ++v) {
       TrackedVessel& vessel = vessels_[v];
       MotionFilter now = vessel.motion;
-      now.predict(look.stamp_s);
+      now.predict(look.stamp_s, crowded_ ? kAnewPerS : 0.0);
       const Detection chance = look.detection(vessel, now);
       if (chance.probability == 0.0) {
         continue;
@@ -261,7 +310,7 @@ class Tracker::Impl {
         }
         MotionFilter::Candidate candidate;
         candidate.measurement = look.measure(vessel, k);
-        if (vessel.motion.distance2(candidate.measurement) > kGate2) {
+        if (vessel.motion.gateDistance2(candidate.measurement) > kGate2) {
           continue;
         }
         candidate.likelihoods = vessel.motion.likelihoods(candidate.measurement);
@@ -285,9 +334,9 @@ class Tracker::Impl {
   }
 
   // Existence first, then the motion given that the vessel exists (Musicki and Evans 2004).
-  static void update(const Look& look, TrackedVessel& vessel, double concluded, double none,
-                     const std::vector<double>& probabilities, const std::vector<Link>& links,
-                     std::vector<MotionFilter::Candidate>& candidates) {
+  void update(const Look& look, TrackedVessel& vessel, double concluded, double none,
+              const std::vector<double>& probabilities, const std::vector<Link>& links,
+              std::vector<MotionFilter::Candidate>& candidates) const {
     const double unseen = vessel.existence * (1.0 - concluded) /
                           (1.0 - vessel.existence * concluded);  // exists, given no detection
     double exists = none * unseen;
@@ -295,7 +344,8 @@ class Tracker::Impl {
       exists += probability;
     }
     // Whoever reports herself is there, though another may hide her from every sensor.
-    const bool reports = look.stamp_s - vessel.last_ais_s < kAisKeptS;
+    const bool reports =
+        look.stamp_s - vessel.last_ais_s < (crowded_ ? kAisKeptCrowdedS : kAisKeptS);
     vessel.existence = std::clamp(exists, reports ? kReportedAtLeast : 0.0,
                                   vessel.confirmed ? 0.9999 : kUnconfirmedAtMost);
     const bool in_doubt = !vessel.confirmed && vessel.sources == kLidar;
@@ -561,6 +611,11 @@ class Tracker::Impl {
       for (std::size_t b = a + 1; b < vessels_.size(); ++b) {
         TrackedVessel& first = vessels_[a];
         TrackedVessel& second = vessels_[b];
+        // Among many two may well pass through the same place; whom nothing shows any more goes
+        // soon.
+        if (crowded_ && first.confirmed && second.confirmed) {
+          continue;
+        }
         if (second.existence == 0.0 || first.existence == 0.0 || !areAlike(first, second)) {
           continue;
         }
@@ -686,6 +741,7 @@ class Tracker::Impl {
   std::vector<Track> tracks_;
   ScanVerdict verdict_;
   double radar_clutter_per_m2_ = kRadarClutterPerM2;
+  bool crowded_ = false;  // around us
   int next_id_ = 1;
 };
 

@@ -51,7 +51,7 @@ class Evasion {
     double price = 0.0;                // s
     Danger danger;
   };
-  // `still`: what does not move.
+  // `still`: what does not move; its outline is touched nowhere.
   [[nodiscard]] Way find(const Task& task, const std::vector<traffic::Track>& tracks,
                          const map::DistanceField& still) const;
   // What a trajectory is worth from the task's start on, with what is left to the goal at the

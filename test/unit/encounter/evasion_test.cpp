@@ -128,6 +128,48 @@ TEST(Evasion, KeepsClearOfWhatLiesStill) {
   }
 }
 
+// Alongside a wall with hardly any room, drifting off it: turning away at once, the stern swings
+// into the wall, though the discs that the search has for the hull keep their distance.
+TEST(Evasion, SwingsNoCornerOfTheHullIntoAWall) {
+  constexpr double kWallM = -0.5;
+  map::OccupancyGrid grid;
+  grid.geometry = {320, 320, 0.25, {-40.0, -40.0}};
+  grid.cells.assign(320U * 320U, map::Cell::kFree);
+  for (int column = 0; column < 320; ++column) {
+    grid.cells[grid.geometry.index(column, 157)] = map::Cell::kOccupied;
+  }
+  const map::DistanceField walled(grid, {});
+  const vessel::Parameters vessel = vesselNamed("otter_gazebo");
+  const Evasion evasion(vessel);
+  int found = 0;
+  for (const double turn_radps : {0.0, 0.8, 1.2}) {
+    for (const double room : {0.02, 0.1, 0.5}) {
+      Evasion::Task task = taskAt(0.0, 3.0);
+      task.start.velocity = {0.0, 0.5};
+      task.state[vessel::kSway] = 0.5;
+      task.state[vessel::kYawRate] = turn_radps;
+      task.goal = {{0.0, 30.0}, 0.5 * kPi};
+      task.start.position = {0.0, kWallM + 0.5 * vessel.hull.beam_m + room};
+      task.state.head<2>() = task.start.position;
+      const Evasion::Way way = evasion.find(task, {}, walled);
+      if (way.path.trajectory.empty()) {
+        continue;
+      }
+      ++found;
+      double least = 1e3;
+      for (double t = 0.0; t <= way.path.trajectory.duration(); t += 0.02) {
+        const vessel::State x = way.path.trajectory.sample(t, vessel).state;
+        const Eigen::Vector2d ahead = unitVector(x[vessel::kPsi]);
+        const double aside = 0.5 * vessel.hull.length_m * std::abs(ahead.y()) +
+                             0.5 * vessel.hull.beam_m * std::abs(ahead.x());
+        least = std::min(least, x[vessel::kY] - aside - kWallM);
+      }
+      EXPECT_GT(least, 0.0) << room << " m of room, " << turn_radps << " rad/s";
+    }
+  }
+  EXPECT_GT(found, 1);
+}
+
 // What begins in a way that costs time is not given up for what ends in contact.
 TEST(SpaceTimeSearch, FindsNothingDearerThanAnOrderThatIsHeld) {
   const vessel::Parameters vessel = vesselNamed("otter_gazebo");
@@ -216,6 +258,30 @@ TEST(Habits, CarriesOnFromTheEndOfAKnownWay) {
   for (std::size_t k = 1; k < told.size(); ++k) {
     EXPECT_NEAR((told[k] - told[k - 1]).norm(), kMps * kStepS, 1e-6) << k;
   }
+}
+
+// Of who is far off or has just turned course and speed are hardly known.
+TEST(Habits, KnowsWhoIsOnAWayAgainThoughCourseAndSpeedWander) {
+  Habits habits;
+  traffic::Track she;
+  for (double t = 0.0; t <= 8.0; t += 0.4) {
+    she = square(1, {2.0 * t, 0.0}, {2.0, 0.0});
+    she.stamp_s = t;
+    habits.observe({she});
+  }
+  const auto again = [&](const Eigen::Vector2d& velocity) {
+    traffic::Track now = square(1, {4.0, 0.8}, velocity);
+    now.stamp_s = 30.0;
+    return habits.foretell(now, 30.0, 0.5, 8);
+  };
+  for (const Eigen::Vector2d& velocity :
+       {Eigen::Vector2d(2.0, 0.0), Eigen::Vector2d(2.4, 0.0), Eigen::Vector2d(1.8, 0.8)}) {
+    const std::vector<Eigen::Vector2d> told = again(velocity);
+    ASSERT_EQ(told.size(), 9U);
+    EXPECT_LT((told[6] - Eigen::Vector2d(10.0, 0.8)).norm(), 0.3);
+  }
+  EXPECT_TRUE(again({1.0, 1.7}).empty());
+  EXPECT_TRUE(again({3.2, 0.0}).empty());
 }
 
 TEST(Habits, TellsARoundFromACorner) {

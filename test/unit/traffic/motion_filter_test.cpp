@@ -107,6 +107,39 @@ TEST(MotionFilter, FollowsATurnAndTheLegAfterIt) {
   EXPECT_NEAR(filter.state()[2], 0.0, 0.1);
 }
 
+// Back on her own track at a corner without any turn, seen by lidar.
+TEST(MotionFilter, IsSoonOffOnANewCourseWhereThatIsReckonedWith) {
+  constexpr double kMps = 3.0;
+  constexpr double kScanS = 1.0 / 15.0;
+  for (const double anew_per_s : {0.1, 0.0}) {
+    MotionFilter filter(at({0.0, 0.0}, 0.5), 0.0);
+    double t = 0.0;
+    const auto sail = [&](double until_s) {
+      while (t < until_s) {
+        t += kScanS;
+        filter.predict(t, anew_per_s);
+        filter.update(at({kMps * (t < 8.0 ? t : 16.0 - t), 0.0}, 0.5));
+      }
+    };
+    sail(8.0);
+    EXPECT_NEAR(filter.usualState()[2], kMps, 0.2);
+    EXPECT_LT(filter.usualCovariance()(2, 2), 0.1);
+    // On the way back there at once, at either end of what the radar's next plot could be.
+    MotionFilter after = filter;
+    after.predict(t + 1.0, anew_per_s);
+    const Measurement back = at({kMps * (7.0 - (t - 8.0)), 0.0}, 1.0);
+    const bool is_hers = after.gateDistance2(back) < 16.0;
+    EXPECT_EQ(is_hers, anew_per_s > 0.0);
+    sail(9.3);
+    const double off = std::abs(filter.usualState()[2] + kMps);
+    if (anew_per_s > 0.0) {
+      EXPECT_LT(off, 0.8);
+    } else {
+      EXPECT_GT(off, 1.2);
+    }
+  }
+}
+
 // Round and round at 1.5 m/s on a circle of 10 m, seen by radar.
 TEST(MotionFilter, LearnsATurnThatLasts) {
   constexpr double kRate = 0.15;

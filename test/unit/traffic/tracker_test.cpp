@@ -449,6 +449,44 @@ TEST(TrafficTracker, KeepsBothWhereTwoLookLikeOne) {
   EXPECT_GE(kept, 5);
 }
 
+// Eight squares to and fro around us, through each other's places and back at once at either end.
+TEST(TrafficTracker, FollowsACrowdThatTurnsAtOnce) {
+  std::vector<vessel::ScriptedVessel> crowd;
+  for (int k = 0; k < 8; ++k) {
+    const double bearing = 0.25 * kPi * k;
+    const Eigen::Vector2d out(std::cos(bearing), std::sin(bearing));
+    const Eigen::Vector2d aside(-out.y(), out.x());
+    const Eigen::Vector2d a = 13.0 * out - 8.0 * aside;
+    const Eigen::Vector2d b = 15.0 * out + 8.0 * aside;
+    vessel::ScriptedVessel square{k + 1, {4.0, 4.0}, true, {a}, {2.0 + 0.15 * k}};
+    for (int lap = 0; lap < 12; ++lap) {
+      square.waypoints.push_back(lap % 2 == 0 ? b : a);
+    }
+    crowd.push_back(square);
+  }
+  Sea sea(test::plantOptions("none"), map::OccupancyGrid{}, crowd, 1);
+  int moments = 0;
+  int known = 0;
+  long tracks = 0;
+  sea.run(10.0, {0.0, 0.0});
+  sea.run(50.0, {0.0, 0.0}, [&](const ScanVerdict& /*verdict*/) {
+    tracks += static_cast<long>(sea.tracker.tracks().size());
+    for (std::size_t k = 0; k < crowd.size(); ++k) {
+      const std::optional<Track> track = sea.trackOf(k);
+      ++moments;
+      if (track) {
+        const vessel::ScriptedMotion truth = sea.trueMotion(k, track->stamp_s);
+        const Eigen::Vector2d velocity =
+            truth.speed_mps *
+            Eigen::Vector2d(std::cos(truth.pose.psi_rad), std::sin(truth.pose.psi_rad));
+        known += (track->velocity - velocity).norm() < 1.0 ? 1 : 0;
+      }
+    }
+  });
+  EXPECT_GT(known, 0.88 * moments);
+  EXPECT_LT(static_cast<double>(tracks), 1.08 * moments);  // and hardly one that is nobody's
+}
+
 // The same calls give the same tracks.
 TEST(TrafficTracker, IsTheSameEveryTime) {
   const auto run = [] {
