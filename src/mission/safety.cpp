@@ -271,6 +271,14 @@ bool Safety::refused() {
   return more;
 }
 
+void Safety::comeToRest() {
+  // In a firm load the plans that need most are made blind, and were tried before.
+  if (!plansWithWeather()) {
+    times_refused_ = 0;
+  }
+  levels_.widest();
+}
+
 void Safety::planTaken() {
   times_refused_ = 0;
   levels_.widest();

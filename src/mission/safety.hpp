@@ -129,6 +129,8 @@ class Safety {
   bool refused();
   void planTaken();
   void tryWidest() { levels_.widest(); }
+  // The vessel came to rest: what was refused under way is another matter from here.
+  void comeToRest();
   [[nodiscard]] std::size_t level() const { return levels_.level(); }
   [[nodiscard]] bool atNarrowest() const { return levels_.atNarrowest(); }
   void tryLevel(std::size_t level) { levels_.begin(level); }

@@ -1472,7 +1472,7 @@ class Decider final : public Supervisor {
     if (!retries_.stopped(m.now_s, left_m)) {
       return enter(Phase::kFailed, last);
     }
-    safety().tryWidest();
+    safety().comeToRest();
     constexpr double kCalmerS = 10.0;
     constexpr double kCalmerMostS = 60.0;
     if (mayLoseItsHeading()) {

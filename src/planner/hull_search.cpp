@@ -24,22 +24,15 @@ constexpr double kLegMps = 0.5;
 constexpr double kTurnRadps = 0.35;
 constexpr double kRestS = 2.0;
 constexpr double kAsternShare = 1.5;  // a metre astern beside one ahead
-// Next to obstacles a metre is dearer, for waves set the hull aside.
+// Next to obstacles all is dearer, for waves set the hull aside: a metre, a turn and a rest.
 constexpr double kRoomyM = 0.25;
-constexpr double kTightPrice = 2.0;
+constexpr double kTightPrice = 4.0;
 constexpr double kGreed = 1.6;  // the weight of what is left
 // What lies nearer together than twice this is not looked at between; the slack leaves as much.
 constexpr double kBetweenM = 0.01;
 constexpr double kStraightToGoalM = 4.0;
 constexpr double kSameM = 1e-6;
 constexpr float kFar = std::numeric_limits<float>::infinity();
-
-double legS(double length_m) {
-  return kRestS + length_m / kLegMps;
-}
-double turnS(double turn_rad) {
-  return turn_rad == 0.0 ? 0.0 : kRestS + std::abs(turn_rad) / kTurnRadps;
-}
 
 }  // namespace
 
@@ -74,6 +67,45 @@ bool HullSearch::isClearBetween(const Stand& a, const Stand& b) const {
   Stand middle{0.5 * (a.position + b.position), 0.5 * (a.psi_rad + b.psi_rad), 0.0};
   middle.slack_m = slack(middle.position, middle.psi_rad);
   return middle.slack_m >= 0.0 && isClearBetween(a, middle) && isClearBetween(middle, b);
+}
+
+double HullSearch::price(double slack_m, double psi_rad) const {
+  const double roomy_m = kRoomyM + (room_.swings_m ? room_.swings_m(psi_rad) : 0.0);
+  return 1.0 + kTightPrice * std::clamp(1.0 - slack_m / roomy_m, 0.0, 1.0);
+}
+
+double HullSearch::turnCost(const Eigen::Vector2d& position, double psi_rad,
+                            double turn_rad) const {
+  if (std::abs(turn_rad) < kSameM) {
+    return 0.0;
+  }
+  if (!turnIsClear(position, psi_rad, turn_rad)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const int parts = partsOf(std::abs(turn_rad), 2.0 * kPi / kHeadings, 1);
+  double cost_s = kRestS * price(slack(position, psi_rad), psi_rad);
+  for (int k = 0; k < parts; ++k) {
+    const double psi = psi_rad + (k + 0.5) / parts * turn_rad;
+    cost_s += std::abs(turn_rad) / parts / kTurnRadps * price(slack(position, psi), psi);
+  }
+  return cost_s;
+}
+
+double HullSearch::legCost(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                           double psi_rad) const {
+  if (!legIsClear(from, to, psi_rad)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const Eigen::Vector2d leg = to - from;
+  const double length = leg.norm();
+  const double share = leg.dot(unitVector(psi_rad)) < 0.0 ? kAsternShare : 1.0;
+  const int parts = partsOf(length, kMoveM, 1);
+  double cost_s = kRestS * price(slack(from, psi_rad), psi_rad);
+  for (int k = 0; k < parts; ++k) {
+    const Eigen::Vector2d there = from + (k + 0.5) / parts * leg;
+    cost_s += share * length / parts / kLegMps * price(slack(there, psi_rad), psi_rad);
+  }
+  return cost_s;
 }
 
 bool HullSearch::turnIsClear(const Eigen::Vector2d& position, double psi_rad,
@@ -115,6 +147,8 @@ void HullSearch::measureLeft(const Eigen::Vector2d& goal) {
   constexpr double kOffGridM = 0.71 * kCoarseM;
   const double clearance_m =
       std::max(room_.centre_m, 0.5 * hull_.beam_m + room_.beside_m) - kOffGridM;
+  // No heading leaves the hull more than its middle has.
+  const double middle_m = cover_.middle_m + room_.beside_m - kOffGridM;
   std::vector<std::pair<float, int>> heap;
   const auto reach = [&](int x, int y, float cost) {
     if (x < 0 || y < 0 || x >= kCoarse || y >= kCoarse) {
@@ -141,10 +175,13 @@ void HullSearch::measureLeft(const Eigen::Vector2d& goal) {
     }
     const int x = at % kCoarse;
     const int y = at / kCoarse;
+    const double most_m = obstacles_->field().clearance(placeOf(x, y)) - middle_m;
+    const auto tight =
+        static_cast<float>(1.0 + kTightPrice * std::clamp(1.0 - most_m / kRoomyM, 0.0, 1.0));
     for (int i = -1; i <= 1; ++i) {
       for (int j = -1; j <= 1; ++j) {
         if (i != 0 || j != 0) {
-          reach(x + i, y + j, -minus + (i != 0 && j != 0 ? kAslantS : kStraightS));
+          reach(x + i, y + j, -minus + tight * (i != 0 && j != 0 ? kAslantS : kStraightS));
         }
       }
     }
@@ -185,17 +222,14 @@ void HullSearch::expand(int k) {
         takes_s += 2.0 * kPi / kHeadings / kTurnRadps;
       } else {
         to.position += side * kMoveM * unitVector(psiOf(from.heading));
+        takes_s += (side > 0 ? 1.0 : kAsternShare) * kMoveM / kLegMps;
       }
       const double left = slack(to.position, psiOf(to.heading));
       if (left < 0.0 || !isClearBetween({from.position, psiOf(from.heading), from_slack},
                                         {to.position, psiOf(to.heading), left})) {
         continue;
       }
-      if (motion != Motion::kTurn) {
-        const double tight = 1.0 + kTightPrice * std::max(0.0, 1.0 - left / kRoomyM);
-        takes_s += (side > 0 ? 1.0 : kAsternShare) * tight * kMoveM / kLegMps;
-      }
-      to.cost_s += static_cast<float>(takes_s);
+      to.cost_s += static_cast<float>(price(left, psiOf(to.heading)) * takes_s);
       push(to);
     }
   }
@@ -235,18 +269,23 @@ std::vector<Pose> HullSearch::posesTo(int k) const {
   return poses;
 }
 
-// Steps of the same motion joined, and what a turn, a leg and a turn do sooner put in their place.
+// What a turn, a leg and a turn do at less cost put in the place of many steps, and those of the
+// same motion joined.
 std::vector<Pose> HullSearch::shortened(const std::vector<Pose>& way) const {
   const auto isTurn = [&](std::size_t a, std::size_t b) {
     return (way[b].position - way[a].position).norm() < kSameM;
   };
   std::vector<double> reached_s(way.size(), 0.0);
   for (std::size_t i = 1; i < way.size(); ++i) {
+    const Pose& from = way[i - 1];
     const bool turns = isTurn(i - 1, i);
-    const bool goes_on = i > 1 && isTurn(i - 2, i - 1) == turns;
-    reached_s[i] = reached_s[i - 1] + (goes_on ? 0.0 : kRestS) +
-                   (turns ? std::abs(way[i].psi_rad - way[i - 1].psi_rad) / kTurnRadps
-                          : (way[i].position - way[i - 1].position).norm() / kLegMps);
+    const double takes_s =
+        turns ? turnCost(from.position, from.psi_rad, way[i].psi_rad - from.psi_rad)
+              : legCost(from.position, way[i].position, from.psi_rad);
+    const bool goes_on = i > 1 && isTurn(i - 2, i - 1) == turns && takes_s > 0.0;
+    const double rest_s =
+        goes_on ? kRestS * price(slack(from.position, from.psi_rad), from.psi_rad) : 0.0;
+    reached_s[i] = reached_s[i - 1] + takes_s - rest_s;
   }
   std::vector<Pose> shorter = {way.front()};
   std::size_t at = 0;
@@ -261,11 +300,15 @@ std::vector<Pose> HullSearch::shortened(const std::vector<Pose>& way) const {
       const double turn = wrapAngle(angleOf(leg) - here.psi_rad);
       const double course = here.psi_rad + turn;
       const double turn_on = wrapAngle(way[to].psi_rad - course);
-      const double takes_s = turnS(turn) + legS(leg.norm()) + turnS(turn_on);
-      if (takes_s < reached_s[to] - reached_s[at] &&
-          turnIsClear(here.position, here.psi_rad, turn) &&
-          legIsClear(here.position, way[to].position, course) &&
-          turnIsClear(way[to].position, course, turn_on)) {
+      const double kept_s = reached_s[to] - reached_s[at];
+      // What takes longer in open water needn't be looked at.
+      if (leg.norm() / kLegMps + (std::abs(turn) + std::abs(turn_on)) / kTurnRadps >= kept_s) {
+        continue;
+      }
+      const double takes_s = turnCost(here.position, here.psi_rad, turn) +
+                             legCost(here.position, way[to].position, course) +
+                             turnCost(way[to].position, course, turn_on);
+      if (takes_s < kept_s) {
         shorter.push_back({here.position, course});
         shorter.push_back({way[to].position, course});
         next = to;

@@ -17,10 +17,13 @@
 
 namespace otter_nav::planner {
 
-// What a way for the hull must keep: its centre `centre_m`, the discs that cover it `beside_m`.
+// What a way for the hull must keep: its centre `centre_m`, the discs that cover it `beside_m`. And
+// what it is to have beyond that on a heading where there is a choice, for a load from abeam swings
+// it; nothing without.
 struct HullRoom {
   double centre_m = 0.0;
   double beside_m = 0.0;
+  std::function<double(double psi_rad)> swings_m = {};
 };
 
 // Workspaces are kept between calls. One thread at a time. The same inputs give the same way.
@@ -62,6 +65,13 @@ class HullSearch {
     double slack_m;
   };
   [[nodiscard]] bool isClearBetween(const Stand& a, const Stand& b) const;
+  // How many times as dear what is done there is as in roomy water.
+  [[nodiscard]] double price(double slack_m, double psi_rad) const;
+  // A turn on the spot and a straight leg, s; infinite where there is no room.
+  [[nodiscard]] double turnCost(const Eigen::Vector2d& position, double psi_rad,
+                                double turn_rad) const;
+  [[nodiscard]] double legCost(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                               double psi_rad) const;
   [[nodiscard]] bool turnIsClear(const Eigen::Vector2d& position, double psi_rad,
                                  double turn_rad) const;
   [[nodiscard]] bool legIsClear(const Eigen::Vector2d& from, const Eigen::Vector2d& to,

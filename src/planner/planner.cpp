@@ -13,6 +13,7 @@
 #include "otter_nav/optimizer/global_optimizer.hpp"
 #include "otter_nav/topology/guide_path.hpp"
 #include "otter_nav/vessel/hull.hpp"
+#include "otter_nav/vessel/rest.hpp"
 #include "planner/creeping.hpp"
 #include "planner/fallback.hpp"
 #include "planner/guide_line.hpp"
@@ -56,7 +57,10 @@ constexpr int kWorkAtRestAmongOthers = 5000;
 constexpr int kWorkAtRest = std::numeric_limits<int>::max();
 constexpr int kWorkOfASample = 2;
 constexpr int kWorkOfARepair = 7;
-constexpr double kNearM = 0.3;      // a goal nearer than this needs no search
+constexpr double kNearM = 0.3;  // a goal nearer than this needs no search
+// A hull that a load from abeam carries off holds its place and its way by turning to and fro:
+// its corners swing by what it is carried in so long, s.
+constexpr double kSwingS = 1.2;
 constexpr int kPosesMost = 200000;  // that a way for the hull's rectangle is looked for through
 constexpr int kTrySamples = 150;    // what one more try may draw, and any try counts for
 
@@ -144,7 +148,10 @@ class Planner::Pipeline {
     Plan plan = planAmong(obstacles, query, whole);
     work_left_ += after;
     if (plan.outcome == Outcome::kSolved) {
-      return plan;
+      return fell_back_ && mayCreep(query) &&
+                     isInReach(query.start.flat.position, query.goal.flat.position)
+                 ? quickerCreeping(query, termination, std::move(plan))
+                 : plan;
     }
     if (!too_fast) {
       return query.may_end_early ? planOnGuide(obstacles, query, termination, std::move(plan))
@@ -184,12 +191,56 @@ class Planner::Pipeline {
   // passes.
   Plan planOnGuide(const feasibility::Obstacles& obstacles, const Query& query,
                    const Termination& termination, Plan none) {
-    const std::vector<OnGuide> places = placesOnGuide(obstacles.field());
+    std::vector<OnGuide> places = placesOnGuide(obstacles.field());
     Plan plan = planPartOfThePath(obstacles, query, termination, places, std::move(none));
-    const bool may_creep = query.may_creep && trajectory::atRest(query.start) &&
-                           plan.outcome != Outcome::kSolved &&
+    const bool may_creep = mayCreep(query) && plan.outcome != Outcome::kSolved &&
                            plan.outcome != Outcome::kGoalBlocked;
+    if (may_creep && places.empty()) {
+      findTightGuide(query);
+      places = placesOnGuide(without_lee_->field());
+    }
     return may_creep ? creep(query, termination, places, std::move(plan)) : plan;
+  }
+
+  static bool mayCreep(const Query& query) {
+    return query.may_creep && trajectory::atRest(query.start);
+  }
+
+  // From stop to stop along the guide path the hull turns and rests in places that nobody chose:
+  // where creeping leads as far in less time, it does so where there is most room.
+  Plan quickerCreeping(const Query& query, const Termination& termination, Plan plan) {
+    Plan other = creepTo(query.goal, 0.0, query, termination, Plan{});
+    const bool is_quicker =
+        other.outcome == Outcome::kSolved && other.figures.duration_s < plan.figures.duration_s;
+    return is_quicker ? other : plan;
+  }
+
+  static bool isInReach(const Eigen::Vector2d& from, const Eigen::Vector2d& place) {
+    constexpr double kWithin = 0.95;  // of the search's reach
+    return (place - from).cwiseAbs().maxCoeff() < kWithin * HullSearch::kReachM;
+  }
+
+  // At the narrowest clearance it is the discs that cover the hull's rectangle which count there.
+  [[nodiscard]] feasibility::SafetyLimits creepingLimits(const Query& query) const {
+    feasibility::SafetyLimits limits = query.limits;
+    if (query.may_end_early) {
+      const feasibility::HullCover cover(vessel_.hull, limits.hull_margin_m);
+      limits.clearance_m = std::min(limits.clearance_m, cover.middle_m);
+    }
+    return limits;
+  }
+
+  // A guide path for one that is nearer to something than plans keep, or for which all ways are
+  // closed at that.
+  void findTightGuide(const Query& query) {
+    constexpr double kLessM = 1e-3;
+    const map::DistanceField& field = without_lee_->field();
+    const double clearance_m = std::min(creepingLimits(query).clearance_m,
+                                        field.clearance(query.start.flat.position) - kLessM);
+    const vessel::Pose goal{query.goal.flat.position, query.goal.psi_rad};
+    if (clearance_m <= 0.0 || !finder_.find(field, query.guideStart(), goal, guide_, clearance_m)) {
+      guide_.points.clear();
+    }
   }
 
   // To the place with most room on a stretch of the guide path, the farther ones first, from which
@@ -230,7 +281,7 @@ class Planner::Pipeline {
   bool leadsOn(const Query& query, const Termination& termination, const OnGuide& place) {
     const Eigen::Vector2d off = query.goal.flat.position - place.position;
     return off.cwiseAbs().maxCoeff() >= HullSearch::kReachM ||
-           !hullWay(query.limits, termination, {place.position, place.course_rad},
+           !hullWay(creepingLimits(query), termination, {place.position, place.course_rad},
                     {query.goal.flat.position, query.goal.psi_rad})
                 .empty();
   }
@@ -238,29 +289,28 @@ class Planner::Pipeline {
   std::vector<vessel::Pose> hullWay(const feasibility::SafetyLimits& limits,
                                     const Termination& termination, const vessel::Pose& from,
                                     const vessel::Pose& to) {
-    return hull_search_.find(*without_lee_, from, to, {limits.clearance_m, limits.hull_margin_m},
-                             kPosesMost, [&termination] {
-                               return termination.elapsed_s &&
-                                      termination.elapsed_s() >= termination.budget_s;
-                             });
+    HullRoom room{limits.clearance_m, limits.hull_margin_m};
+    if (vessel_.manoeuvring.feelsWind() || !limits.felt.force_n.isZero(0.0)) {
+      room.swings_m = [&](double psi_rad) {
+        return kSwingS * std::abs(vessel::driftAbeam(vessel_.manoeuvring, limits.felt, psi_rad));
+      };
+    }
+    return hull_search_.find(*without_lee_, from, to, room, kPosesMost, [&termination] {
+      return termination.elapsed_s && termination.elapsed_s() >= termination.budget_s;
+    });
   }
 
   // To the goal; or, where that is out of the search's reach, to the farthest place on the guide
   // path with room to turn, or failing that to the farthest.
   Plan creep(const Query& query, const Termination& termination, const std::vector<OnGuide>& places,
              Plan none) {
-    constexpr double kWithin = 0.95;  // of the reach
-    const vessel::Pose start{query.start.flat.position, query.start.psi_rad};
-    const auto isNear = [&](const Eigen::Vector2d& place) {
-      return (place - start.position).cwiseAbs().maxCoeff() < kWithin * HullSearch::kReachM;
-    };
-    if (isNear(query.goal.flat.position)) {
+    if (isInReach(query.start.flat.position, query.goal.flat.position)) {
       return creepTo(query.goal, 0.0, query, termination, std::move(none));
     }
     const double turning_m = vessel::circumscribedRadius(vessel_.hull) + kTurningRoomM;
     for (const double room_m : {turning_m, 0.0}) {
       const auto last = std::find_if(places.rbegin(), places.rend(), [&](const OnGuide& place) {
-        return isNear(place.position) && place.clearance_m >= room_m;
+        return isInReach(query.start.flat.position, place.position) && place.clearance_m >= room_m;
       });
       if (last != places.rend() && none.outcome != Outcome::kSolved) {
         trajectory::Boundary there;
@@ -277,7 +327,7 @@ class Planner::Pipeline {
                const Termination& termination, Plan none) {
     const vessel::Pose start{query.start.flat.position, query.start.psi_rad};
     // A vessel that stopped nearer to something creeps away from there with what it has.
-    feasibility::SafetyLimits limits = query.limits;
+    feasibility::SafetyLimits limits = creepingLimits(query);
     const HullRoom has = hull_search_.roomAt(*without_lee_, start);
     limits.clearance_m = std::min(limits.clearance_m, has.centre_m);
     limits.hull_margin_m = std::min(limits.hull_margin_m, std::max(0.0, has.beside_m));
@@ -380,6 +430,7 @@ class Planner::Pipeline {
       keepTrees(run);
     }
     conclude(run);
+    fell_back_ = run.fallback;
     samples_left_ -= std::max(kTrySamples, run.plan.figures.samples);  // optimising costs too
     run.plan.figures.total_ms = 1e3 * (run.now() - began);
     return std::move(run.plan);
@@ -781,8 +832,9 @@ class Planner::Pipeline {
   GuideLine line_;
   Search search_;
   std::optional<Sampler> sampler_;
-  int samples_left_ = 0;  // of the query, all tries together
-  int work_left_ = 0;     // likewise
+  bool fell_back_ = false;  // what was planned last could not be optimised
+  int samples_left_ = 0;    // of the query, all tries together
+  int work_left_ = 0;       // likewise
   std::optional<Launch> launch_;
   std::optional<Launch> stop_;
   optimizer::GlobalOptimizer optimizer_;

@@ -24,9 +24,10 @@ using feasibility::Obstacles;
 using trajectory::Piece;
 using trajectory::Trajectory;
 
-constexpr double kClearM = 0.1;     // of the outline, when it sets off
-constexpr double kTightM = 0.04;    // where there is no more than this to begin with
-constexpr double kTouchesM = 0.02;  // on the way: half of that
+constexpr double kClearM = 0.1;      // of the outline, when it sets off
+constexpr double kTightM = 0.04;     // where there is no more than this to begin with
+constexpr double kTouchesM = 0.02;   // on the way: half of that
+constexpr double kNoNearerM = 5e-3;  // than it lies, where that is nearer than any of these
 
 // With a mean speed of a walk and time to gather way: the water there is the less known.
 Piece gentleLeg(const Eigen::Vector2d& start, double psi_rad, double ahead_m) {
@@ -60,10 +61,10 @@ class BackingOff {
         room_m_(turningRoom(vessel.hull)) {
     const auto near = [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, 0.0); };
     nodes_.push_back({state.head<2>(), state[vessel::kPsi], 0.0, 0.0, -1, {}});
-    keep_m_ = std::clamp(
-        feasibility::outlineClearance(vessel.hull, nodes_[0].position, nodes_[0].psi_rad, near) -
-            kTouchesM,
-        kTightM, std::max(kClearM, reach_m));
+    const double has_m =
+        feasibility::outlineClearance(vessel.hull, nodes_[0].position, nodes_[0].psi_rad, near);
+    keep_m_ = std::min(std::clamp(has_m - kTouchesM, kTightM, std::max(kClearM, reach_m)),
+                       std::max(0.0, has_m - kNoNearerM));
   }
 
   std::optional<Trajectory> find() {
@@ -269,7 +270,12 @@ std::optional<Trajectory> turnBack(const vessel::State& state, const Obstacles& 
 
 bool backOffIsClear(const Trajectory& path, double from_s, const Obstacles& obstacles,
                     const vessel::Parameters& vessel) {
-  return outlineKeepsClear(path, from_s, vessel, obstacles, kTouchesM, true);
+  const vessel::State here = path.sample(from_s, vessel).state;
+  const double has_m = feasibility::outlineClearance(
+      vessel.hull, here.head<2>(), here[vessel::kPsi],
+      [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, from_s); });
+  return outlineKeepsClear(path, from_s, vessel, obstacles,
+                           std::min(kTouchesM, std::max(0.0, has_m - kNoNearerM)), true);
 }
 
 bool turnBackIsClear(const Trajectory& path, double from_s, const Obstacles& obstacles,

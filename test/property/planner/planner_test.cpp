@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "../../unit/planner/planner_ground.hpp"
 #include "otter_nav/config/fields.hpp"
@@ -202,6 +203,85 @@ TEST(Planner, CreepsWhereNothingElseLeadsOn) {
   // Under way there is always another.
   query.start.flat.velocity = {0.0, 0.5};
   EXPECT_NE(planner.plan(field, query, byIterations()).outcome, Outcome::kSolved);
+}
+
+// Waves have set it nearer to the wall than plans keep, and the goal is out of the search's reach.
+TEST(Planner, CreepsFromNearerThanPlansKeep) {
+  const map::DistanceField field = bentCanal();
+  Query query;
+  query.limits = feasibility::SafetyLimits::of(vessel::Parameters{}, 0.64);
+  query.limits.hull_margin_m = 0.05;
+  query.start.flat.position = {0.87, 9.0};
+  query.start.psi_rad = 1.5707963;
+  query.goal.flat.position = {30.0, 0.0};
+  query.may_end_early = true;
+  query.may_creep = true;
+  ASSERT_LT(field.clearance(query.start.flat.position), query.limits.clearance_m);
+  Planner planner(Options{}, vessel::Parameters{});
+  const Plan plan = planner.plan(field, query, byIterations());
+  ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+  EXPECT_GT(plan.left_m, 0.0);
+  EXPECT_LT(plan.left_m, 25.0);
+}
+
+// The centre comes nearer to both posts of a gap than plans keep; the hull's own sides don't.
+TEST(Planner, CreepsThroughAGapThatTheHullPasses) {
+  map::OccupancyGrid grid = test::openGrid();
+  test::fill(grid, -40.0, 4.0, 39.5, 1.0);
+  test::fill(grid, 0.75, 4.0, 39.25, 1.0);
+  const map::DistanceField field(grid, map::DistanceFieldOptions{});
+  Query query;
+  query.limits = feasibility::SafetyLimits::of(vessel::Parameters{}, 0.64);
+  query.limits.hull_margin_m = 0.0;
+  query.start.flat.position = {0.125, 0.0};
+  query.start.psi_rad = 1.5707963;
+  query.goal.flat.position = {0.125, 10.0};
+  query.goal.psi_rad = 1.5707963;
+  query.may_creep = true;
+  Planner planner(Options{}, vessel::Parameters{});
+  EXPECT_NE(planner.plan(field, query, byIterations()).outcome, Outcome::kSolved);
+  query.may_end_early = true;  // as at the narrowest clearance
+  const Plan plan = planner.plan(field, query, byIterations());
+  EXPECT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+  EXPECT_EQ(plan.left_m, 0.0);
+}
+
+// Among posts: from stop to stop along the guide path takes longer than creeping, now and then.
+TEST(Planner, CreepsWhereThatIsQuickerThanFromStopToStop) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-10.0, 10.0);
+  Planner planner(Options{}, vessel::Parameters{});
+  int quicker = 0;
+  for (int k = 0; k < 4; ++k) {
+    map::OccupancyGrid grid = test::openGrid();
+    test::fill(grid, -40.0, -10.5, 34.0, 21.0);
+    test::fill(grid, 6.0, -10.5, 34.0, 21.0);
+    for (int n = 0; n < 75; ++n) {
+      test::fill(grid, 0.6 * place(random), place(random), 0.3, 0.3);
+    }
+    const map::DistanceField field(grid, map::DistanceFieldOptions{});
+    Query query;
+    query.limits = feasibility::SafetyLimits::of(vessel::Parameters{}, 0.64);
+    query.limits.hull_margin_m = 0.05;
+    query.limits.speed_max_mps = 0.8;
+    query.start.flat.position = {0.0, -11.3};
+    query.start.psi_rad = 1.5707963;
+    query.goal.flat.position = {0.0, 11.3};
+    query.goal.psi_rad = 1.5707963;
+    const Plan without = planner.plan(field, query, byIterations());
+    if (without.outcome != Outcome::kSolved) {
+      continue;
+    }
+    query.may_creep = true;
+    const Plan plan = planner.plan(field, query, byIterations());
+    ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
+    EXPECT_LE(plan.figures.duration_s, without.figures.duration_s + 1e-9);
+    quicker += plan.figures.duration_s < without.figures.duration_s - 1e-3 ? 1 : 0;
+    const auto verification = feasibility::verify(plan.trajectory, field, vessel::Parameters{},
+                                                  query.start, query.goal, query.limits);
+    EXPECT_TRUE(verification.ok) << verification.reason;
+  }
+  EXPECT_GE(quicker, 1);
 }
 
 // Half of the way, or a quarter, ends where the hull can't go on.

@@ -74,6 +74,24 @@ TEST(Safety, MarginsGrowWithWhatTheVesselWanders) {
 
 // Among what nobody has charted: twice what it wanders where there is room for it, and at a crawl
 // where that is most of the room.
+// What was refused under way says nothing of plans from rest: they begin with all the room again.
+TEST(Safety, BeginsWithAllTheRoomAgainWhereItComesToRest) {
+  Safety safety(SupervisorOptions{}, vessel::Parameters{});
+  for (double t = 0.0; t < 20.0; t += 0.1) {
+    safety.wander(t, 0.08);
+  }
+  const double at_first_m = safety.limits(1.0, 5.0).hull_margin_m;
+  ASSERT_GT(at_first_m, 0.1);
+  for (int k = 0; k < 2; ++k) {
+    while (safety.refused()) {
+    }
+    safety.tryWidest();
+  }
+  ASSERT_LT(safety.limits(1.0, 5.0).hull_margin_m, 0.5 * at_first_m);
+  safety.comeToRest();
+  EXPECT_DOUBLE_EQ(safety.limits(1.0, 5.0).hull_margin_m, at_first_m);
+}
+
 TEST(Safety, CrawlsInUnknownWaterWhereItWanders) {
   const vessel::Parameters vessel;
   Safety safety(SupervisorOptions{}, vessel);

@@ -96,6 +96,64 @@ TEST(HullSearch, FindsNothingThroughASlotNarrowerThanTheHull) {
   EXPECT_TRUE(search.find(field, start, {{0.0, 7.0}, kPi / 2.0}, {0.5, 0.02}, kMost).empty());
 }
 
+// A wall four metres thick to the north, with a gap straight ahead and a wide one aside.
+map::DistanceField twoGaps(double from_x, double to_x) {
+  map::OccupancyGrid grid = test::openGrid();
+  test::fill(grid, -40.0, 4.0, 40.0 + from_x, 4.0);
+  test::fill(grid, to_x, 4.0, 1.75 - to_x, 4.0);
+  test::fill(grid, 9.0, 4.0, 31.0, 4.0);
+  return map::DistanceField(grid, {});
+}
+
+bool passesAhead(const std::vector<Pose>& way) {
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Eigen::Vector2d& a = way[i - 1].position;
+    const Eigen::Vector2d& b = way[i].position;
+    if (a.y() < 6.0 && b.y() >= 6.0) {
+      const double share = (6.0 - a.y()) / (b.y() - a.y());
+      return std::abs(a.x() + share * (b.x() - a.x())) < 1.5;
+    }
+  }
+  return false;
+}
+
+// Half the way again and more turns are worth it where there is less than 0.1 m to either side, and
+// not where there is half a metre.
+TEST(HullSearch, PrefersAWideGapToANarrowOne) {
+  HullSearch search(kHull);
+  const Pose start{{0.125, 0.0}, kPi / 2.0};
+  const Pose goal{{0.125, 12.0}, kPi / 2.0};
+  const map::DistanceField narrow = twoGaps(-0.5, 0.75);
+  const std::vector<Pose> round = search.find(narrow, start, goal, {0.6, 0.02}, kMost);
+  expectLeads(round, start, goal);
+  EXPECT_FALSE(passesAhead(round));
+  EXPECT_GE(keeps(round, narrow), 0.25);
+  const std::vector<Pose> through =
+      search.find(twoGaps(-1.0, 1.25), start, goal, {0.6, 0.02}, kMost);
+  expectLeads(through, start, goal);
+  EXPECT_TRUE(passesAhead(through));
+}
+
+// The same gap is wide enough for a hull that lies still, and not for one that a wind from abeam
+// swings.
+TEST(HullSearch, LeavesRoomOnHeadingsOnWhichTheHullSwings) {
+  HullSearch search(kHull);
+  const Pose start{{0.0, 0.0}, kPi / 2.0};
+  const Pose goal{{0.0, 12.0}, kPi / 2.0};
+  const map::DistanceField field = twoGaps(-0.75, 0.75);
+  const auto in_wind = [](const Eigen::Vector2d& wind) {
+    return [wind](double psi_rad) { return 0.8 * std::abs(cross(unitVector(psi_rad), wind)); };
+  };
+  const std::vector<Pose> along =
+      search.find(field, start, goal, {0.6, 0.02, in_wind({0.0, 1.0})}, kMost);
+  expectLeads(along, start, goal);
+  EXPECT_TRUE(passesAhead(along));
+  const std::vector<Pose> across =
+      search.find(field, start, goal, {0.6, 0.02, in_wind({1.0, 0.0})}, kMost);
+  expectLeads(across, start, goal);
+  EXPECT_FALSE(passesAhead(across));
+}
+
 TEST(HullSearch, GivesUpWhenToldTo) {
   HullSearch search(kHull);
   const map::DistanceField field = test::openWater();

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "../mission/waters.hpp"
+#include "otter_nav/feasibility/hull_cover.hpp"
+#include "otter_nav/trajectory/straight_leg.hpp"
 #include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::stopping {
@@ -28,6 +30,32 @@ TEST(BackOff, GoesAsternFromAWallAhead) {
   EXPECT_NEAR(end.state[vessel::kPsi], 0.0, 1e-9);
   EXPECT_LT(end.state.tail<3>().norm(), 1e-9);
   EXPECT_GE(field.clearance(end.state.head<2>()), turningRoom(otter.hull));
+}
+
+// Waves may have set it nearer to something than it would go by itself: away from there, and no
+// nearer.
+TEST(BackOff, GoesFromWhereItAllButTouches) {
+  map::OccupancyGrid grid = test::openWater();
+  test::block(grid, {1.3, -10.0}, {2.0, 10.0});
+  test::block(grid, {-3.0, 1.0}, {-0.5, 2.0});
+  const map::DistanceField field = test::fieldOf(grid);
+  const vessel::Parameters otter;
+  const auto left = [&](double y) {
+    return feasibility::outlineClearance(
+        otter.hull, {0.0, y}, 0.0, [&](const Eigen::Vector2d& p) { return field.clearance(p); });
+  };
+  double y = 0.0;
+  while (left(y) > 0.015) {
+    y += 0.001;
+  }
+  ASSERT_GT(left(y), 0.01);
+  const auto way = backOff(restAt(0.0, y, 0.0), field, otter, {});
+  ASSERT_TRUE(way);
+  EXPECT_TRUE(backOffIsClear(*way, 0.0, field, otter));
+  // Nearer still it comes on another line.
+  vessel::State nearer = restAt(0.0, y, 0.0);
+  const trajectory::Trajectory into({trajectory::straightLeg(nearer.head<2>(), 0.3, 1.0, 4.0)});
+  EXPECT_FALSE(backOffIsClear(into, 0.0, field, otter));
 }
 
 TEST(BackOff, GoesAheadWhereTheWallIsAstern) {
