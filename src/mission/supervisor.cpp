@@ -438,13 +438,22 @@ class Decider final : public Supervisor {
     return (in(phase_)&kUnderWay) == 0 && m.now_s - no_way_s_ < kEvadeAgainS;
   }
   // Few others near, and none in the way.
-  bool hasRoomAgain(const Moment& m) {
+  bool isAmongFew(const Moment& m) {
     constexpr int kFew = 2;
     constexpr double kNearM = 40.0;
     constexpr double kAheadS = 8.0;
     constexpr double kClearM = 2.0;
-    return !plans_.waits() && moversWithin(m, kNearM) <= kFew &&
+    return moversWithin(m, kNearM) <= kFew &&
            evasion_.danger(sailed_, m.now_s, kAheadS, moversOf(m)).gap_m > kClearM;
+  }
+  bool hasRoomAgain(const Moment& m) { return !plans_.waits() && isAmongFew(m); }
+  // For so long that no plan from a moving vessel is to be hoped for.
+  bool hasRoomInVain(const Moment& m) {
+    constexpr double kPatienceS = 5.0;
+    if (!isAmongFew(m)) {
+      crowded_s_ = m.now_s;
+    }
+    return m.now_s - crowded_s_ > kPatienceS;
   }
   // Plans from rest begin bow to a firm load. The tracker turns the resting hull there. Nor is one
   // begun from a heading lost in strong wind, bow and stern off it: the next gust would have it.
@@ -844,6 +853,7 @@ class Decider final : public Supervisor {
       stop_time_s_ = m.now_s;
       is_aside_ = makes_room_ = holds_ = false;
       planned_clearance_m_ = 0.0;
+      crowded_s_ = m.now_s;
     }
     enter(Phase::kEvading, text("among %zu other vessels, the nearest %.1f m beside the way",
                                 m.situation.tracks.size(), found.danger.gap_m));
@@ -853,6 +863,12 @@ class Decider final : public Supervisor {
   Orders planAfterEvading(const Moment& m) {
     Orders orders = planFromSailed(m);
     return orders.plan ? orders : evade(m);
+  }
+  // At rest there are plans that a moving vessel has no time for.
+  Orders stopAfterEvading(const Moment& m) {
+    Orders orders = brakeFor(m, "no plan leads on from out of other vessels' way");
+    is_aside_ = true;
+    return orders;
   }
   Orders stopSetAside(const Moment& m) {
     return stopByItself(m,
@@ -955,6 +971,7 @@ class Decider final : public Supervisor {
   static constexpr Rule kRules[] = {
       {kEvading, &Decider::hasFault, &Decider::stopForFault},
       {kEvading, &Decider::isThere, &Decider::arriveEvading},
+      {kEvading, &Decider::hasRoomInVain, &Decider::stopAfterEvading},
       {kEvading, &Decider::hasRoomAgain, &Decider::planAfterEvading},
       {kEvading, &Decider::always, &Decider::evade},
 
@@ -1653,6 +1670,7 @@ class Decider final : public Supervisor {
   encounter::Pilot pilot_;
   encounter::Evasion evasion_;
   double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
+  double crowded_s_ = 0.0;  // while she evades: when others were many or near last
   double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found
   std::vector<Eigen::Vector2d> way_;              // that the last plan to the goal took
   std::optional<encounter::Manoeuvre> way_made_;  // what the last decision found

@@ -227,6 +227,31 @@ TEST(Evading, HoldsNothingUpWhereThereIsNoWay) {
   EXPECT_GT(refused, 5);
 }
 
+// Where nobody is left but no plan leads on she stops, and plans from rest.
+TEST(Evading, StopsWhereNobodyIsLeftAndNoPlanLeadsOn) {
+  test::ScriptedMission mission;
+  (void)mission.goTo({-20.0, 0.0});
+  putManyNear(mission);
+  ASSERT_TRUE(mission.update(0.1).sail);
+  mission.tracks.clear();
+  const double began_s = mission.now_s;
+  const auto refuseWhile = [&](Phase phase) {
+    while (mission.supervisor->phase() == phase && mission.now_s < began_s + 60.0) {
+      const std::optional<PlanRequest> plan = mission.update(0.1).plan;
+      if (plan) {
+        (void)mission.refuse(*plan, "the hull touches");
+      }
+    }
+  };
+  refuseWhile(Phase::kEvading);
+  EXPECT_GT(mission.now_s, began_s + 4.0);
+  EXPECT_LT(mission.now_s, began_s + 8.0);
+  refuseWhile(Phase::kStopping);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kStopped);
+  EXPECT_TRUE(mission.update(0.1).plan);
+  EXPECT_EQ(mission.supervisor->stops(), 0);
+}
+
 TEST(StandAside, LosesNoRoundToOthersForAMinute) {
   for (const bool near : {false, true}) {
     test::ScriptedMission mission;
