@@ -27,9 +27,10 @@ function(otter_nav_install_library target)
 endfunction()
 
 # A test binary of the core: otter_nav_test(vessel_flatness SOURCES x.cpp ROOMS vessel)
-# Under catkin it joins `colcon test` too.
+# Under catkin it joins `colcon test` too. LONG ones are started first where several run side by
+# side, lest the longest be left to run alone at the end.
 function(otter_nav_test name)
-  cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "LONG" "TIMEOUT" "SOURCES;ROOMS;LIBRARIES" ${ARGN})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 300)
   endif()
@@ -49,6 +50,9 @@ function(otter_nav_test name)
   add_dependencies(${suite}_tests ${target})
   add_test(NAME ${name} COMMAND ${target} --gtest_output=xml:${OTTER_NAV_TEST_RESULTS}/${name}.xml)
   set_tests_properties(${name} PROPERTIES TIMEOUT ${T_TIMEOUT})
+  if(T_LONG)
+    set_tests_properties(${name} PROPERTIES COST 100)
+  endif()
 endfunction()
 
 # A command-line program of the core (no ROS master): runs from the build and by rosrun.

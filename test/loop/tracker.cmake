@@ -1,4 +1,4 @@
-otter_nav_test(loop_tracker
+otter_nav_test(loop_tracker LONG
   SOURCES
     ${CMAKE_CURRENT_LIST_DIR}/tracker/carried_turn_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/gusts_test.cpp
