@@ -1,8 +1,8 @@
 """How long the nodes take to answer what the lidar shows, from bags recorded in real time.
 
 A conflict: the planner finds that something comes too near on the way that is sailed. Its times are
-those of the newest scan in the map by then, of the decision, of the answer (a plan, or a stop) and
-of the first command that the control loop makes with it.
+those of the newest scan in the map by then, of the decision, of the answer (a plan, a stop, or a
+way among other vessels) and of the first command that the control loop makes with it.
 """
 import argparse
 import json
@@ -15,6 +15,7 @@ from .errors import RecordingError
 
 _TOPICS = ("map_updates", "planner_status", "trajectory", "tracker_cycle")
 _CONFLICT = "only "  # how the planner's reason begins then (test/unit/mission)
+_OTHERWISE = {"stopping": "stop", "evading": "way among others"}  # answered, by the state; else a plan
 _PARTS = (("scan to decision", "scan", "decision"), ("decision to answer", "decision", "answer"),
           ("answer to command", "answer", "command"), ("scan to command", "scan", "command"))
 
@@ -46,7 +47,7 @@ def conflicts(messages):
                 wall_ms[message.plans] = message.planning_ms
             if now and message.state != "replanning":
                 now.update(answer=stamp, until=when, plans=message.plans - now["plans"],
-                           kind="stop" if message.state == "stopping" else "plan")
+                           kind=_OTHERWISE.get(message.state, "plan"))
                 found.append(now)
                 now = None
             starts = message.state == "replanning" and message.reason.startswith(_CONFLICT)
@@ -92,7 +93,7 @@ def main(arguments=None):
     except RecordingError as error:
         print(error, file=sys.stderr)
         return 1
-    for kind in ("plan", "stop"):
+    for kind in ("plan", *_OTHERWISE.values()):
         of_kind = [c for c in found if c["kind"] == kind]
         print(f"answered by a {kind}")
         for what, begin, end in _PARTS:

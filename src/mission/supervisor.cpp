@@ -758,11 +758,13 @@ class Decider final : public Supervisor {
   Orders brakeForSpeed(const Moment& m) {
     return brakeFor(m, text("no plan keeps to %.2f m/s from here", safety().speedMax()));
   }
-  // The last one that was found; it may be under way already when this is decided late.
   Orders takeLastStop(const Moment& m) {
-    std::string why = phase_ == Phase::kReplanning && conflict_.found
-                          ? conflictText(conflict_)
-                          : "no later stop in water known to be free";
+    return takeLastStop(m, phase_ == Phase::kReplanning && conflict_.found
+                               ? conflictText(conflict_)
+                               : "no later stop in water known to be free");
+  }
+  // The last one that was found; it may be under way already when this is decided late.
+  Orders takeLastStop(const Moment& m, std::string why) {
     constexpr double kApartM = 0.2;
     const auto place = [&](const TimedTrajectory& path) {
       return path.trajectory.flat(path.elapsed(m.now_s)).position;
@@ -845,7 +847,7 @@ class Decider final : public Supervisor {
     }
     if (found.path.trajectory.empty()) {
       no_way_s_ = m.now_s;
-      return under_way ? stopByItself(m, "no way among other vessels") : Orders{};
+      return under_way ? takeLastStop(m, "no way among other vessels") : Orders{};
     }
     plans_.drop();  // what is asked for begins on what was sailed
     if (!evades) {

@@ -31,7 +31,8 @@ struct PlannerNodeOptions {
            "decisions take effect this long after the scan (the plant's figure)");
     fields("lockstep_iterations", o.lockstep_iterations, {1, 1e7},
            "bound a plan in lockstep, so that it is the same every time");
-    fields("planning_budget_s", o.planning_budget_s, {0.001, 60.0},
+    // Five times the most is still answered within the 5 s for which the mission waits.
+    fields("planning_budget_s", o.planning_budget_s, {0.001, 0.9},
            "of wall time, bounds a plan otherwise; five times as much where the vessel may creep");
     fields("use_topology_node", o.use_topology_node,
            "ask its service for guide paths; else the planner finds its own");

@@ -18,7 +18,7 @@ def status(stamp, state, plans, reason="", planning_ms=20.0):
 class LatencyTest(unittest.TestCase):
     NEAR = "only 0.03 m clear at (1.0 m, 2.0 m) on the way"
 
-    def test_a_plan_and_a_stop(self):
+    def test_a_plan_a_stop_and_a_way_among_others(self):
         found, wall_ms = conflicts([
             status(0.9, "sailing", 1),
             said("map_updates", 0.93), status(1.02, "replanning", 1, self.NEAR),
@@ -31,12 +31,16 @@ class LatencyTest(unittest.TestCase):
             said("trajectory", 2.01, 2.4, id=3), status(2.4, "stopping", 3, self.NEAR),
             said("tracker_cycle", 2.41, trajectory_taken=2),
             said("tracker_cycle", 2.42, trajectory_taken=3),
+            status(2.9, "sailing", 4), said("map_updates", 3.0),
+            status(3.01, "replanning", 4, self.NEAR), said("trajectory", 3.1, 3.05, id=4),
+            status(3.06, "evading", 4), said("tracker_cycle", 3.07, trajectory_taken=4),
         ])
-        self.assertEqual([c["kind"] for c in found], ["plan", "stop"])
-        self.assertEqual([c["plans"] for c in found], [2, 0])
+        self.assertEqual([c["kind"] for c in found], ["plan", "stop", "way among others"])
+        self.assertEqual([c["plans"] for c in found], [2, 0, 0])
         self.assertEqual([(c["scan"], c["decision"], c["answer"], c["command"]) for c in found],
-                         [(1.0, 1.02, 1.11, 1.12), (2.0, 2.01, 2.4, 2.42)])
-        self.assertEqual(sorted(wall_ms), [5.0, 20.0, 20.0])
+                         [(1.0, 1.02, 1.11, 1.12), (2.0, 2.01, 2.4, 2.42),
+                          (3.0, 3.01, 3.06, 3.07)])
+        self.assertEqual(sorted(wall_ms), [5.0, 20.0, 20.0, 20.0])
 
     def test_what_is_no_conflict_or_goes_by_itself_does_not_count(self):
         found, _ = conflicts([

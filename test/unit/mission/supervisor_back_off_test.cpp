@@ -227,6 +227,26 @@ TEST(Evading, HoldsNothingUpWhereThereIsNoWay) {
   EXPECT_GT(refused, 5);
 }
 
+// Under way between walls, too near for the search: she takes the stop that was verified last.
+TEST(Evading, TakesTheLastStopWhereThereIsNoWay) {
+  test::ScriptedMission mission;
+  mission.setOut(6.0);
+  (void)mission.update(0.1);
+  const double x = mission.situation().state.x();
+  mission.put({x - 3.0, 0.65}, {x + 12.0, 1.5});
+  mission.put({x - 3.0, -1.5}, {x + 12.0, -0.65});
+  for (int k = 0; k < 4; ++k) {
+    mission.tracks.push_back(northward({x - 12.0 + 8.0 * k, -25.0}, mission.now_s + 0.1));
+    mission.tracks.back().id = k;
+  }
+  const Orders orders = mission.update(0.1);
+  EXPECT_EQ(mission.supervisor->reason(), "no way among other vessels");
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kStopping);
+  EXPECT_FALSE(orders.stop);
+  ASSERT_TRUE(orders.sail);
+  EXPECT_LT(orders.sail->left(mission.now_s), 8.0);
+}
+
 // Where nobody is left but no plan leads on she stops, and plans from rest.
 TEST(Evading, StopsWhereNobodyIsLeftAndNoPlanLeadsOn) {
   test::ScriptedMission mission;
