@@ -308,12 +308,41 @@ class Decider final : public Supervisor {
   bool isFarOff(const Moment& m) {
     return m.situation.tracking_error_m > options_.tracking_error_max_m;
   }
+  // Along its way, by more than waves swing it, and still more from moment to moment: with all its
+  // thrust it can't keep up. The same way later is as clear, and can be followed.
+  bool fallsBehind(const Moment& m) {
+    constexpr double kBehindM = 0.2;
+    constexpr double kUnderWayMps = 0.8;
+    const vessel::State& x = m.situation.state;
+    const vessel::FlatPoint wanted = sailed_.trajectory.flat(sailed_.elapsed(m.now_s));
+    const double speed = wanted.velocity.norm();
+    if (m.situation.tracking_error_m < kBehindM || speed < kUnderWayMps) {
+      return false;
+    }
+    const Eigen::Vector2d along = wanted.velocity / speed;
+    const double behind_m = (wanted.position - x.head<2>()).dot(along);
+    const Eigen::Vector2d velocity =
+        Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
+    if (behind_m < kBehindM || velocity.dot(along) > speed) {
+      return false;
+    }
+    later_ = sailed_;
+    later_.start_time_s += behind_m / speed;
+    behind_m_ = behind_m;
+    return findStop(m, later_, planned_limits_, stopping::Off{});
+  }
   // A plan that knows wind and current, made from where they have set the vessel, is one that it
   // can follow again: it need not be far off for that.
   bool isLeftBehind(const Moment& m) {
     constexpr double kShareWithWeather = 0.7;
     const double share = safety().plansWithWeather() ? kShareWithWeather : 1.0;
-    return m.situation.tracking_error_m > share * options_.tracking_error_max_m;
+    return std::max(m.situation.tracking_error_m, lateBy(m.now_s)) >
+           share * options_.tracking_error_max_m;
+  }
+  // By how much what is sailed was put off, of late: as if the vessel had made good 0.1 m/s of it.
+  [[nodiscard]] double lateBy(double now_s) const {
+    constexpr double kMadeGoodMps = 0.1;
+    return std::max(late_m_ - kMadeGoodMps * (now_s - late_at_s_), 0.0);
   }
   // Broadside to where it should point and carried off.
   bool hasLostItsHeading(const Moment& m) {
@@ -646,6 +675,7 @@ class Decider final : public Supervisor {
     if (phase_ == Phase::kSailing) {  // not for each attempt again
       safety().leftBehind();
     }
+    late_m_ = 0.0;
     return planFromVessel(m, "far off the trajectory");
   }
   Orders planForWeather(const Moment& m) {
@@ -780,6 +810,12 @@ class Decider final : public Supervisor {
   }
   Orders changeTheStop(const Moment& m) {
     sailed_ = {std::move(other_stop_), m.now_s};
+    return {std::nullopt, sailed_, false};
+  }
+  Orders sailLater(const Moment& m) {
+    late_m_ = lateBy(m.now_s) + behind_m_;
+    late_at_s_ = m.now_s;
+    sailed_ = later_;
     return {std::nullopt, sailed_, false};
   }
   Orders goOn(const Moment& m) { return planFromSailed(m); }
@@ -1007,6 +1043,7 @@ class Decider final : public Supervisor {
       {kUnderWay, &Decider::mustWait, &Decider::keepOn},
       {kUnderWay, &Decider::shouldMakeWay, &Decider::makeWay},
       {kUnderWay, &Decider::isLeftBehind, &Decider::planFromFarOff},
+      {kUnderWay, &Decider::fallsBehind, &Decider::sailLater},
       {kUnderWay, &Decider::lacksThrust, &Decider::planForWeather},
       {kSailing, &Decider::isTooFastForGusts, &Decider::planForGusts},
       {kUnderWay, &Decider::endsOnAWrongHeading, &Decider::planForGoalHeading},
@@ -1671,6 +1708,10 @@ class Decider final : public Supervisor {
   std::optional<Obstacles> seen_;              // and what lies still
   encounter::Pilot pilot_;
   encounter::Evasion evasion_;
+  TimedTrajectory later_;  // what is sailed, for a vessel that is so far behind:
+  double behind_m_ = 0.0;
+  double late_m_ = 0.0;  // what was put off in all, less what counts as made good since
+  double late_at_s_ = 0.0;
   double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
   double crowded_s_ = 0.0;  // while she evades: when others were many or near last
   double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found

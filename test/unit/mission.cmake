@@ -4,5 +4,5 @@ otter_nav_test(unit_mission_supervisor
   SOURCES ${mission_tests}/supervisor_test.cpp ${mission_tests}/supervisor_goal_test.cpp
           ${mission_tests}/supervisor_wind_test.cpp ${mission_tests}/supervisor_back_off_test.cpp
           ${mission_tests}/supervisor_edge_test.cpp ${mission_tests}/supervisor_suspend_test.cpp
-          ${mission_tests}/supervisor_speed_test.cpp
+          ${mission_tests}/supervisor_speed_test.cpp ${mission_tests}/supervisor_behind_test.cpp
   ROOMS mission)
