@@ -309,8 +309,8 @@ class Decider final : public Supervisor {
     return m.situation.tracking_error_m > options_.tracking_error_max_m;
   }
   // Along its way, by more than waves swing it, and still more from moment to moment: with all its
-  // thrust it can't keep up. The same way later is as clear, and can be followed. In a firm load and
-  // in strong wind it is not time alone that lacks there.
+  // thrust it can't keep up. The same way later is as clear, and can be followed. In a firm load
+  // and in strong wind it is not time alone that lacks there.
   bool fallsBehind(const Moment& m) {
     constexpr double kBehindM = 0.2;
     constexpr double kUnderWayMps = 0.8;
