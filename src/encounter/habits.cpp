@@ -1,5 +1,6 @@
 #include "encounter/habits.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -42,8 +43,14 @@ void Habits::observe(const std::vector<traffic::Track>& tracks) {
         record.before = last->second;
       }
     }
+    record.tracked << track.position, track.velocity;
+    record.covariance = track.covariance;
     last_[track.id] = static_cast<int>(records_.size());
     records_.push_back(record);
+    smoothBefore(last_[track.id]);
+  }
+  for (const traffic::Track& track : tracks) {
+    follow(track);
   }
   if (records_.size() > kMostRecords) {
     forgetOldest();
@@ -60,6 +67,91 @@ void Habits::forgetOldest() {
   for (auto it = last_.begin(); it != last_.end();) {
     it->second -= cut;
     it = it->second < 0 ? last_.erase(it) : std::next(it);
+  }
+  places_.clear();
+}
+
+// What came later tells better where she was and how she went: the smoother of Rauch, Tung and
+// Striebel (1965) over the last records of a track, the velocity straying at random.
+void Habits::smoothBefore(int last) {
+  constexpr int kBack = 5;
+  constexpr double kStrays = 3.0;  // density of a white acceleration, m^2/s^3
+  Eigen::Vector4d mean = record(last).tracked;
+  int index = last;
+  for (int k = 0; k < kBack && record(index).before >= 0; ++k) {
+    const double dt = record(index).time_s - record(record(index).before).time_s;
+    index = record(index).before;
+    Record& then = records_[static_cast<std::size_t>(index)];
+    Eigen::Matrix4d moves = Eigen::Matrix4d::Identity();
+    Eigen::Matrix4d strays = Eigen::Matrix4d::Zero();
+    for (int axis = 0; axis < 2; ++axis) {
+      moves(axis, axis + 2) = dt;
+      strays(axis, axis) = kStrays * dt * dt * dt / 3.0;
+      strays(axis, axis + 2) = strays(axis + 2, axis) = kStrays * dt * dt / 2.0;
+      strays(axis + 2, axis + 2) = kStrays * dt;
+    }
+    const Eigen::Matrix4d foretold = moves * then.covariance * moves.transpose() + strays;
+    const Eigen::Matrix4d gain = then.covariance * moves.transpose() * foretold.inverse();
+    mean = then.tracked + gain * (mean - moves * then.tracked);
+    then.position = mean.head<2>();
+    then.velocity = mean.tail<2>();
+  }
+}
+
+bool Habits::moveAlong(Match& at, double by_s) const {
+  double then = record(at.record).time_s +
+                at.share * (record(record(at.record).next).time_s - record(at.record).time_s) +
+                by_s;
+  while (then < record(at.record).time_s && record(at.record).before >= 0) {
+    at.record = record(at.record).before;
+  }
+  while (then > record(record(at.record).next).time_s) {
+    at.record = record(at.record).next;
+    if (record(at.record).next < 0) {
+      return false;
+    }
+  }
+  const double began = record(at.record).time_s;
+  at.share = (then - began) / (record(record(at.record).next).time_s - began);
+  return true;
+}
+
+// Once on a way again she is so until she is off it for a moment: as she turns a corner there her
+// course is known late.
+void Habits::follow(const traffic::Track& track) {
+  constexpr double kOffFarM = 4.0;
+  constexpr double kOffM = 2.5;
+  constexpr double kOffOnAnotherCourseM = 1.0;
+  constexpr double kAnotherCourseCosine = 0.7;
+  constexpr double kMayBeOffS = 0.4;
+  constexpr double kAlongS = 1.0;  // in which she is found to be earlier or later than before
+  Place& place = places_[track.id];
+  const double dt = track.stamp_s - place.stamp_s;
+  place.stamp_s = track.stamp_s;
+  if (!track.makesWay() || (place.at.record >= 0 && (dt > kGapS || !moveAlong(place.at, dt)))) {
+    place.at.record = -1;
+  }
+  if (!track.makesWay()) {
+    return;
+  }
+  if (place.at.record < 0) {
+    place.at = match(track.position, track.velocity, track.id, track.stamp_s - kBeforeS);
+    place.off_s = 0.0;
+    return;
+  }
+  const Record& from = record(place.at.record);
+  const Record& to = record(from.next);
+  const Eigen::Vector2d stretch = to.position - from.position;
+  const Eigen::Vector2d off = track.position - from.position - place.at.share * stretch;
+  const bool another =
+      track.velocity.dot(stretch) < kAnotherCourseCosine * track.velocity.norm() * stretch.norm();
+  const bool is_off = off.norm() > kOffM || (another && off.norm() > kOffOnAnotherCourseM);
+  place.off_s = is_off ? place.off_s + dt : 0.0;
+  const Eigen::Vector2d velocity = stretch / (to.time_s - from.time_s);
+  const double later_s =
+      off.dot(velocity) / std::max(0.1, velocity.squaredNorm()) * (1.0 - std::exp(-dt / kAlongS));
+  if (off.norm() > kOffFarM || place.off_s > kMayBeOffS || !moveAlong(place.at, later_s)) {
+    place.at.record = -1;
   }
 }
 
@@ -114,8 +206,10 @@ std::optional<double> Habits::steadyTurn(const traffic::Track& track) const {
   double first_s = 0.0;
   while (at->before >= 0 && now->time_s - at->time_s < 2.0 * kHalfS) {
     const Record* earlier = &records_[static_cast<std::size_t>(at->before)];
-    turned_rad +=
-        std::atan2(cross(earlier->velocity, at->velocity), earlier->velocity.dot(at->velocity));
+    // As tracked: smoothed, a corner looks like a round.
+    const Eigen::Vector2d from = earlier->tracked.tail<2>();
+    const Eigen::Vector2d to = at->tracked.tail<2>();
+    turned_rad += std::atan2(cross(from, to), from.dot(to));
     at = earlier;
     if (first_s == 0.0 && now->time_s - at->time_s >= kHalfS) {
       first_s = now->time_s - at->time_s;
@@ -148,7 +242,14 @@ std::vector<Eigen::Vector2d> Habits::foretell(const traffic::Track& track, doubl
   // Where a way breaks off another may lead on.
   constexpr int kWaysMost = 4;
   for (int ways = 0; ways < kWaysMost && static_cast<int>(places.size()) <= steps; ++ways) {
-    const Match found = match(position, velocity, track.id, track.stamp_s - kBeforeS);
+    Match found;
+    const auto place = places_.find(track.id);
+    if (ways == 0 && place != places_.end() && place->second.at.record >= 0 &&
+        moveAlong(found = place->second.at, from_s - place->second.stamp_s)) {
+      found.share = std::clamp(found.share, 0.0, 1.0);
+    } else {
+      found = match(position, velocity, track.id, track.stamp_s - kBeforeS);
+    }
     if (found.record < 0) {
       break;
     }

@@ -29,6 +29,9 @@ class Habits {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
     int id = 0;
+    // As she was tracked then: x, y, v_x, v_y.
+    Eigen::Vector4d tracked = Eigen::Vector4d::Zero();
+    Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
     // Of the same track.
     int before = -1;
     int next = -1;
@@ -37,12 +40,26 @@ class Habits {
     int record = -1;
     double share = 0.0;  // of the stretch to the next one
   };
+  // Where a track is on the way it goes again.
+  struct Place {
+    Match at;
+    double stamp_s = 0.0;  // of the track
+    double off_s = 0.0;    // for so long she has been off it
+  };
+  [[nodiscard]] const Record& record(int index) const {
+    return records_[static_cast<std::size_t>(index)];
+  }
+  void follow(const traffic::Track& track);
+  // `by_s` later on the way, negative: before; whether the way goes so far.
+  [[nodiscard]] bool moveAlong(Match& at, double by_s) const;
+  void smoothBefore(int last);
   [[nodiscard]] Match match(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
                             int id, double before_s) const;
   void forgetOldest();
 
   std::vector<Record> records_;
-  std::map<int, int> last_;  // of each track
+  std::map<int, int> last_;      // of each track
+  std::map<int, Place> places_;  // of each track that is on a way again
 };
 
 }  // namespace otter_nav::encounter

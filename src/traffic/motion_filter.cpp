@@ -30,6 +30,7 @@ constexpr double kAnewCounts = 0.3;  // weight from which its velocity is told
 
 constexpr double kAnySpeedMps = 2.5;  // standard deviation of an unknown velocity, each axis
 constexpr double kAnyTurnRadps = 0.2;
+constexpr double kAnyTurnAmongManyRadps = 0.6;  // of who may be off on a new course at any time
 constexpr double kNoTurnRadps = 1e-3;
 constexpr double kLeastWeight = 1e-4;
 
@@ -154,7 +155,8 @@ void MotionFilter::mix(double dt_s, double anew_per_s) {
       model.P += share[from] * (before[from].P + off * off.transpose());
     }
     if (to == kBeginsToTurn) {  // at any rate
-      model.P(4, 4) += share[kStraight] * kAnyTurnRadps * kAnyTurnRadps;
+      const double any = anew_per_s > 0.0 ? kAnyTurnAmongManyRadps : kAnyTurnRadps;
+      model.P(4, 4) += (share[kStraight] + share[kAnew]) * any * any;
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::traffic {
@@ -13,6 +14,7 @@ namespace {
 // is wrong in the same way), so that they weigh less than fifteen of them a second would.
 constexpr double kSeenSideM = 0.5;
 constexpr double kGuessedSideM = 0.7;
+constexpr double kMeasuredSideM = 0.2;  // where the sides themselves tell how the hull lies
 constexpr double kLeastSizeM = 0.5;
 constexpr int kYoungHits = 5;
 
@@ -187,13 +189,32 @@ double TrackedVessel::halfDepth(const Eigen::Vector2d& along) const {
          (length_m * std::abs(ahead().dot(along)) + beam_m * std::abs(across(ahead()).dot(along)));
 }
 
-Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d& eye) const {
+std::optional<double> TrackedVessel::headingBySides(const Cluster& cluster) const {
+  constexpr std::size_t kFewest = 8;
+  constexpr double kLeastLengthM = 1.0;
+  constexpr double kMostDeviationM = 0.15;
+  if (cluster.points.size() < kFewest ||
+      (cluster.points.front() - cluster.points.back()).norm() < kLeastLengthM) {
+    return std::nullopt;
+  }
+  const double direction = rectangleDirection(cluster.points);
+  if (rectangleDeviation(cluster.points, direction) > kMostDeviationM) {
+    return std::nullopt;
+  }
+  constexpr double kQuarter = 0.5 * kPi;
+  return direction + kQuarter * std::round((*heading_rad - direction) / kQuarter);
+}
+
+Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d& eye,
+                                   bool by_sides) const {
   // Without a heading, along the line of sight: its near end doesn't shift as more of a hull comes
   // into sight behind it.
   const bool young = hits < kYoungHits && size == Size::kGuessed;
   const bool headed = heading_rad && !young;
+  const std::optional<double> sides =
+      headed && by_sides ? headingBySides(cluster) : std::optional<double>{};
   const Eigen::Vector2d ahead =
-      headed ? unitVector(*heading_rad)
+      headed ? unitVector(sides.value_or(*heading_rad))
              : (cluster.points[cluster.points.size() / 2] - eye).normalized();
   const Eigen::Vector2d port = across(ahead);
   const View view(cluster, eye, ahead);
@@ -202,12 +223,17 @@ Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d
     middle[0] = {view.along.low + 0.5 * beam_m, kGuessedSideM};
     middle[1] = {view.athwart.middle(), kGuessedSideM};
   } else {
-    const bool known = size != Size::kGuessed;
+    const bool known = size != Size::kGuessed || sides;
     const bool in_range = !cluster.out_of_range;
     middle[0] = middleAlong(view.along, view.along_hidden, view.eye_along,
                             view.from_beside && in_range, length_m, known);
     middle[1] = middleAlong(view.athwart, view.athwart_hidden, view.eye_athwart,
                             view.from_end && in_range, beam_m, known);
+  }
+  for (Middle& along : middle) {
+    if (sides && along.deviation_m == kSeenSideM) {
+      along.deviation_m = kMeasuredSideM;
+    }
   }
   const Eigen::Matrix2d axes = (Eigen::Matrix2d() << ahead, port).finished();
   const Eigen::Vector2d variances(middle[0].deviation_m * middle[0].deviation_m,

@@ -68,13 +68,19 @@ struct TrackedVessel {
   [[nodiscard]] bool isUnderWay() const;
   [[nodiscard]] Track track() const;
 
+  // The direction of the sides that a cluster shows next to the heading, which has to be known;
+  // none if it shows none clearly.
+  [[nodiscard]] std::optional<double> headingBySides(const Cluster& cluster) const;
   // Unit vector; asks for a heading.
   [[nodiscard]] Eigen::Vector2d ahead() const;
   // From the outline's middle to its side, along a unit vector.
   [[nodiscard]] double halfDepth(const Eigen::Vector2d& along) const;
   // Where the outline's middle is if `cluster`, seen from `eye`, is this vessel: not the points'
   // middle, but the sides that are seen, with half the size from there on.
-  [[nodiscard]] Measurement measure(const Cluster& cluster, const Eigen::Vector2d& eye) const;
+  // `by_sides`: along the sides where they tell a heading, for the course of who turns at once, or
+  // all the time, lags behind.
+  [[nodiscard]] Measurement measure(const Cluster& cluster, const Eigen::Vector2d& eye,
+                                    bool by_sides = false) const;
   // The first heading is known now: the hull's middle is followed from here on.
   void followMiddle(const Cluster& cluster, const Eigen::Vector2d& eye);
   // What a cluster that is this vessel says of its size.

@@ -102,7 +102,7 @@ class Tracker::Impl {
     look.clutter_per_m2 = kLidarClutterPerM2;
     look.source = kLidar;
     look.measure = [&](const TrackedVessel& vessel, std::size_t k) {
-      return vessel.measure(clusters[k], eye);
+      return vessel.measure(clusters[k], eye, crowded_);
     };
     look.canBe = [&](const TrackedVessel& vessel, std::size_t k) {
       if (vessel.isUnderWay() && clusters[k].stands()) {

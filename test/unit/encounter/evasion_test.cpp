@@ -284,6 +284,70 @@ TEST(Habits, KnowsWhoIsOnAWayAgainThoughCourseAndSpeedWander) {
   EXPECT_TRUE(again({3.2, 0.0}).empty());
 }
 
+// East until x = 20 m, then north, at 2 m/s.
+Eigen::Vector2d roundTheCorner(double t) {
+  const double s = 2.0 * t;
+  return s < 20.0 ? Eigen::Vector2d(s, 0.0) : Eigen::Vector2d(20.0, s - 20.0);
+}
+
+// For a moment her track goes on as before the corner: nobody went there on such a course.
+TEST(Habits, FollowsHerRoundACornerThatHerTrackIsLateFor) {
+  constexpr double kAgainS = 30.0;
+  Habits habits;
+  const auto track = [](int id, double t, double began_s) {
+    traffic::Track she = square(id, roundTheCorner(t - began_s), {0.0, 0.0});
+    she.stamp_s = t;
+    she.velocity = t - began_s < 10.0 ? Eigen::Vector2d(2.0, 0.0) : Eigen::Vector2d(0.0, 2.0);
+    return she;
+  };
+  for (double t = 0.0; t <= 16.0; t += 0.1) {
+    habits.observe({track(1, t, 0.0)});
+  }
+  for (double t = kAgainS; t <= kAgainS + 10.0; t += 0.1) {
+    habits.observe({track(2, t, kAgainS)});
+  }
+  traffic::Track late = track(2, kAgainS + 10.0, kAgainS);
+  late.velocity = {2.0, 0.2};
+  for (const double after : {0.1, 0.2, 0.3}) {
+    late.stamp_s = kAgainS + 10.0 + after;
+    late.position = {20.0 + 1.5 * after, after};
+    habits.observe({late});
+  }
+  const std::vector<Eigen::Vector2d> told = habits.foretell(late, late.stamp_s, 0.5, 8);
+  ASSERT_EQ(told.size(), 9U);
+  EXPECT_LT((told[8] - roundTheCorner(14.3)).norm(), 1.0);
+
+  // Who really goes on straight there is not on that way for long.
+  for (int k = 1; k <= 12; ++k) {
+    late.stamp_s += 0.1;
+    late.position += Eigen::Vector2d(0.2, 0.0);
+    late.velocity = {2.0, 0.0};
+    habits.observe({late});
+  }
+  EXPECT_TRUE(habits.foretell(late, late.stamp_s, 0.5, 8).empty());
+}
+
+// Places as a radar tells them, now to one side and now to the other.
+TEST(Habits, RemembersAWaySmootherThanItWasTracked) {
+  Habits habits;
+  traffic::Track she;
+  int side = 1;
+  for (double t = 0.0; t <= 12.0; t += 0.401) {
+    side = -side;
+    she = square(1, {2.0 * t, 0.6 * side}, {2.0, 0.5 * side});
+    she.covariance.diagonal() << 0.4, 0.4, 0.3, 0.3;
+    she.stamp_s = t;
+    habits.observe({she});
+  }
+  traffic::Track now = square(2, {4.0, 0.0}, {2.0, 0.0});
+  now.stamp_s = 30.0;
+  const std::vector<Eigen::Vector2d> told = habits.foretell(now, 30.0, 0.2, 30);
+  ASSERT_EQ(told.size(), 31U);
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    EXPECT_NEAR(told[k].y(), 0.0, 0.45) << k;
+  }
+}
+
 TEST(Habits, TellsARoundFromACorner) {
   constexpr double kTurnRadps = 0.3;
   Habits round;

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/random.hpp"
 #include "traffic/association.hpp"
 
@@ -137,6 +138,38 @@ TEST(MotionFilter, IsSoonOffOnANewCourseWhereThatIsReckonedWith) {
     } else {
       EXPECT_GT(off, 1.2);
     }
+  }
+}
+
+// Fast on a small circle, by radar first and then by lidar: she may have been on any new course,
+// but it is a turn that is made of it, at her rate.
+TEST(MotionFilter, KnowsWhoGoesRoundFastWhereNewCoursesAreReckonedWith) {
+  constexpr double kRadiusM = 5.5;
+  constexpr double kMps = 3.9;
+  constexpr double kRate = kMps / kRadiusM;
+  constexpr double kAnewPerS = 0.1;
+  constexpr int kRuns = 10;
+  Random random(6);
+  for (int run = 0; run < kRuns; ++run) {
+    const auto seen = [&](double t, double deviation_m) {
+      const Eigen::Vector2d off(random.normal(), random.normal());
+      const Eigen::Vector2d middle = kRadiusM * unitVector(kRate * t);
+      return at(middle + deviation_m * off, std::max(0.5, deviation_m));
+    };
+    MotionFilter filter(seen(0.0, 1.0), 0.0);
+    for (int second = 1; second <= 8; ++second) {
+      filter.predict(second, kAnewPerS);
+      filter.update(seen(second, 1.0));
+    }
+    double now = 8.0;
+    for (int scan = 1; scan <= 60; ++scan) {
+      now = 8.0 + scan / 15.0;
+      filter.predict(now, kAnewPerS);
+      filter.update(seen(now, 0.1));
+    }
+    const Eigen::Vector2d velocity = kMps * across(unitVector(kRate * now));
+    EXPECT_LT((filter.usualState().segment<2>(2) - velocity).norm(), 0.6);
+    EXPECT_NEAR(filter.usualState()[4], kRate, 0.15);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "otter_nav/ais/message.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/random.hpp"
 #include "sea.hpp"
 
@@ -485,6 +486,33 @@ TEST(TrafficTracker, FollowsACrowdThatTurnsAtOnce) {
   });
   EXPECT_GT(known, 0.88 * moments);
   EXPECT_LT(static_cast<double>(tracks), 1.08 * moments);  // and hardly one that is nobody's
+}
+
+// Squares that go round in a crowd: their courses are known a little late, how they lie is seen.
+TEST(TrafficTracker, PlacesWhoTurnsInACrowdByHerSides) {
+  std::vector<vessel::ScriptedVessel> crowd;
+  for (int k = 0; k < 6; ++k) {
+    const Eigen::Vector2d middle = 15.0 * unitVector(kPi / 3.0 * k);
+    vessel::ScriptedVessel square{k + 1, {4.0, 4.0}, true, {}, {2.0 + 0.2 * k}};
+    for (int leg = 0; leg < 200; ++leg) {
+      square.waypoints.emplace_back(middle + 4.5 * unitVector(kPi / 18.0 * leg + k));
+    }
+    crowd.push_back(square);
+  }
+  Sea sea(test::plantOptions("none"), map::OccupancyGrid{}, crowd, 1);
+  double off = 0.0;
+  int moments = 0;
+  sea.run(10.0, {0.0, 0.0});
+  sea.run(40.0, {0.0, 0.0}, [&](const ScanVerdict& /*verdict*/) {
+    for (std::size_t k = 0; k < crowd.size(); ++k) {
+      if (const std::optional<Track> track = sea.trackOf(k)) {
+        off += (track->position - sea.trueMotion(k, track->stamp_s).pose.position).norm();
+        ++moments;
+      }
+    }
+  });
+  EXPECT_GT(moments, 2400);
+  EXPECT_LT(off, 0.13 * moments);
 }
 
 // The same calls give the same tracks.
