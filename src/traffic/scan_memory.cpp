@@ -6,9 +6,12 @@
 namespace otter_nav::traffic {
 namespace {
 
-constexpr int kSide = 128;
-constexpr double kCellM = 0.5;
-constexpr int kMarginCells = 24;  // the square moves when the vessel is nearer to its middle's edge
+constexpr int kSide = 256;
+// Smaller than what may stand there, or beams that pass beside it in its cell say that it wasn't.
+constexpr double kCellM = 0.25;
+constexpr double kStepM = 0.4;      // along a beam
+constexpr double kStagger = 0.618;  // of a step, from scan to scan: no cell is left out for long
+constexpr int kMarginCells = 48;  // the square moves when the vessel is nearer to its middle's edge
 constexpr std::uint8_t kSeenFree = 5;  // scans
 constexpr float kNewForS = 3.0F;
 constexpr float kUnknownForS = 0.6F;  // the same where nobody knows whether it was free
@@ -37,6 +40,7 @@ std::size_t ScanMemory::indexOf(const Eigen::Vector2i& cell) const {
 
 void ScanMemory::begin(double time_s, const Eigen::Vector2d& eye) {
   now_s_ = static_cast<float>(time_s);
+  stagger_ = std::fmod(stagger_ + kStagger, 1.0);
   const Eigen::Vector2i middle = cellAt(eye) - Eigen::Vector2i::Constant(kSide / 2);
   if (!placed_) {
     corner_ = middle;
@@ -80,8 +84,8 @@ bool ScanMemory::isNew(const Eigen::Vector2d& point) const {
   if (here.free_count < kSeenFree || now_s_ - here.free_last_s > kFreeHoldsS) {
     return false;
   }
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
+  for (int dy = -2; dy <= 2; ++dy) {
+    for (int dx = -2; dx <= 2; ++dx) {
       const Eigen::Vector2i around = at + Eigen::Vector2i(dx, dy);
       if (contains(around) && standsSince(cells_[indexOf(around)])) {
         return false;
@@ -108,17 +112,17 @@ void ScanMemory::met(const Eigen::Vector2d& point) {
   cell.met_last_s = now_s_;
 }
 
-// Every quarter of a metre; a cell that was met lately is left alone, so that a beam that passes
-// beside something in the same cell doesn't take it away.
+// Every few tenths of a metre, at other places in the next scan; a cell that was met lately is left
+// alone, so that a beam that passes beside something in the same cell doesn't take it away.
 void ScanMemory::passed(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   const Eigen::Vector2d along = to - from;
   const double length = along.norm();
-  const int steps = static_cast<int>(length / (0.8 * kCellM));
+  const int steps = static_cast<int>(length / kStepM);
   if (steps < 1) {
     return;
   }
   const Eigen::Vector2d step = along / steps;
-  Eigen::Vector2d p = from;
+  Eigen::Vector2d p = from + stagger_ * step;
   for (int k = 0; k < steps; ++k, p += step) {
     const Eigen::Vector2i at = cellAt(p);
     if (!contains(at)) {

@@ -37,6 +37,7 @@ class ScanMemory {
   [[nodiscard]] bool standsSince(const Cell& cell) const;
 
   float now_s_ = 0.0F;
+  double stagger_ = 0.0;
   Eigen::Vector2i corner_ = Eigen::Vector2i::Zero();  // of the square, cells of the whole plane
   bool placed_ = false;
   std::vector<Cell> cells_;  // a torus: a cell's place is its coordinates modulo the square's side

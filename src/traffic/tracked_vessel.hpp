@@ -16,18 +16,25 @@ constexpr double kLongAgoS = -1e9;
 
 struct TrackedVessel {
   TrackedVessel(int the_id, const Measurement& first, double time_s, Source source)
-      : id(the_id), motion(first, time_s), first_s(time_s), last_s(time_s), sources(source) {}
+      : id(the_id),
+        motion(first, time_s),
+        begun_s(time_s),
+        first_s(time_s),
+        last_s(time_s),
+        sources(source) {}
 
   int id;
   MotionFilter motion;
   double existence = 0.2;
   bool confirmed = false;
   bool has_moved = false;  // for certain, at some time
-  double first_s;
-  double last_s;  // when it was last seen or heard
+  double begun_s;
+  double first_s;  // since when nothing has cast a doubt on it
+  double last_s;   // when it was last seen or heard
   int hits = 1;
-  int moving_hits = 0;  // scans in which it was met in water seen free before
-  int missed = 0;       // scans in a row that ought to have shown it and didn't
+  int moving_hits = 0;            // scans in which it was met in water seen free before
+  double last_new_s = kLongAgoS;  // the last of those
+  int missed = 0;                 // scans in a row that ought to have shown it and didn't
 
   std::uint32_t sources;
 

@@ -40,7 +40,7 @@ constexpr double kUnconfirmedGone = 0.1;
 // that follows on clutter isn't.
 constexpr double kSurprise2 = 5.0;
 constexpr int kMostMissed = 1;
-constexpr double kTentativeS = 8.0;      // what is not confirmed by then is dropped
+constexpr double kTentativeS = 8.0;  // what is not confirmed by then is dropped, in doubt or not
 constexpr double kOutlineMarginM = 0.7;  // echoes this near a vessel's outline are hers
 constexpr double kLostS = 30.0;          // neither seen nor heard for so long
 
@@ -119,7 +119,10 @@ class Tracker::Impl {
       if (first_course && vessel.sources == kLidar) {
         vessel.followMiddle(clusters[k], eye);
       }
-      vessel.moving_hits += clusters[k].new_points >= kFewestNew ? 1 : 0;
+      if (clusters[k].new_points >= kFewestNew) {
+        ++vessel.moving_hits;
+        vessel.last_new_s = look.stamp_s;
+      }
       vessel.learnSize(clusters[k], eye);
       if (!vessel.confirmed) {
         vessel.unconfirmed_points.insert(vessel.unconfirmed_points.end(),
@@ -668,7 +671,7 @@ class Tracker::Impl {
       return true;
     }
     if (!vessel.confirmed) {
-      return now_s - vessel.first_s > kTentativeS ||
+      return now_s - vessel.begun_s > kTentativeS ||
              (vessel.sources == kLidar && vessel.hits > 1 && vessel.existence < kUnconfirmedGone);
     }
     const double unseen = now_s - vessel.last_s;
@@ -692,8 +695,12 @@ class Tracker::Impl {
       if (vessel.confirmed || vessel.existence < kConfirmed || vessel.hits < kFewestHits) {
         continue;
       }
-      const bool moves = vessel.has_moved && vessel.moving_hits >= kFewestMovingHits &&
-                         now_s - vessel.first_s >= kFewestSeconds;
+      // A hull under way comes into free water all the time; what comes into sight behind something
+      // nearer seems to for a moment.
+      const bool comes_in = vessel.moving_hits >= kFewestMovingHits &&
+                            2 * vessel.moving_hits >= vessel.hits &&
+                            vessel.last_new_s >= vessel.last_s;
+      const bool moves = vessel.has_moved && comes_in && now_s - vessel.first_s >= kFewestSeconds;
       if ((vessel.sources & (kRadar | kAis)) != 0 || moves) {
         vessel.confirmed = true;
         verdict_.ghosts.insert(verdict_.ghosts.end(), vessel.unconfirmed_points.begin(),

@@ -172,6 +172,57 @@ TEST(TrafficTracker, IsNotFooledByWindDrivenClutter) {
   EXPECT_LE(tracks, 1);
 }
 
+// Cylinders that no chart shows, a metre and more from each other, on both sides of a straight way:
+// what a scan shows of each begins and ends at those before it, and shifts as we go.
+map::OccupancyGrid cylindersBeside(Random& random) {
+  constexpr double kCellM = 0.1;
+  constexpr double kRadiusM = 0.22;
+  map::OccupancyGrid world;
+  world.geometry = {400, 160, kCellM, {-5.0, -8.0}};
+  world.cells.assign(64000, map::Cell::kFree);
+  std::vector<Eigen::Vector2d> middles;
+  for (int tries = 0; tries < 1200; ++tries) {
+    const Eigen::Vector2d middle(random.uniform(-4.0, 34.0), random.uniform(-7.0, 7.0));
+    const bool stands_off =
+        std::abs(middle.y()) > 1.3 &&
+        std::all_of(middles.begin(), middles.end(),
+                    [&](const Eigen::Vector2d& other) { return (middle - other).norm() > 1.2; });
+    if (stands_off) {
+      middles.push_back(middle);
+    }
+  }
+  for (int row = 0; row < 160; ++row) {
+    for (int column = 0; column < 400; ++column) {
+      const Eigen::Vector2d at =
+          world.geometry.origin + kCellM * Eigen::Vector2d(column + 0.5, row + 0.5);
+      for (const Eigen::Vector2d& middle : middles) {
+        if ((at - middle).norm() < kRadiusM) {
+          world.cells[world.geometry.index(column, row)] = map::Cell::kOccupied;
+        }
+      }
+    }
+  }
+  return world;
+}
+
+// Nothing moves there: neither one of them, nor two that are met in turns.
+TEST(TrafficTracker, TakesNoneOfManyCylindersForAVessel) {
+  int tracks = 0;
+  for (std::uint64_t seed = 24; seed <= 40; ++seed) {
+    Random random(seed);
+    Sea sea(lidarOnly("none"), cylindersBeside(random), {}, seed);
+    const double thrust_n = 4.0 + 4.0 * static_cast<double>(seed % 4);
+    int last_id = 0;
+    sea.run(25.0, {thrust_n, 1.04 * thrust_n}, [&](const ScanVerdict& /*verdict*/) {
+      for (const Track& track : sea.tracker.tracks()) {
+        tracks += track.id > last_id ? 1 : 0;
+        last_id = std::max(last_id, track.id);
+      }
+    });
+  }
+  EXPECT_LE(tracks, 1);
+}
+
 // Behind an island for a while, and the same vessel afterwards: on either course, near it and far,
 // for four to twenty-five seconds. One may be lost that was barely known when she was hidden.
 TEST(TrafficTracker, KeepsAVesselBehindAnIsland) {
