@@ -26,41 +26,57 @@ struct Layers {
 
 // Calls visit(cell index, layer) for each cell the ray crosses from `origin` along `direction`
 // (unit) up to `length`, in order, while it is within the grid and for where it is within the
-// layers, each cell at the height of the ray's middle in it (Amanatides and Woo 1987). Which side a
-// ray leaves a cell by is anybody's guess, so nothing branches on it.
+// layers, each cell at the height of the ray's middle in it (Amanatides and Woo 1987).
 template <typename Visit>
 void walkBeam(const GridGeometry& grid, const Layers& layers, const Eigen::Vector3d& origin,
               const Eigen::Vector3d& direction, double length, const Visit& visit) {
-  constexpr double kNever = 1e30;  // finite, for it is multiplied by 0
+  constexpr double kNever = 1e30;
   struct Axis {
-    Axis(double start, double d, double resolution_m)
+    Axis(double start, double d, double resolution_m, int count)
         : cell(static_cast<int>(std::floor(start))),
-          step(d > 0.0 ? 1 : -1),
           stride(d != 0.0 ? resolution_m / std::abs(d) : kNever),
-          next(d != 0.0 ? stride * (d > 0.0 ? cell + 1 - start : start - cell) : kNever) {}
-    void advance(bool crossed) {
-      cell += static_cast<int>(crossed) * step;
-      next += static_cast<double>(crossed) * stride;
+          next(d != 0.0 ? stride * (d > 0.0 ? cell + 1 - start : start - cell) : kNever),
+          left(d > 0.0 ? count - cell : cell + 1) {}
+    void cross() {
+      next += stride;
+      --left;
     }
-    int cell, step;
+    int cell;             // the first
     double stride, next;  // along the ray, m
+    int left;             // cells up to the grid's edge
   };
   const Eigen::Vector2d start = (origin.head<2>() - grid.origin) / grid.resolution_m;
-  Axis x(start.x(), direction.x(), grid.resolution_m);
-  Axis y(start.y(), direction.y(), grid.resolution_m);
+  Axis x(start.x(), direction.x(), grid.resolution_m, grid.width);
+  Axis y(start.y(), direction.y(), grid.resolution_m, grid.height);
+  if (!grid.containsCell(x.cell, y.cell)) {
+    return;
+  }
+  const std::ptrdiff_t step_x = direction.x() > 0.0 ? 1 : -1;
+  const std::ptrdiff_t step_y = direction.y() > 0.0 ? grid.width : -grid.width;
   const double level = layers.level(origin.z());
   const double half_rise = 0.5 * direction.z() / layers.thickness_m;  // in a metre of the ray
+  const auto layerAt = [&](double twice_along) {
+    return layers.atLevel(level + half_rise * twice_along);
+  };
+  // Most rays stay in one layer.
+  const int first_layer = layerAt(0.0);
+  const bool one_layer = first_layer >= 0 && first_layer == layerAt(2.0 * length);
+  std::size_t index = grid.index(x.cell, y.cell);
   double entered = 0.0;
-  while (entered < length && grid.containsCell(x.cell, y.cell)) {
+  while (entered < length && x.left > 0 && y.left > 0) {
     const double leaves = std::min(x.next, y.next);
-    const int layer = layers.atLevel(level + half_rise * (entered + std::min(leaves, length)));
+    const int layer = one_layer ? first_layer : layerAt(entered + std::min(leaves, length));
     if (layer >= 0) {
-      visit(grid.index(x.cell, y.cell), layer);
+      visit(index, layer);
     }
     entered = leaves;
-    const bool through_x = x.next < y.next;
-    x.advance(through_x);
-    y.advance(!through_x);
+    if (x.next < y.next) {
+      x.cross();
+      index += static_cast<std::size_t>(step_x);
+    } else {
+      y.cross();
+      index += static_cast<std::size_t>(step_y);
+    }
   }
 }
 
