@@ -7,7 +7,6 @@ namespace otter_nav::map {
 namespace {
 
 constexpr int kMostLayers = 32;  // a bit each
-constexpr int kBlockLevels = 4;  // 16 voxels a side
 
 Layers layersOf(const HeightBand& band, double resolution_m) {
   const double height = band.max_m - band.min_m;
@@ -31,6 +30,7 @@ SensedLayers::SensedLayers(const GridGeometry& grid, const OccupancyMapOptions& 
   first_ = tree_.coordToKey(corner.x(), corner.y(), options.band.min_m + 0.5 * grid.resolution_m);
   columns_.resize(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height));
   certainly_free_.resize(columns_.size());
+  runs_.resize(columns_.size() / kColumnsInRun + 1);
 }
 
 octomap::OcTreeKey SensedLayers::keyOf(std::size_t column, int layer) const {
@@ -60,35 +60,22 @@ bool SensedLayers::claim(Column& column, std::uint32_t bit) {
   return first;
 }
 
-octomap::OcTreeNode* SensedLayers::find(const octomap::OcTreeKey& key) {
-  const auto childOf = [&](octomap::OcTreeNode* node, int level) {
-    const unsigned child = octomap::computeChildIdx(key, level);
-    return tree_.nodeChildExists(node, child) ? tree_.getNodeChild(node, child) : nullptr;
-  };
-  const octomap::OcTreeKey block = {static_cast<octomap::key_type>(key[0] >> kBlockLevels),
-                                    static_cast<octomap::key_type>(key[1] >> kBlockLevels),
-                                    static_cast<octomap::key_type>(key[2] >> kBlockLevels)};
-  if (block_ == nullptr || block != block_key_) {
-    block_key_ = block;
-    block_ = tree_.getRoot();
-    for (int level = static_cast<int>(tree_.getTreeDepth()) - 1;
-         block_ != nullptr && level >= kBlockLevels; --level) {
-      block_ = childOf(block_, level);
-    }
+octomap::OcTreeNode*& SensedLayers::nodeOf(std::size_t column, int layer) {
+  std::unique_ptr<octomap::OcTreeNode*[]>& run = runs_[column / kColumnsInRun];
+  if (run == nullptr) {
+    const std::size_t nodes = kColumnsInRun * static_cast<std::size_t>(layers_.count);
+    run = std::make_unique<octomap::OcTreeNode*[]>(nodes);
   }
-  octomap::OcTreeNode* node = block_;
-  for (int level = kBlockLevels - 1; node != nullptr && level >= 0; --level) {
-    node = childOf(node, level);
-  }
-  return node;
+  return run[static_cast<std::size_t>(layer) * kColumnsInRun + column % kColumnsInRun];
 }
 
-const octomap::OcTreeNode& SensedLayers::add(const octomap::OcTreeKey& key, float log_odds) {
-  octomap::OcTreeNode* node = find(key);
+const octomap::OcTreeNode& SensedLayers::add(std::size_t column, int layer, float log_odds) {
+  octomap::OcTreeNode*& node = nodeOf(column, layer);
   if (node == nullptr) {
-    return *tree_.updateNode(key, log_odds, true);
+    node = tree_.updateNode(keyOf(column, layer), log_odds, true);
+  } else {
+    tree_.updateNodeLogOdds(node, log_odds);
   }
-  tree_.updateNodeLogOdds(node, log_odds);
   return *node;
 }
 
@@ -105,12 +92,12 @@ bool SensedLayers::judge(std::size_t index, std::uint32_t bit, const octomap::Oc
 
 bool SensedLayers::hit(std::size_t index, int layer) {
   const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
-  return claim(columns_[index], bit) && judge(index, bit, add(keyOf(index, layer), hit_log_odds_));
+  return claim(columns_[index], bit) && judge(index, bit, add(index, layer, hit_log_odds_));
 }
 
 bool SensedLayers::miss(std::size_t index, int layer) {
   const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
-  return claim(columns_[index], bit) && judge(index, bit, add(keyOf(index, layer), miss_log_odds_));
+  return claim(columns_[index], bit) && judge(index, bit, add(index, layer, miss_log_odds_));
 }
 
 bool SensedLayers::clear(std::size_t index) {
@@ -128,7 +115,9 @@ bool SensedLayers::clear(std::size_t index) {
 
 void SensedLayers::reset() {
   tree_.clear();
-  block_ = nullptr;
+  for (auto& run : runs_) {
+    run.reset();
+  }
   std::fill(certainly_free_.begin(), certainly_free_.end(), 0U);
   std::fill(columns_.begin(), columns_.end(), Column{});
 }

@@ -48,9 +48,9 @@ class SensedLayers {
   // Whether this is the scan's first word on the voxel.
   bool claim(Column& column, std::uint32_t bit);
   // Adds to the voxel's log-odds, within the tree's limits.
-  const octomap::OcTreeNode& add(const octomap::OcTreeKey& key, float log_odds);
-  // The voxel's node, or null.
-  octomap::OcTreeNode* find(const octomap::OcTreeKey& key);
+  const octomap::OcTreeNode& add(std::size_t column, int layer, float log_odds);
+  // Where the voxel's node is kept at hand once it was met.
+  octomap::OcTreeNode*& nodeOf(std::size_t column, int layer);
   bool judge(std::size_t column, std::uint32_t bit, const octomap::OcTreeNode& node);
 
   GridGeometry grid_;
@@ -62,10 +62,11 @@ class SensedLayers {
   std::vector<Column> columns_;
   // Layers, a bit each, apart from the rest: most beams pass where nothing else is asked for.
   std::vector<std::uint32_t> certainly_free_;
-  // The part of the tree that was looked into last: a beam's next voxel is mostly in it too. Nodes
+  // The nodes that were met, so that no beam looks for them in the tree again: for so many columns
+  // after each other those of the lowest layer, then of the next; empty where no beam passed. Nodes
   // stay where they are until the tree is cleared, for it isn't pruned.
-  octomap::OcTreeKey block_key_;
-  octomap::OcTreeNode* block_ = nullptr;
+  static constexpr std::size_t kColumnsInRun = 32;
+  std::vector<std::unique_ptr<octomap::OcTreeNode*[]>> runs_;
 };
 
 }  // namespace otter_nav::map
