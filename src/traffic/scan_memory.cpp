@@ -18,8 +18,10 @@ constexpr float kUnknownForS = 0.6F;  // the same where nobody knows whether it 
 constexpr float kFreeHoldsS = 20.0F;  // what was free so long ago says nothing
 constexpr float kEchoHoldsS = 1.0F;   // what was met so long ago doesn't stand there any more
 
+// Of negative ones too, for the side is a power of two.
+static_assert((kSide & (kSide - 1)) == 0);
 int modulo(int value) {
-  return ((value % kSide) + kSide) % kSide;
+  return value & (kSide - 1);
 }
 
 }  // namespace
@@ -122,10 +124,12 @@ void ScanMemory::passed(const Eigen::Vector2d& from, const Eigen::Vector2d& to) 
     return;
   }
   const Eigen::Vector2d step = along / steps;
+  // Of a square no more than the ends need be looked at.
+  const bool within = contains(cellAt(from)) && contains(cellAt(to));
   Eigen::Vector2d p = from + stagger_ * step;
   for (int k = 0; k < steps; ++k, p += step) {
     const Eigen::Vector2i at = cellAt(p);
-    if (!contains(at)) {
+    if (!within && !contains(at)) {
       return;
     }
     Cell& cell = cells_[indexOf(at)];
