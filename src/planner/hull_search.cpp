@@ -19,6 +19,7 @@ constexpr int kCells = static_cast<int>(2.0 * HullSearch::kReachM / kCellM);
 constexpr double kMoveM = 0.15;
 constexpr double kCoarseM = 0.125;
 constexpr int kCoarse = static_cast<int>(2.0 * HullSearch::kReachM / kCoarseM);
+constexpr double kOffGridM = 0.71 * kCoarseM;  // a place of that grid is this near to any other
 // What a slow vessel takes: a metre, a turn, and coming to rest for another motion.
 constexpr double kLegMps = 0.5;
 constexpr double kTurnRadps = 0.35;
@@ -131,61 +132,79 @@ std::size_t HullSearch::keyOf(const Node& node) const {
          static_cast<std::size_t>(heading);
 }
 
-double HullSearch::leftS(const Eigen::Vector2d& position) const {
+// A cell's cost stands once nothing cheaper is left to go on from.
+double HullSearch::leftS(const Eigen::Vector2d& position) {
   const Eigen::Vector2d cell = ((position - start_.position).array() + kReachM).matrix() / kCoarseM;
-  return left_s_[static_cast<std::size_t>(cell.y()) * kCoarse + static_cast<std::size_t>(cell.x())];
+  const float& left =
+      left_s_[static_cast<std::size_t>(cell.y()) * kCoarse + static_cast<std::size_t>(cell.x())];
+  while (!left_front_.empty() && -left_front_.front().first < left) {
+    measureLeft();
+  }
+  return left;
 }
 
-// Of the centre alone, over a grid.
-void HullSearch::measureLeft(const Eigen::Vector2d& goal) {
+Eigen::Vector2d HullSearch::placeOf(int x, int y) const {
+  return start_.position +
+         Eigen::Vector2d((x + 0.5) * kCoarseM - kReachM, (y + 0.5) * kCoarseM - kReachM);
+}
+
+void HullSearch::beginLeft(const Eigen::Vector2d& goal) {
   left_s_.assign(static_cast<std::size_t>(kCoarse) * kCoarse, kFar);
-  const auto placeOf = [&](int x, int y) -> Eigen::Vector2d {
-    return start_.position +
-           Eigen::Vector2d((x + 0.5) * kCoarseM - kReachM, (y + 0.5) * kCoarseM - kReachM);
-  };
-  // A place of the grid is this near to any other.
-  constexpr double kOffGridM = 0.71 * kCoarseM;
+  left_front_.clear();
+  const Eigen::Vector2d first = ((goal - start_.position).array() + kReachM).matrix() / kCoarseM;
+  reachLeft(static_cast<int>(first.x()), static_cast<int>(first.y()), 0.0F);
+}
+
+void HullSearch::reachLeft(int x, int y, float cost_s) {
+  if (x < 0 || y < 0 || x >= kCoarse || y >= kCoarse) {
+    return;
+  }
   const double clearance_m =
       std::max(room_.centre_m, 0.5 * hull_.beam_m + room_.beside_m) - kOffGridM;
-  // No heading leaves the hull more than its middle has.
-  const double middle_m = cover_.middle_m + room_.beside_m - kOffGridM;
-  std::vector<std::pair<float, int>> heap;
-  const auto reach = [&](int x, int y, float cost) {
-    if (x < 0 || y < 0 || x >= kCoarse || y >= kCoarse) {
-      return;
-    }
-    const int at = y * kCoarse + x;
-    if (cost < left_s_[static_cast<std::size_t>(at)] &&
-        obstacles_->field().isClear(placeOf(x, y), clearance_m)) {
-      left_s_[static_cast<std::size_t>(at)] = cost;
-      heap.emplace_back(-cost, at);
-      std::push_heap(heap.begin(), heap.end());
-    }
-  };
-  const Eigen::Vector2d first = ((goal - start_.position).array() + kReachM).matrix() / kCoarseM;
-  reach(static_cast<int>(first.x()), static_cast<int>(first.y()), 0.0F);
+  const int at = y * kCoarse + x;
+  if (cost_s < left_s_[static_cast<std::size_t>(at)] &&
+      obstacles_->field().isClear(placeOf(x, y), clearance_m)) {
+    left_s_[static_cast<std::size_t>(at)] = cost_s;
+    left_front_.emplace_back(-cost_s, at);
+    std::push_heap(left_front_.begin(), left_front_.end());
+  }
+}
+
+// One step of Dijkstra's search over a grid.
+void HullSearch::measureLeft() {
   constexpr float kStraightS = static_cast<float>(kCoarseM / kLegMps);
   constexpr float kAslantS = static_cast<float>(1.41421356 * kCoarseM / kLegMps);
-  while (!heap.empty()) {
-    std::pop_heap(heap.begin(), heap.end());
-    const auto [minus, at] = heap.back();
-    heap.pop_back();
-    if (-minus > left_s_[static_cast<std::size_t>(at)]) {
-      continue;
-    }
-    const int x = at % kCoarse;
-    const int y = at / kCoarse;
-    const double most_m = obstacles_->field().clearance(placeOf(x, y)) - middle_m;
-    const auto tight =
-        static_cast<float>(1.0 + kTightPrice * std::clamp(1.0 - most_m / kRoomyM, 0.0, 1.0));
-    for (int i = -1; i <= 1; ++i) {
-      for (int j = -1; j <= 1; ++j) {
-        if (i != 0 || j != 0) {
-          reach(x + i, y + j, -minus + tight * (i != 0 && j != 0 ? kAslantS : kStraightS));
-        }
+  std::pop_heap(left_front_.begin(), left_front_.end());
+  const auto [minus, at] = left_front_.back();
+  left_front_.pop_back();
+  if (-minus > left_s_[static_cast<std::size_t>(at)]) {
+    return;
+  }
+  const int x = at % kCoarse;
+  const int y = at / kCoarse;
+  // No heading leaves the hull more than its middle has.
+  const double middle_m = cover_.middle_m + room_.beside_m - kOffGridM;
+  const double most_m = obstacles_->field().clearance(placeOf(x, y)) - middle_m;
+  const auto tight =
+      static_cast<float>(1.0 + kTightPrice * std::clamp(1.0 - most_m / kRoomyM, 0.0, 1.0));
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      if (i != 0 || j != 0) {
+        reachLeft(x + i, y + j, -minus + tight * (i != 0 && j != 0 ? kAslantS : kStraightS));
       }
     }
   }
+}
+
+// There are 24 MB of it: what the last search reached is put back, and nothing else.
+void HullSearch::forgetLast() {
+  if (least_s_.empty()) {
+    least_s_.assign(static_cast<std::size_t>(kCells) * kCells * kHeadings, kFar);
+  }
+  for (const Node& node : nodes_) {
+    least_s_[keyOf(node)] = kFar;
+  }
+  nodes_.clear();
 }
 
 void HullSearch::push(const Node& node) {
@@ -351,19 +370,18 @@ std::vector<Pose> HullSearch::find(const feasibility::Obstacles& obstacles, cons
                                    const Pose& goal, const HullRoom& room, int expansions_most,
                                    const std::function<bool()>& is_late) {
   constexpr int kLookEach = 256;
+  forgetLast();  // by its own start
   obstacles_ = &obstacles;
   room_ = room;
   start_ = start;
   goal_ = goal;
   found_ = -1;
-  nodes_.clear();
   front_.clear();
   if ((goal.position - start.position).cwiseAbs().maxCoeff() >= kReachM ||
       slack(start.position, start.psi_rad) < 0.0 || slack(goal.position, goal.psi_rad) < 0.0) {
     return {};
   }
-  least_s_.assign(static_cast<std::size_t>(kCells) * kCells * kHeadings, kFar);
-  measureLeft(goal.position);
+  beginLeft(goal.position);
   push({start.position, 0, Motion::kTurn, 0.0F, -1});
   for (int looked = 0; found_ < 0 && !front_.empty() && looked < expansions_most; ++looked) {
     std::pop_heap(front_.begin(), front_.end());

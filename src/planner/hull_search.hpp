@@ -77,8 +77,14 @@ class HullSearch {
   [[nodiscard]] bool legIsClear(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                 double psi_rad) const;
   [[nodiscard]] std::size_t keyOf(const Node& node) const;
-  [[nodiscard]] double leftS(const Eigen::Vector2d& position) const;
-  void measureLeft(const Eigen::Vector2d& goal);
+  // To the goal, of the centre alone; measured as far as is asked for.
+  [[nodiscard]] double leftS(const Eigen::Vector2d& position);
+  [[nodiscard]] Eigen::Vector2d placeOf(int x, int y) const;  // of the coarse grid
+  void beginLeft(const Eigen::Vector2d& goal);
+  void reachLeft(int x, int y, float cost_s);
+  void measureLeft();
+  // Makes least_s_ far everywhere.
+  void forgetLast();
   void push(const Node& node);
   void expand(int k);
   void tryToGoal(int k);
@@ -92,10 +98,11 @@ class HullSearch {
   vessel::Pose start_;
   vessel::Pose goal_;
   std::vector<Node> nodes_;
-  std::vector<std::pair<float, int>> front_;  // a heap, the least first
-  std::vector<float> least_s_;                // to reach a cell on a heading
-  std::vector<float> left_s_;                 // from a cell of the coarse grid to the goal
-  int found_ = -1;                            // the node from which the goal is reached
+  std::vector<std::pair<float, int>> front_;       // a heap, the least first
+  std::vector<float> least_s_;                     // to reach a cell on a heading
+  std::vector<float> left_s_;                      // from a cell of the coarse grid to the goal
+  std::vector<std::pair<float, int>> left_front_;  // a heap of its cells, the least first
+  int found_ = -1;                                 // the node from which the goal is reached
 };
 
 }  // namespace otter_nav::planner
