@@ -296,6 +296,38 @@ TEST(OccupancyMap, BelievesWhatAnOctoMapWould) {
   EXPECT_GT(seen, 8000);
 }
 
+// What beams tell of one layer is nothing to the layers over and under it, nor to columns beside.
+TEST(OccupancyMap, LayersAreBelievedApart) {
+  OccupancyMap map(coast(), kHull, kOptions);
+  const auto sensorOver = [](double z_m) { return SensorPose{{0.0, 0.125, z_m}, 0.0, 0.0, 0.0}; };
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(insert(map, sensorOver(0.7), aheadOnly(5.1F)));
+  }
+  ASSERT_TRUE(insert(map, sensorOver(1.2), aheadOnly(kInf)));
+  const std::string path = testing::TempDir() + "/layers.ot";
+  ASSERT_TRUE(map.save(path));
+  const std::unique_ptr<octomap::AbstractOcTree> saved(octomap::AbstractOcTree::read(path));
+  std::filesystem::remove(path);
+  const auto* tree = dynamic_cast<const octomap::OcTree*>(saved.get());
+  ASSERT_NE(tree, nullptr);
+  const float hit = octomap::logodds(kOptions.hit_probability);
+  const float miss = octomap::logodds(kOptions.miss_probability);
+  const auto logOdds = [&](double x, int layer) {
+    const octomap::OcTreeNode* node = tree->search(x, 0.125, 0.225 + 0.25 * layer);
+    return node == nullptr ? kNan : node->getLogOdds();
+  };
+  for (int layer = 1; layer < 7; ++layer) {  // the lowest holds the chart
+    if (layer != 2 && layer != 4) {
+      EXPECT_TRUE(std::isnan(logOdds(5.125, layer))) << layer;
+    }
+  }
+  EXPECT_NEAR(logOdds(5.125, 2), 2.0F * hit, 1e-5);
+  EXPECT_NEAR(logOdds(5.125, 4), miss, 1e-5);
+  EXPECT_NEAR(logOdds(4.125, 2), 2.0F * miss, 1e-5);
+  EXPECT_TRUE(std::isnan(logOdds(7.125, 2)));
+  EXPECT_NEAR(logOdds(7.125, 4), miss, 1e-5);
+}
+
 TEST(OccupancyMap, SavesAndResets) {
   OccupancyMap map(coast(), kHull, kOptions);
   ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F)));

@@ -86,6 +86,32 @@ TEST(HullSearch, GoesAsternOutOfACanal) {
   EXPECT_GE(keeps(way, field), 0.05);
 }
 
+// What a search reached is nothing to the next, from wherever that begins.
+TEST(HullSearch, FindsTheSameAgainAsForTheFirstTime) {
+  map::OccupancyGrid grid = test::openGrid();
+  test::fill(grid, 0.0, 0.75, 12.0, 1.0);
+  test::fill(grid, 0.0, -1.75, 12.0, 1.0);
+  const map::DistanceField field(grid, {});
+  const HullRoom room{0.65, 0.05};
+  HullSearch again(kHull);
+  Random random(3);
+  int found = 0;
+  for (int k = 0; k < 12; ++k) {
+    const Pose start{{random.uniform(4.0, 8.0), 0.0}, random.uniform(-0.03, 0.03)};
+    const Pose goal{{random.uniform(-6.0, -3.0), random.uniform(-4.0, 4.0)},
+                    random.uniform(-kPi, kPi)};
+    const std::vector<Pose> way = again.find(field, start, goal, room, kMost);
+    const std::vector<Pose> first = HullSearch(kHull).find(field, start, goal, room, kMost);
+    ASSERT_EQ(way.size(), first.size()) << k;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      EXPECT_EQ(way[i].position, first[i].position) << k;
+      EXPECT_EQ(way[i].psi_rad, first[i].psi_rad) << k;
+    }
+    found += way.empty() ? 0 : 1;
+  }
+  EXPECT_GE(found, 6);
+}
+
 TEST(HullSearch, FindsNothingThroughASlotNarrowerThanTheHull) {
   map::OccupancyGrid grid = test::openGrid();
   test::fill(grid, -40.0, 3.0, 39.5, 1.0);  // 1 m between them
