@@ -328,6 +328,27 @@ TEST(OccupancyMap, LayersAreBelievedApart) {
   EXPECT_NEAR(logOdds(7.125, 4), miss, 1e-5);
 }
 
+// A beam that sinks ahead frees each column where it passes, and no other layer of it.
+TEST(OccupancyMap, ASlantingBeamPassesFromLayerToLayer) {
+  constexpr double kBowDownRad = 0.1;
+  OccupancyMap map(coast(), kHull, kOptions);
+  const SensorPose sensor{{0.0, 0.125, 1.2}, 0.0, kBowDownRad, 0.0};
+  ASSERT_TRUE(insert(map, sensor, aheadOnly(kInf)));
+  const std::string path = testing::TempDir() + "/slanting.ot";
+  ASSERT_TRUE(map.save(path));
+  const std::unique_ptr<octomap::AbstractOcTree> saved(octomap::AbstractOcTree::read(path));
+  std::filesystem::remove(path);
+  const auto* tree = dynamic_cast<const octomap::OcTree*>(saved.get());
+  ASSERT_NE(tree, nullptr);
+  for (const double x : {0.125, 1.125, 4.125, 7.125}) {
+    const int passed = static_cast<int>((1.2 - x * std::tan(kBowDownRad) - 0.1) / 0.25);
+    for (int layer = 1; layer < 7; ++layer) {  // the lowest holds the chart
+      EXPECT_EQ(tree->search(x, 0.125, 0.225 + 0.25 * layer) != nullptr, layer == passed)
+          << x << ", " << layer;
+    }
+  }
+}
+
 TEST(OccupancyMap, SavesAndResets) {
   OccupancyMap map(coast(), kHull, kOptions);
   ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F)));
