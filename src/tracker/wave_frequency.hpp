@@ -15,12 +15,16 @@ class WaveFrequency {
   [[nodiscard]] double radps() const { return radps_; }
 
  private:
+  struct Means {
+    double square_mps = 0.0;
+    double square_m = 0.0;
+  };
   double smooth_mps_ = 0.0;
   double steady_mps_ = 0.0;
   double aside_m_ = 0.0;  // from a position that follows slowly
   double crawled_s_ = 0.0;
-  double mean_square_mps_;
-  double mean_square_m_;
+  Means felt_;   // since the hull has crawled, too
+  Means known_;  // of crawling that was long enough
   double radps_;
 };
 

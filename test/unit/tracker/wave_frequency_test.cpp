@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "otter_nav/base/angles.hpp"
+
 namespace otter_nav::tracker {
 namespace {
 
@@ -42,12 +44,27 @@ TEST(WaveFrequency, IsFoundFromTheSway) {
     swell.noise_mps = 0.02;
     EXPECT_NEAR(found(swell), radps, 0.1 * radps) << "in a current, with noise";
   }
+  EXPECT_NEAR(found({1.26, 0.09, 0.0, 0.12}), 1.26, 0.126) << "turning a little";
 }
 
 TEST(WaveFrequency, StaysTheUsualWhereNoWavesAreFelt) {
   EXPECT_NEAR(found({1.26, 0.0, 0.2, 0.0, 1.0, 0.02}), kUsualRadps, 0.1);
   EXPECT_EQ(found({1.26, 0.09, 0.0, 0.0, 0.0}), kUsualRadps) << "at speed";
   EXPECT_EQ(found({1.26, 0.09, 0.0, 0.2, 1.0}), kUsualRadps) << "in a turn";
+}
+
+// Half a way among narrow places is sailed by then.
+TEST(WaveFrequency, IsFoundSoonWhereAHullThatCrawlsTurnsALittle) {
+  for (const double radps : {1.26, 2.5}) {
+    for (int k = 0; k < 8; ++k) {
+      WaveFrequency frequency;
+      for (double t = 0.0; t < 20.0; t += kSampleS) {
+        const double sway = 0.09 * radps * std::cos(radps * t + 0.25 * kPi * k);
+        frequency.add(sway, 0.12 * std::sin(0.7 * t), 1.0, kSampleS);
+      }
+      EXPECT_NEAR(frequency.radps(), radps, 0.25 * radps) << "eighth " << k;
+    }
+  }
 }
 
 // What sways a hull that is launched in gusts is no swell.
@@ -58,6 +75,10 @@ TEST(WaveFrequency, IsNotLearnedFromALaunch) {
     frequency.add(0.2 * std::cos(0.8 * t), 0.0, launch ? 1.0 : 0.0, kSampleS);
   }
   EXPECT_EQ(frequency.radps(), kUsualRadps);
+  for (double t = 0.0; t < 16.0; t += kSampleS) {
+    frequency.add(0.0, 0.0, 1.0, kSampleS);
+  }
+  EXPECT_NEAR(frequency.radps(), kUsualRadps, 0.1) << "nor once she lies still";
 }
 
 // What is slower than waves is none, however much it moves the hull.
