@@ -87,22 +87,23 @@ struct View {
 // The middle along an axis, with its standard deviation.
 struct Middle {
   double at = 0.0;
-  double deviation_m = kSeenSideM;
+  double deviation_m = 0.0;
 };
 
 // `eye`: the sensor along this axis; `whole_seen`: whether it sees the sides that lie along it. If
-// not, only the near end is seen, and the middle is half the size away.
+// not, only the near end is seen, and the middle is half the size away. `seen_side_m`: how well a
+// side that is seen tells the middle.
 Middle middleAlong(const Span& span, const View::Hidden& hidden, double eye, bool whole_seen,
-                   double size_m, bool size_known) {
+                   double size_m, bool size_known, double seen_side_m) {
   const bool whole = whole_seen && !hidden.any() && span.length() > 0.8 * size_m;
   if (whole || (whole_seen && !hidden.any() && !size_known)) {
-    return {span.middle(), kSeenSideM};
+    return {span.middle(), seen_side_m};
   }
   const double half = 0.5 * std::max(size_m, span.length());
   if (hidden.low && hidden.high) {
     return {span.middle(), std::max(kGuessedSideM, half)};
   }
-  const double deviation = size_known ? kSeenSideM : kGuessedSideM;
+  const double deviation = size_known ? seen_side_m : kGuessedSideM;
   const bool from_low =
       hidden.any() ? hidden.high : std::abs(eye - span.low) < std::abs(eye - span.high);
   return {from_low ? span.low + half : span.high - half, deviation};
@@ -225,15 +226,11 @@ Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d
   } else {
     const bool known = size != Size::kGuessed || sides;
     const bool in_range = !cluster.out_of_range;
+    const double seen_side_m = sides ? kMeasuredSideM : kSeenSideM;
     middle[0] = middleAlong(view.along, view.along_hidden, view.eye_along,
-                            view.from_beside && in_range, length_m, known);
+                            view.from_beside && in_range, length_m, known, seen_side_m);
     middle[1] = middleAlong(view.athwart, view.athwart_hidden, view.eye_athwart,
-                            view.from_end && in_range, beam_m, known);
-  }
-  for (Middle& along : middle) {
-    if (sides && along.deviation_m == kSeenSideM) {
-      along.deviation_m = kMeasuredSideM;
-    }
+                            view.from_end && in_range, beam_m, known, seen_side_m);
   }
   const Eigen::Matrix2d axes = (Eigen::Matrix2d() << ahead, port).finished();
   const Eigen::Vector2d variances(middle[0].deviation_m * middle[0].deviation_m,
