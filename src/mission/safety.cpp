@@ -92,7 +92,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   limits.drift_m =
       kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
   limits.disturbance = planDisturbance();
-  if (times_refused_ < kRefusedMost) {
+  if (timesRefused() < kRefusedMost) {
     limits.felt = leansInto();
   }
   // What it wanders, as far as the level has room for it; half as much each time there was no plan.
@@ -152,7 +152,8 @@ bool Safety::plansWithWeather() const {
 }
 
 vessel::Disturbance Safety::leansInto() const {
-  return weather_.isKnown() && !plansWithWeather() ? weather_.mean() : vessel::Disturbance{};
+  const bool is_known_to_plans = plansWithWeather() && !plansBlind();
+  return weather_.isKnown() && !is_known_to_plans ? weather_.mean() : vessel::Disturbance{};
 }
 
 bool Safety::liesOnAnyHeading() const {
@@ -197,8 +198,11 @@ double Safety::speedInWaves() const {
 }
 
 double Safety::nextThrustShare() const {
-  const int times_refused = times_refused_ - (plansBlind() ? kRefusedMost : 0);
-  return std::min(options_.thrust_share, freeThrustShare() + times_refused * kMoreThrust);
+  return std::min(options_.thrust_share, freeThrustShare() + timesRefused() * kMoreThrust);
+}
+
+int Safety::timesRefused() const {
+  return times_refused_ - (plansBlind() ? kRefusedMost : 0);
 }
 
 bool Safety::plansBlind() const {

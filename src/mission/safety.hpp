@@ -143,6 +143,8 @@ class Safety {
   [[nodiscard]] bool liesOnAnyHeading() const;  // in that
   // The same where it can.
   [[nodiscard]] vessel::Disturbance lightLoad() const;
+  // At all levels; for blind plans, since they are.
+  [[nodiscard]] int timesRefused() const;
   // Of the thrust, what waves take from plans on this level.
   [[nodiscard]] double waveShare() const;
   // What room that takes, m.

@@ -248,6 +248,24 @@ TEST(Safety, ReckonsWithWanderingInAFirmLoad) {
   }
 }
 
+// The tracked hull leans into it all the same.
+TEST(Safety, PlansForStillWaterInAFirmLoadKnowTheLean) {
+  Safety safety(SupervisorOptions{}, otter());
+  vessel::Disturbance load;
+  load.force_n = {0.0, 40.0};
+  for (int k = 0; k < 50; ++k) {
+    safety.feel(0.1 * k, load);
+  }
+  ASSERT_TRUE(safety.plansWithWeather());
+  EXPECT_TRUE(safety.limits(0.8, 20.0).felt.force_n.isZero(0.0));
+  while (!safety.plansBlind()) {
+    ASSERT_TRUE(safety.refused());
+  }
+  const feasibility::SafetyLimits blind = safety.limits(0.8, 20.0);
+  EXPECT_TRUE(blind.disturbance.force_n.isZero(0.0));
+  EXPECT_NEAR(blind.felt.force_n.y(), 40.0, 0.1);
+}
+
 // Only where the hull lies on any heading as it is told to.
 TEST(Safety, LetsNobodyCreepWhereTheLoadTakesTheHeading) {
   const auto mayCreep = [](const char* name, double force_n, double wind_mps) {
