@@ -1399,13 +1399,19 @@ class Decider final : public Supervisor {
     if (keepStop(m, path, kReserveS, limits)) {
       return true;
     }
-    const bool clear = isClearInKnownWater(m, path, limits);
-    for (std::size_t k = 0; clear && k < std::size(kLaterS); ++k) {
-      if (keepStop(m, path, kReserveS + kLaterS[k], limits)) {
-        break;
+    if (!isClearInKnownWater(m, path, limits)) {
+      return false;
+    }
+    for (const double later_s : kLaterS) {
+      if (keepStop(m, path, kReserveS + later_s, limits)) {
+        return true;
       }
     }
-    return clear;
+    // One with less beside it than the plan has is better than an old one.
+    limits = safety().leastStop(planned);
+    limits.off = off;
+    (void)keepStop(m, path, kReserveS, limits);
+    return true;
   }
   // Whether a stop can begin at any time soon. A way to rest is given up for nothing less: going on
   // and stopping in turns, the hull is soon off all of them.

@@ -464,6 +464,38 @@ TEST(Supervisor, KeepsAStopInAHardBend) {
   }
 }
 
+// Beside something that came up, with less room than the plan's stops keep and more than stops must:
+// such a stop is kept, and not the last one that had the plan's margin.
+TEST(Supervisor, KeepsAStopWithLessBesideItThanThePlanHas) {
+  ScriptedMission m;
+  m.rest << -40.0, 0.06, 0.0, 0.0, 0.0, 0.0;
+  map::OccupancyGrid seen = m.grid;
+  test::block(seen, {-42.0, -8.0}, {-38.0, -4.0});  // by nobody: plans keep 0.4 m
+  m.known.emplace(test::fieldOf(seen));
+  const auto orders = m.goTo({40.0, 0.06});
+  ASSERT_NEAR(orders->plan->query.limits.hull_margin_m, 0.4, 1e-9);
+  ASSERT_TRUE(m.answer(*orders->plan, eastward({-40.0, 0.06}, 80.0, 1.5)).sail);
+  (void)m.update(5.0);
+  m.put({-38.0, 1.0}, {30.0, 3.0});  // as much beside the outline, and less beside the discs
+  test::block(seen, {-38.0, 1.0}, {30.0, 3.0});
+  m.known.emplace(test::fieldOf(seen));
+  for (int k = 0; k < 12; ++k) {
+    (void)m.update(0.1);
+    ASSERT_EQ(m.supervisor->phase(), Phase::kReplanning);
+    const trajectory::TimedTrajectory& sailed = m.supervisor->sailed();
+    const std::optional<trajectory::TimedTrajectory>& stop = m.supervisor->lastStop();
+    ASSERT_TRUE(stop);
+    const trajectory::Trajectory& path = stop->trajectory;
+    EXPECT_LT((path.flat(stop->elapsed(m.now_s)).position -
+               sailed.trajectory.flat(sailed.elapsed(m.now_s)).position)
+                  .norm(),
+              1e-3)
+        << k;
+    EXPECT_LT(path.flat(path.duration()).velocity.norm(), 1e-3);
+    EXPECT_LT(stop->left(m.now_s), 15.0);
+  }
+}
+
 // A plan that leads a part of the way is sailed; one that leads on is taken though it takes longer,
 // and where none came the way is planned on from its end, which is no stop that counts.
 TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {
