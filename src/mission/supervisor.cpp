@@ -18,6 +18,7 @@
 #include "otter_nav/stopping/stand_aside.hpp"
 #include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/trajectory/straight_leg.hpp"
+#include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "plan_requests.hpp"
@@ -1428,6 +1429,20 @@ class Decider final : public Supervisor {
     }
     return true;
   }
+  // What the hull is off its way to rest it is off the plan at first, and more while it makes that
+  // good in a bend: whether what lies still leaves as much beside the plan.
+  bool hasRoomForWhatItIsOff(const Moment& m, const TimedTrajectory& path,
+                             const feasibility::SafetyLimits& planned) {
+    constexpr double kUntilMadeGoodS = 5.0;
+    const stopping::Off off = offSailed(m);
+    const double off_m = off.position_m.norm() +
+                         vessel::circumscribedRadius(vessel_.hull) * std::abs(off.heading_rad);
+    const double at = path.elapsed(m.now_s);
+    return !stopping::outlineConflict(path.trajectory, at, at + kUntilMadeGoodS,
+                                      Obstacles(m.obstacles.field()), vessel_, off_m, true,
+                                      planned.disturbance)
+                .found;
+  }
   // One that begins so much later; the way's own end is one.
   bool keepStop(const Moment& m, const TimedTrajectory& path, double later_s,
                 const stopping::StopLimits& limits) {
@@ -1476,6 +1491,9 @@ class Decider final : public Supervisor {
     const bool from_sailed = asked.from == From::kSailed;
     const feasibility::SafetyLimits& planned = asked.request.query.limits;
     const bool gives_up_a_stop = phase_ == Phase::kStopping && from_sailed;
+    if (gives_up_a_stop && !hasRoomForWhatItIsOff(m, plan, planned)) {
+      return {};  // asked for again, from where it is less
+    }
     if ((gives_up_a_stop && !hasStopsForAWhile(m, plan, planned)) ||
         !findStop(m, plan, planned, from_sailed ? offSailed(m) : stopping::Off{})) {
       return asked.gain ? Orders{} : planFailed(m, "no stop in water known to be free", asked);

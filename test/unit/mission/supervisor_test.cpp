@@ -411,6 +411,46 @@ TEST(Supervisor, GoesOnFromAStopOnlyWhereItCanStopForAWhile) {
   }
 }
 
+// What the hull is off the stop it is off the plan too: with less than that beside it the plan is
+// not taken.
+TEST(Supervisor, GoesOnFromAStopOnlyWhereThereIsRoomForWhatItIsOff) {
+  const auto goesOn = [](double aside_m, bool has_wall) {
+    ScriptedMission m;
+    m.rest << -40.0, 0.21, 0.0, 0.0, 0.0, 0.0;
+    const auto orders = m.goTo({40.0, 0.21});
+    (void)m.answer(*orders->plan, eastward({-40.0, 0.21}, 80.0, 2.0));
+    (void)m.update(8.0);
+    m.put({m.situation().state.x() + 3.0, -5.0}, {m.situation().state.x() + 4.0, 5.0});
+    Orders stops = m.update(0.1);
+    for (int k = 0; k < 20 && m.supervisor->phase() != Phase::kStopping; ++k) {
+      stops = m.update(0.1);
+    }
+    EXPECT_EQ(m.supervisor->phase(), Phase::kStopping);
+    m.grid = test::openWater();
+    m.field = test::fieldOf(m.grid);
+    if (has_wall) {
+      m.put({-40.0, 1.0}, {40.0, 2.0});  // 0.25 m beside the hull
+    }
+    std::optional<PlanRequest> asked = stops.plan;
+    for (int k = 0; k < 10 && !asked; ++k) {
+      asked = m.update(0.1).plan;
+    }
+    EXPECT_TRUE(asked);
+    vessel::FlatPoint end;
+    end.position = asked->query.start.flat.position + Eigen::Vector2d(60.0, 0.0);
+    planner::Plan plan;
+    plan.outcome = planner::Outcome::kSolved;
+    plan.trajectory = trajectory::Trajectory(
+        {trajectory::hermitePiece(asked->query.start.flat, end, 30.0)});
+    Situation s = m.situation();
+    s.state.y() += aside_m;
+    return m.supervisor->planFinished(m.now_s, asked->id, plan, s, m.obstacles()).sail.has_value();
+  };
+  EXPECT_TRUE(goesOn(-0.35, false));
+  EXPECT_FALSE(goesOn(-0.35, true));
+  EXPECT_TRUE(goesOn(-0.1, true));
+}
+
 // While it stops, too: another way to rest is taken where the hull would touch on its way back.
 TEST(Supervisor, ChangesAStopThatTouchesAsTheHullLies) {
   for (const double aside_m : {-0.3, 0.0, 0.3}) {
