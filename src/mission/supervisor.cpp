@@ -953,8 +953,14 @@ class Decider final : public Supervisor {
   }
   Orders restBeforeTheGoal(const Moment& m) {
     constexpr int kRoomsMost = 3;  // before another plan is sailed; then it leads nowhere
-    if (is_aside_ || (makes_room_ && ++rooms_made_ <= kRoomsMost)) {  // no stop that counts
+    const bool backed_off = phase_ == Phase::kBackingOff && !is_aside_ && !makes_room_;
+    // No stop that counts: the one before it did.
+    if (is_aside_ || ((makes_room_ || backed_off) && ++rooms_made_ <= kRoomsMost)) {
       safety().tryWidest();
+      if (backed_off) {
+        safety().comeToRest();
+        retries_.madeGood(m.now_s);
+      }
       return enter(Phase::kStopped, reason_);
     }
     return rest(m, reason_, text("stopped %d times, the last: ", retries_.stops() + 1) + reason_);

@@ -68,6 +68,32 @@ TEST(BackOff, RemembersTheDeadEndForThisGoal) {
   }
 }
 
+// The stop before it counts, and it is a part of that; but not for ever without a plan.
+TEST(BackOff, IsNoStopThatCountsThreeTimes) {
+  test::ScriptedMission mission;
+  std::optional<trajectory::TimedTrajectory> order = backOffFromTheWall(mission);
+  for (int k = 1; k <= 4; ++k) {
+    ASSERT_TRUE(order) << k;
+    mission.rest =
+        order->trajectory.sample(order->trajectory.duration(), vessel::Parameters{}).state;
+    for (int j = 0; j < 200 && mission.supervisor->phase() == Phase::kBackingOff; ++j) {
+      (void)mission.update(0.1);
+    }
+    ASSERT_EQ(mission.supervisor->phase(), Phase::kStopped);
+    EXPECT_EQ(mission.supervisor->stops(), k <= 3 ? 0 : 1) << k;
+    const double wall_m = mission.rest.x() + 1.3;
+    mission.put({wall_m, -10.0}, {wall_m + 1.0, 10.0});
+    Orders next;
+    for (int j = 0; j < 30 && !next.sail; ++j) {
+      next = mission.update(0.1);
+      if (next.plan) {
+        next = mission.refuse(*next.plan, "the hull touches");
+      }
+    }
+    order = next.sail;
+  }
+}
+
 TEST(BackOff, EndsWhereSomethingComesUpAstern) {
   test::ScriptedMission mission;
   ASSERT_TRUE(backOffFromTheWall(mission));
