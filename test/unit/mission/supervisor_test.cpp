@@ -440,8 +440,8 @@ TEST(Supervisor, GoesOnFromAStopOnlyWhereThereIsRoomForWhatItIsOff) {
     end.position = asked->query.start.flat.position + Eigen::Vector2d(60.0, 0.0);
     planner::Plan plan;
     plan.outcome = planner::Outcome::kSolved;
-    plan.trajectory = trajectory::Trajectory(
-        {trajectory::hermitePiece(asked->query.start.flat, end, 30.0)});
+    plan.trajectory =
+        trajectory::Trajectory({trajectory::hermitePiece(asked->query.start.flat, end, 30.0)});
     Situation s = m.situation();
     s.state.y() += aside_m;
     return m.supervisor->planFinished(m.now_s, asked->id, plan, s, m.obstacles()).sail.has_value();
@@ -504,8 +504,8 @@ TEST(Supervisor, KeepsAStopInAHardBend) {
   }
 }
 
-// Beside something that came up, with less room than the plan's stops keep and more than stops must:
-// such a stop is kept, and not the last one that had the plan's margin.
+// Beside something that came up, with less room than the plan's stops keep and more than stops
+// must: such a stop is kept, and not the last one that had the plan's margin.
 TEST(Supervisor, KeepsAStopWithLessBesideItThanThePlanHas) {
   ScriptedMission m;
   m.rest << -40.0, 0.06, 0.0, 0.0, 0.0, 0.0;
