@@ -13,6 +13,7 @@ struct Cluster {
   int new_points = 0;              // in water that was seen free before
   int standing_points = 0;         // met there for a while
   bool out_of_range = false;       // in part: it goes on beyond the range
+  bool shared = false;             // two vessels are near: each may have some of the echoes
   bool first_hidden = false;       // it goes on behind something nearer, beyond its first point
   bool last_hidden = false;        // or its last
 

@@ -26,6 +26,9 @@ constexpr int kFewestHits = 2;
 constexpr double kLidarDetection = 0.9;
 constexpr double kLidarUnplaced = 0.5;
 constexpr double kHardlyConcluded = 0.02;
+// Among many, of one this near another, whom the scan may have met as one thing: so much of it.
+constexpr double kBesideConcluded = 0.2;
+constexpr double kAsOneM = 1.0;
 constexpr double kPlacedM = 2.0;
 constexpr double kNearerM = 0.5;
 constexpr double kMostOffM = 2.0;
@@ -123,7 +126,9 @@ class Tracker::Impl {
         ++vessel.moving_hits;
         vessel.last_new_s = look.stamp_s;
       }
-      vessel.learnSize(clusters[k], eye);
+      if (!crowded_ || !clusters[k].shared) {
+        vessel.learnSize(clusters[k], eye);
+      }
       if (!vessel.confirmed) {
         vessel.unconfirmed_points.insert(vessel.unconfirmed_points.end(),
                                          clusters[k].points.begin(), clusters[k].points.end());
@@ -131,7 +136,8 @@ class Tracker::Impl {
     };
     const std::vector<double> taken = associate(look);
     for (std::size_t k = 0; k < clusters.size(); ++k) {
-      if (taken[k] < 0.3 && !isOnTrack(clusters[k]) && clusters[k].new_points >= kFewestNew &&
+      if (taken[k] < 0.3 && !isOnTrack(stamp_s, clusters[k]) &&
+          clusters[k].new_points >= kFewestNew &&
           5 * clusters[k].new_points > static_cast<int>(clusters[k].points.size())) {
         begin(clusters[k], eye, stamp_s);
       }
@@ -226,7 +232,9 @@ class Tracker::Impl {
     };
     const double seen = inSight(middle);
     if (seen > 0.0 && deviation < kPlacedM) {
-      return {seen * kLidarDetection, seen * kLidarDetection};
+      const double shown = seen * kLidarDetection;
+      return {shown,
+              crowded_ && isBesideAnother(vessel, middle) ? kBesideConcluded * shown : shown};
     }
     // She may show an end only, or be elsewhere.
     const Eigen::Vector2d ahead = vessel.heading_rad ? vessel.ahead() : (middle - eye).normalized();
@@ -241,6 +249,20 @@ class Tracker::Impl {
       least = std::min(least, there);
     }
     return {most * kLidarUnplaced, least > 0.0 ? least * kLidarUnplaced : most * kHardlyConcluded};
+  }
+
+  // So near another that both may be met as one thing.
+  [[nodiscard]] bool isBesideAnother(const TrackedVessel& vessel,
+                                     const Eigen::Vector2d& middle) const {
+    return std::any_of(vessels_.begin(), vessels_.end(), [&](const TrackedVessel& other) {
+      if (other.id == vessel.id || !other.confirmed) {
+        return false;
+      }
+      const Eigen::Vector2d off = other.motion.state().head<2>() - middle;
+      const double apart = off.norm();
+      const Eigen::Vector2d along = off / std::max(1e-6, apart);
+      return apart < vessel.halfDepth(along) + other.halfDepth(along) + kAsOneM;
+    });
   }
 
   // Vessels on passage turn as hulls do, and keep apart. Where many crowd in a small place somebody
@@ -379,7 +401,8 @@ class Tracker::Impl {
   }
 
   // Two that pass close by are met as one thing, which is larger than either: each has the echoes
-  // that are nearer to her outline than to the other's.
+  // that are nearer to her outline than to the other's. Among many a size that is guessed by the
+  // others' will do for that.
   [[nodiscard]] std::vector<Cluster> partedAmong(double stamp_s,
                                                  const std::vector<Cluster>& clusters) const {
     constexpr double kLargerM = 0.8;
@@ -390,7 +413,8 @@ class Tracker::Impl {
     now.horizon_s = kFreshS;
     std::vector<Outline> outlines;
     for (const TrackedVessel& vessel : vessels_) {
-      if (vessel.confirmed && vessel.heading_rad && vessel.size != TrackedVessel::Size::kGuessed &&
+      const bool sized = crowded_ || vessel.size != TrackedVessel::Size::kGuessed;
+      if (vessel.confirmed && vessel.heading_rad && sized &&
           stamp_s - vessel.motion.stamp() < kFreshS) {
         outlines.push_back(PredictedPath(vessel.track(), now).at(stamp_s));
       }
@@ -415,6 +439,7 @@ class Tracker::Impl {
                           });
       if (!shared) {
         parted.push_back(cluster);
+        parted.back().shared = near.size() > 1;
         continue;
       }
       std::vector<std::size_t> whose;
@@ -458,15 +483,21 @@ class Tracker::Impl {
       // She may go on behind the other.
       one.first_hidden = c == 0 ? cluster.first_hidden : true;
       one.last_hidden = c + 2 == cuts.size() ? cluster.last_hidden : true;
+      one.shared = true;
       parted.push_back(std::move(one));
     }
   }
 
   // Echoes of a vessel that is tracked already: a part of her that looks like a thing of its own.
-  [[nodiscard]] bool isOnTrack(const Cluster& cluster) const {
+  // Among many a track that has shown nothing lately may be astray, and these another's.
+  [[nodiscard]] bool isOnTrack(double stamp_s, const Cluster& cluster) const {
+    constexpr double kLatelyS = 0.3;
     PredictionOptions now;
     now.horizon_s = 0.0;
     return std::any_of(vessels_.begin(), vessels_.end(), [&](const TrackedVessel& vessel) {
+      if (crowded_ && stamp_s - vessel.last_s > kLatelyS) {
+        return false;
+      }
       const Outline outline = PredictedPath(vessel.track(), now).at(vessel.motion.stamp());
       return outline.distanceTo(cluster.points.front()).distance_m < kOutlineMarginM ||
              outline.distanceTo(cluster.points.back()).distance_m < kOutlineMarginM;

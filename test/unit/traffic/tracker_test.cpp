@@ -540,6 +540,48 @@ TEST(TrafficTracker, FollowsACrowdThatTurnsAtOnce) {
   EXPECT_LT(static_cast<double>(tracks), 1.08 * moments);  // and hardly one that is nobody's
 }
 
+// Squares to and fro across each other's ways, some behind the others: the lidar often meets two of
+// them as one thing, and whoever turns behind another comes out where she isn't looked for.
+TEST(TrafficTracker, KeepsApartWhoPassThroughOneAnotherInACrowd) {
+  long moments = 0;
+  long placed = 0;
+  long tracks = 0;
+  for (int seed = 1; seed <= 6; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    std::vector<vessel::ScriptedVessel> crowd;
+    for (int k = 0; k < 14; ++k) {
+      const bool outer = k >= 7;
+      const double bearing = 2.0 * kPi / 7.0 * k + (outer ? 0.4 : 0.0);
+      const double reach = random.uniform(11.0, 15.0) + (outer ? 5.0 : 0.0);
+      const double course = random.uniform(-kPi, kPi);
+      const double speed = random.uniform(1.5, 4.0);
+      const Eigen::Vector2d middle = reach * unitVector(bearing);
+      const Eigen::Vector2d half = 5.0 * unitVector(course);
+      vessel::ScriptedVessel square{k + 1, {4.0, 4.0}, true, {middle}, {speed}};
+      for (int lap = 0; lap < 20; ++lap) {
+        square.waypoints.emplace_back(middle + (lap % 2 == 0 ? 1.0 : -1.0) * half);
+      }
+      crowd.push_back(square);
+    }
+    Sea sea(test::plantOptions("none"), map::OccupancyGrid{}, crowd,
+            static_cast<std::uint64_t>(seed));
+    sea.run(10.0, {0.0, 0.0});
+    sea.run(30.0, {0.0, 0.0}, [&](const ScanVerdict& /*verdict*/) {
+      tracks += static_cast<long>(sea.tracker.tracks().size());
+      for (std::size_t k = 0; k < crowd.size(); ++k) {
+        const std::optional<Track> track = sea.trackOf(k);
+        ++moments;
+        if (track) {
+          const Eigen::Vector2d truth = sea.trueMotion(k, track->stamp_s).pose.position;
+          placed += (track->position - truth).norm() < 1.0 ? 1 : 0;
+        }
+      }
+    });
+  }
+  EXPECT_GT(static_cast<double>(placed), 0.945 * static_cast<double>(moments));
+  EXPECT_LT(static_cast<double>(tracks), 1.05 * static_cast<double>(moments));
+}
+
 // Squares that go round in a crowd: their courses are known a little late, how they lie is seen.
 TEST(TrafficTracker, PlacesWhoTurnsInACrowdByHerSides) {
   std::vector<vessel::ScriptedVessel> crowd;
