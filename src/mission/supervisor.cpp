@@ -54,6 +54,8 @@ constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBac
 constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
 constexpr unsigned kEvading = in(Phase::kEvading);
 constexpr double kEvadeAgainS = 0.25;  // from one decision about others to the next
+// What the thrusters lack for so much longer on one way than on another makes a difference.
+constexpr double kOvertaxedLongerS = 1.5;
 
 // What a decision is made on.
 struct Moment {
@@ -102,7 +104,7 @@ class Decider final : public Supervisor {
     replans_ = 0;
     nearest_left_m_ = std::numeric_limits<double>::infinity();
     pilot_.newGoal(m.now_s);
-    return withOthers(follow(kGoalRules, m));
+    return withOthers(m, follow(kGoalRules, m));
   }
 
   Orders cancel(double now_s, const Situation& situation, const Obstacles& obstacles,
@@ -130,7 +132,7 @@ class Decider final : public Supervisor {
     if (!std::exchange(suspended_, std::nullopt)) {
       return failure("nothing is paused");
     }
-    return withOthers(follow(kResumeRules, m));
+    return withOthers(m, follow(kResumeRules, m));
   }
 
   void setOptions(const SupervisorOptions& options) override {
@@ -150,9 +152,9 @@ class Decider final : public Supervisor {
     const Moment m = momentOf(now_s, situation, obstacles);
     feel(m);
     lookOut(m);
-    return withOthers(plans_.overdue(now_s)
-                          ? planFailed(m, "no answer from the planner", plans_.take())
-                          : follow(kRules, m));
+    return withOthers(m, plans_.overdue(now_s)
+                             ? planFailed(m, "no answer from the planner", plans_.take())
+                             : follow(kRules, m));
   }
 
   Orders planFinished(double now_s, int id, const planner::Plan& plan, const Situation& situation,
@@ -164,10 +166,10 @@ class Decider final : public Supervisor {
     }
     asked->left_m = plan.left_m;
     if (plan.outcome != planner::Outcome::kSolved || plan.trajectory.empty()) {
-      return withOthers(planFailed(m, plan.reason, *asked));
+      return withOthers(m, planFailed(m, plan.reason, *asked));
     }
-    return withOthers(asked->from == From::kRest ? takeFromRest(m, plan, *asked)
-                                                 : takeMoving(m, plan, *asked));
+    return withOthers(m, asked->from == From::kRest ? takeFromRest(m, plan, *asked)
+                                                    : takeMoving(m, plan, *asked));
   }
 
   [[nodiscard]] double speedMax() const override { return plans_.safety.speedMax(); }
@@ -197,9 +199,12 @@ class Decider final : public Supervisor {
     seen_->add(*near_);
     return {now_s, situation, *seen_};
   }
-  Orders withOthers(Orders orders) const {
+  Orders withOthers(const Moment& m, Orders orders) {
     if (orders.plan && near_) {
       orders.plan->others = *near_;
+    }
+    if (orders.sail) {
+      given_s_ = m.now_s;
     }
     return orders;
   }
@@ -259,6 +264,7 @@ class Decider final : public Supervisor {
     const stopping::Conflict hull =
         stopping::outlineConflict(sailed_.trajectory, at, until, alongSailed(m), vessel_,
                                   safety().critical(), true, planned_limits_.disturbance);
+    outline_too_near_ = hull.found;
     conflict_ = hull.found ? hull : conflict_;
     return conflict_.found;
   }
@@ -267,6 +273,17 @@ class Decider final : public Supervisor {
     return !isAtTheEnd(m) &&
            stopping::isAboutToTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
                                     alongSailed(m), vessel_, planned_limits_.disturbance);
+  }
+  // The way that is sailed keeps `clearance_m` and room to leeward: a plan that asks for that would
+  // have no more.
+  bool hasRoomFor(const Moment& m, double clearance_m, double leeward_m) {
+    constexpr double kAheadS = 30.0;
+    constexpr double kStepM = 0.5;  // that room to leeward is measured in
+    return !outline_too_near_ &&
+           !stopping::firstConflict(sailed_.trajectory, sailed_.elapsed(m.now_s), alongSailed(m),
+                                    clearance_m)
+                .found &&
+           leewardRoom(m, sailed_, kAheadS) >= leeward_m - kStepM;
   }
   bool isClearAgain(const Moment& m) { return replan_for_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
@@ -306,8 +323,19 @@ class Decider final : public Supervisor {
         pilot_.decide({m.now_s, sailed_, goal_.position, *joint, planned_limits_, m.obstacles});
     return way_made_.has_value();
   }
-  bool isFarOff(const Moment& m) {
-    return m.situation.tracking_error_m > options_.tracking_error_max_m;
+  // Of what is sailed. The tracker may speak of what it was given before still.
+  double errorOf(const Moment& m) {
+    constexpr double kSpeaksOfItS = 0.3;
+    if (sailed_.trajectory.empty() || m.now_s - given_s_ > kSpeaksOfItS) {
+      return m.situation.tracking_error_m;
+    }
+    const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position;
+    return std::min(m.situation.tracking_error_m, (m.situation.state.head<2>() - there).norm());
+  }
+  bool isFarOff(const Moment& m) { return errorOf(m) > options_.tracking_error_max_m; }
+  double listedClearance(std::size_t level) const {
+    const std::vector<double>& levels = options_.side_clearances_m;
+    return centreClearance(vessel_.hull, levels[std::min(level, levels.size() - 1)]);
   }
   // Along its way, by more than waves swing it, and still more from moment to moment: with all its
   // thrust it can't keep up. The same way later is as clear, and can be followed. In a firm load
@@ -339,8 +367,7 @@ class Decider final : public Supervisor {
   bool isLeftBehind(const Moment& m) {
     constexpr double kShareWithWeather = 0.7;
     const double share = safety().plansWithWeather() ? kShareWithWeather : 1.0;
-    return std::max(m.situation.tracking_error_m, lateBy(m.now_s)) >
-           share * options_.tracking_error_max_m;
+    return std::max(errorOf(m), lateBy(m.now_s)) > share * options_.tracking_error_max_m;
   }
   // By how much what is sailed was put off, of late: as if the vessel had made good 0.1 m/s of it.
   [[nodiscard]] double lateBy(double now_s) const {
@@ -358,8 +385,7 @@ class Decider final : public Supervisor {
     const bool firm =
         spins ? vessel::canLie(vessel_.manoeuvring, weather().mean(), wanted.state[vessel::kPsi])
               : wanted.heading_force_n > kFirmShare * 2.0 * vessel_.thrusters.ahead_max_n;
-    return weather().isKnown() && firm &&
-           m.situation.tracking_error_m > 0.5 * options_.tracking_error_max_m &&
+    return weather().isKnown() && firm && errorOf(m) > 0.5 * options_.tracking_error_max_m &&
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
                lost_rad;
   }
@@ -382,7 +408,7 @@ class Decider final : public Supervisor {
     constexpr double kPatienceS = 1.5;
     constexpr double kAheadS = 2.0;
     constexpr double kStepS = 0.25;
-    if (m.situation.tracking_error_m < 0.5 * options_.tracking_error_max_m) {
+    if (errorOf(m) < 0.5 * options_.tracking_error_max_m) {
       off_since_s_ = m.now_s;
       return false;
     }
@@ -511,11 +537,10 @@ class Decider final : public Supervisor {
   // On the way left the thrusters have not enough against what blows by now, for longer than when
   // it was planned. Once the weather is known, then not for each change again.
   bool lacksThrust(const Moment& m) {
-    constexpr double kLongerS = 1.5;
     constexpr double kAgainS = 5.0;
     return mayReplanForWeather(m) &&
            (replansForWeather() || m.now_s - weather_asked_s_ >= kAgainS) &&
-           overtaxed(m.now_s, weather().mean()) > planned_overtaxed_s_ + kLongerS;
+           overtaxed(m.now_s, sailed_, weather().mean()) > planned_overtaxed_s_ + kOvertaxedLongerS;
   }
   // At this speed gusts by now take the moment that holds the headings.
   bool isTooFastForGusts(const Moment& m) {
@@ -555,7 +580,10 @@ class Decider final : public Supervisor {
   bool endsOnAWrongHeading(const Moment& m) {
     constexpr double kWrongRad = 0.7;
     constexpr double kLeftS = 5.0;
-    return mayReplanForWeather(m) && sailed_.left(m.now_s) > kLeftS &&
+    constexpr double kSoonS = 30.0;  // what the weather will be later nobody knows
+    const double left_s = sailed_.left(m.now_s);
+    return mayReplanForWeather(m) && left_s > kLeftS &&
+           (left_s < kSoonS || !planned_in_known_weather_) &&
            std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - planned_goal_psi_rad_)) >
                kWrongRad;
   }
@@ -648,14 +676,26 @@ class Decider final : public Supervisor {
   // Nothing if the vessel is about to come to rest: what comes then is for the rules at the
   // trajectory's end, or for the brake.
   Orders planFromSailed(const Moment& m) {
+    constexpr double kForGustsShare = 0.7;  // of the room that they need, which is known roughly
     // What comes into the way before it rests is no reason to plan from there.
     const bool in_the_way = phase_ == Phase::kReplanning && conflict_.found;
     const double rests_by_s = in_the_way ? sailed_.start_time_s + conflict_.time_s
                                          : std::numeric_limits<double>::infinity();
-    return {
+    Orders orders{
         plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles, rests_by_s),
         {},
         false};
+    if (orders.plan && phase_ == Phase::kReplanning && replan_for_ == Cause::kClearance) {
+      const feasibility::SafetyLimits& asked = orders.plan->query.limits;
+      const double listed_m = std::min(listedClearance(safety().level()), asked.clearance_m);
+      const double enough_m = listed_m + kForGustsShare * (asked.clearance_m - listed_m);
+      if (hasRoomFor(m, enough_m, asked.drift_m.norm())) {
+        planned_clearance_m_ = std::min(planned_clearance_m_, enough_m);
+        safety().planTaken();
+        return keepThePlan(m);
+      }
+    }
+    return orders;
   }
   Orders makeWay(const Moment& m) {
     TimedTrajectory path = std::move(way_made_->path);
@@ -1141,15 +1181,16 @@ class Decider final : public Supervisor {
     }
     return fastest;
   }
-  // For how long, s, the way left asks for more than the thrusters have.
-  double overtaxed(double now_s, const vessel::Disturbance& disturbance) {
+  // For how long, s, the way left on `path` asks for more than the thrusters have.
+  double overtaxed(double now_s, const TimedTrajectory& path,
+                   const vessel::Disturbance& disturbance) {
     constexpr double kStepS = 0.25;
     constexpr double kAheadS = 30.0;
-    const double from = sailed_.elapsed(now_s);
-    const double to = std::min(sailed_.trajectory.duration(), from + kAheadS);
+    const double from = path.elapsed(now_s);
+    const double to = std::min(path.trajectory.duration(), from + kAheadS);
     double longer = 0.0;
     for (double t = from; t < to; t += kStepS) {
-      const vessel::Thrusts thrusts = sailed_.trajectory.sample(t, vessel_, disturbance).thrusts;
+      const vessel::Thrusts thrusts = path.trajectory.sample(t, vessel_, disturbance).thrusts;
       longer += vessel::thrustMargin(thrusts, vessel_.thrusters) < 0.0 ? kStepS : 0.0;
     }
     return longer;
@@ -1215,7 +1256,7 @@ class Decider final : public Supervisor {
     const Eigen::Vector2d bow = unitVector(windward(m));
     const double at_first = mayLoseItsHeading() ? kRoundInStrongM : kRoundM;
     const double round = std::min(kRoundMostM, at_first + kRoundAgainM * retries_.stops());
-    const double along = std::abs(unitVector(x[vessel::kPsi]).dot(drift));
+    const double along = std::abs(bow.dot(drift));
     if (far < kRoundM || along < kIntoCosine * drift.norm()) {
       return 0.0;
     }
@@ -1524,7 +1565,7 @@ class Decider final : public Supervisor {
     planned_goal_psi_rad_ = asked.request.query.goal.psi_rad;
     planned_disturbance_ = weather().mean();
     planned_in_known_weather_ = weather().isKnown();
-    planned_overtaxed_s_ = overtaxed(m.now_s, planned_disturbance_);
+    planned_overtaxed_s_ = overtaxed(m.now_s, sailed_, planned_disturbance_);
     plan_time_s_ = sailed_since_s_ = m.now_s;
     holds_ = is_aside_ = makes_room_ = false;
     rooms_made_ = 0;
@@ -1602,8 +1643,17 @@ class Decider final : public Supervisor {
       plans_.latency.late(late);
       return asked.gain ? Orders{} : planFromSailed(m);
     }
+    // Not with thrust that wind and current take.
+    const auto lacks_thrust = [&] {
+      const vessel::Disturbance& planned = asked.request.query.limits.disturbance;
+      return overtaxed(m.now_s, next, weather().mean()) >
+             std::max(overtaxed(m.now_s, next, planned),
+                      overtaxed(m.now_s, sailed_, weather().mean())) +
+                 kOvertaxedLongerS;
+    };
     const bool saves_time =
-        late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.left(m.now_s);
+        late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.left(m.now_s) &&
+        !lacks_thrust();
     const bool leads_on = asked.left_m < planned_left_m_ - kFurtherM ||
                           (asked.left_m == 0.0 && planned_left_m_ > 0.0);
     const auto has_room = [&] {
@@ -1719,8 +1769,11 @@ class Decider final : public Supervisor {
   std::optional<double> calm_by_s_;  // or the mission fails
   double planned_for_mps_ = 0.0;     // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
-  stopping::Conflict conflict_;  // what the last condition found on the way
-  double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
+  stopping::Conflict conflict_;    // what the last condition found on the way
+  bool outline_too_near_ = false;  // and whether that is the hull's outline
+  double plan_time_s_ = 0.0;       // when the plan was taken, or an improvement asked for
+  // When the tracker was given what is sailed.
+  double given_s_ = -std::numeric_limits<double>::infinity();
   // When a plan was asked for that leaves the waves what they take.
   double slower_asked_s_ = -std::numeric_limits<double>::infinity();
   // When one was asked for with more room, and whether the next is to be the widest.

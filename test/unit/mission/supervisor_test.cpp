@@ -205,6 +205,50 @@ TEST(Supervisor, FarOffTheTrajectoryItPlansFromTheVessel) {
   EXPECT_NEAR(orders.plan->query.start.flat.velocity.x(), 4.0, 0.1);
 }
 
+// The tracker's error is still that of the way before.
+TEST(Supervisor, IsNotFarOffAPlanThatItHasJustTaken) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  Situation off = mission.situation();
+  off.state[vessel::kY] += 2.0;
+  off.tracking_error_m = 2.0;
+  const Orders asked = mission.supervisor->update(mission.now_s, off, mission.field);
+  ASSERT_TRUE(asked.plan);
+  planner::Plan plan;
+  plan.outcome = planner::Outcome::kSolved;
+  plan.trajectory = eastward(asked.plan->query.start.flat.position, 40.0, 4.0);
+  mission.now_s = asked.plan->start_time_s;
+  ASSERT_TRUE(mission.supervisor
+                  ->planFinished(mission.now_s, asked.plan->id, plan, off, mission.obstacles())
+                  .sail);
+  for (const double later_s : {0.01, 0.5}) {
+    mission.now_s += later_s;
+    Situation then = mission.situation();
+    then.tracking_error_m = 2.0;
+    const bool asks =
+        mission.supervisor->update(mission.now_s, then, mission.field).plan.has_value();
+    EXPECT_EQ(asks, later_s > 0.1);
+  }
+}
+
+// What takes a part of the room that it was planned with leaves more than a narrower plan has.
+TEST(Supervisor, KeepsAPlanWithTheRoomThatIsAskedForNow) {
+  for (const double beside_m : {1.26, 0.76}) {
+    ScriptedMission mission;
+    mission.setOut(6.0);
+    mission.put({0.0, beside_m}, {4.0, beside_m + 2.0});
+    Orders orders = mission.update(0.1);
+    ASSERT_TRUE(orders.plan);
+    EXPECT_DOUBLE_EQ(orders.plan->query.limits.clearance_m, mission.clearance(0));
+    orders = mission.refuse(*orders.plan, "");
+    const bool keeps = beside_m > mission.clearance(1);
+    EXPECT_EQ(orders.plan.has_value(), !keeps);
+    EXPECT_EQ(mission.supervisor->phase(), keeps ? Phase::kSailing : Phase::kReplanning);
+    orders = mission.update(0.1);
+    EXPECT_TRUE(!keeps || !orders.plan);
+  }
+}
+
 TEST(Supervisor, CancelBrakesAndIsIdleThen) {
   ScriptedMission mission;
   mission.setOut(6.0);

@@ -704,6 +704,17 @@ TEST(SupervisorInWind, PlansForAnotherHeadingAtTheGoalOnce) {
   EXPECT_NE(mission.supervisor->reason().find("heading at the goal"), std::string::npos);
 }
 
+// A minute and more before it is there, the weather may still turn.
+TEST(SupervisorInWind, PlansForAnotherHeadingAtTheGoalNoSoonerThanItMatters) {
+  ScriptedMission mission;
+  mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({40.0, 0.0});
+  ASSERT_TRUE(mission.answer(*orders->plan, test::eastward({-40.0, 0.0}, 80.0, 0.8)).sail);
+  const Force abeam = [](double) { return Vector2d(0.0, 12.0); };
+  EXPECT_TRUE(blow(mission, 60.0, abeam).plans.empty());
+  EXPECT_FALSE(blow(mission, 20.0, abeam).plans.empty());
+}
+
 TEST(SupervisorInWind, AHeadingLostInAGustEndsBowToTheWind) {
   for (const double off_rad : {0.2, 1.4}) {
     ScriptedMission mission;
@@ -773,6 +784,33 @@ TEST(SupervisorInWind, BeginsNoPlanFromAHeadingLostInStrongWind) {
   }
 }
 
+// Against the wind the faster plan counts on thrust that there isn't.
+TEST(SupervisorInWind, TakesNoFasterPlanThatTheWindLeavesNoThrustFor) {
+  for (const double against_mps : {2.0, 7.0}) {
+    ScriptedMission mission = inWind(-against_mps);
+    mission.options.improve_period_s = 2.0;
+    mission.supervisor->setOptions(mission.options);
+    mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    const auto orders = mission.goTo({40.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    (void)mission.answer(*orders->plan, test::eastward({-40.0, 0.0}, 80.0, 2.0));
+    const Orders improve = mission.update(4.5);
+    ASSERT_TRUE(improve.plan);
+    const vessel::FlatPoint& start = improve.plan->query.start.flat;
+    vessel::FlatPoint fast = start;
+    fast.position.x() += 9.0;
+    fast.velocity = {4.0, 0.0};
+    vessel::FlatPoint slow = fast;
+    slow.position.x() += 40.0;
+    vessel::FlatPoint end;
+    end.position = {40.0, 0.0};
+    const trajectory::Trajectory quick(
+        {trajectory::hermitePiece(start, fast, 3.0), trajectory::hermitePiece(fast, slow, 10.0),
+         trajectory::hermitePiece(slow, end, 0.5 * (end.position - slow.position).x())});
+    EXPECT_EQ(mission.answer(*improve.plan, quick).sail.has_value(), against_mps < 5.0);
+  }
+}
+
 // With 2 m beside it, though all is free to leeward.
 TEST(SupervisorInWind, MakesMoreRoomInStrongWind) {
   for (const double wind_mps : {5.0, 8.0}) {
@@ -805,6 +843,18 @@ TEST(SupervisorInWind, MakesRoomSternToTheWindToo) {
     EXPECT_LT(end.state.x(), -2.4);
     EXPECT_NEAR(end.state.y(), 0.0, 1e-6);
     EXPECT_NEAR(path.duration(), std::max(4.0, -end.state.x()), 1e-6);
+  }
+}
+
+// Off the line of what drives it, for as far as it turns on the leg.
+TEST(SupervisorInWind, MakesRoomOffTheWindsLine) {
+  for (const double psi : {0.9, 1.4}) {
+    ScriptedMission mission = inWind(8.0);
+    mission.put({2.0, -5.0}, {5.0, 5.0});
+    mission.rest[vessel::kPsi] = psi;
+    (void)mission.goTo({-20.0, 0.0});
+    (void)mission.update(0.1);
+    EXPECT_EQ(mission.supervisor->phase() == Phase::kBackingOff, psi < 1.0);
   }
 }
 
