@@ -1626,7 +1626,8 @@ class Decider final : public Supervisor {
   Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
     constexpr double kLateM = 0.3;
     constexpr double kImproveShare = 0.05;  // of the time left, that an improvement saves
-    constexpr double kFurtherM = 2.0;       // or leads so much nearer to the goal
+    constexpr double kFurtherM = 2.0;       // or leads so much nearer to the goal,
+    constexpr double kFurtherShare = 0.1;   // or of what is left, if that is more
     constexpr double kRoomShare = 0.95;     // or leaves that much room
     constexpr double kRoomS = 40.0;         // for so long
     constexpr double kMoreRoomM = 1.0;      // or so much more to leeward
@@ -1654,7 +1655,8 @@ class Decider final : public Supervisor {
     const bool saves_time =
         late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.left(m.now_s) &&
         !lacks_thrust();
-    const bool leads_on = asked.left_m < planned_left_m_ - kFurtherM ||
+    const double further_m = std::max(kFurtherM, kFurtherShare * planned_left_m_);
+    const bool leads_on = asked.left_m < planned_left_m_ - further_m ||
                           (asked.left_m == 0.0 && planned_left_m_ > 0.0);
     const auto has_room = [&] {
       return safety().plansWithWeather()

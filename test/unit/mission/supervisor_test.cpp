@@ -621,6 +621,38 @@ TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {
   EXPECT_TRUE(m.update(0.1).plan);
 }
 
+// With much of it left, 3 m are hardly any further.
+TEST(Supervisor, ReplacesAPartOfTheWayByOneThatLeadsATenthFurther) {
+  for (const double left_m : {37.0, 35.0}) {
+    ScriptedMission m;
+    m.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    planner::Plan plan;
+    plan.outcome = planner::Outcome::kSolved;
+    plan.trajectory = eastward({-40.0, 0.0}, 40.0, 2.0);
+    plan.left_m = 40.0;
+    std::optional<PlanRequest> asked = m.goTo({40.0, 0.0})->plan;
+    while (asked && !asked->query.may_end_early) {
+      (void)m.refuse(*asked, "none");
+      asked = m.update(0.1).plan;
+    }
+    ASSERT_TRUE(asked);
+    (void)m.supervisor->planFinished(m.now_s, asked->id, plan, m.situation(), m.obstacles());
+    asked.reset();
+    for (int k = 0; k < 60 && !asked; ++k) {
+      asked = m.update(0.1).plan;
+    }
+    ASSERT_TRUE(asked);
+    const vessel::FlatPoint& start = asked->query.start.flat;
+    vessel::FlatPoint end;
+    end.position = {40.0 - left_m, 0.0};
+    plan.trajectory = trajectory::Trajectory({trajectory::hermitePiece(start, end, 30.0)});
+    plan.left_m = left_m;
+    EXPECT_EQ(m.supervisor->planFinished(m.now_s, asked->id, plan, m.situation(), m.obstacles())
+                  .sail.has_value(),
+              left_m < 36.0);
+  }
+}
+
 // The last request before the mission would give up is answered with a part of the way.
 TEST(Supervisor, HasAllRoundsAgainAfterAPartOfTheWay) {
   ScriptedMission m;
