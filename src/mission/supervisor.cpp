@@ -264,7 +264,6 @@ class Decider final : public Supervisor {
     const stopping::Conflict hull =
         stopping::outlineConflict(sailed_.trajectory, at, until, alongSailed(m), vessel_,
                                   safety().critical(), true, planned_limits_.disturbance);
-    outline_too_near_ = hull.found;
     conflict_ = hull.found ? hull : conflict_;
     return conflict_.found;
   }
@@ -274,16 +273,21 @@ class Decider final : public Supervisor {
            stopping::isAboutToTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
                                     alongSailed(m), vessel_, planned_limits_.disturbance);
   }
-  // The way that is sailed keeps `clearance_m` and room to leeward: a plan that asks for that would
-  // have no more.
-  bool hasRoomFor(const Moment& m, double clearance_m, double leeward_m) {
+  // The way that is sailed keeps `clearance_m`, the margin round the hull and the room to leeward
+  // that are asked for, at a speed for them: such a plan would have no more.
+  bool hasRoomFor(const Moment& m, const feasibility::SafetyLimits& asked, double clearance_m) {
     constexpr double kAheadS = 30.0;
     constexpr double kStepM = 0.5;  // that room to leeward is measured in
-    return !outline_too_near_ &&
-           !stopping::firstConflict(sailed_.trajectory, sailed_.elapsed(m.now_s), alongSailed(m),
-                                    clearance_m)
+    const double at = sailed_.elapsed(m.now_s);
+    const double speed_mps = planned_limits_.speed_max_mps;
+    return safety().paceAt(safety().level(), speed_mps) >= speed_mps &&
+           !stopping::firstConflict(sailed_.trajectory, at, alongSailed(m), clearance_m).found &&
+           !stopping::outlineConflict(sailed_.trajectory, at, sailed_.trajectory.duration(),
+                                      alongSailed(m), vessel_,
+                                      std::max(safety().critical(), asked.hull_margin_m), true,
+                                      planned_limits_.disturbance)
                 .found &&
-           leewardRoom(m, sailed_, kAheadS) >= leeward_m - kStepM;
+           leewardRoom(m, sailed_, kAheadS) >= asked.drift_m.norm() - kStepM;
   }
   bool isClearAgain(const Moment& m) { return replan_for_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
@@ -689,7 +693,7 @@ class Decider final : public Supervisor {
       const feasibility::SafetyLimits& asked = orders.plan->query.limits;
       const double listed_m = std::min(listedClearance(safety().level()), asked.clearance_m);
       const double enough_m = listed_m + kForGustsShare * (asked.clearance_m - listed_m);
-      if (hasRoomFor(m, enough_m, asked.drift_m.norm())) {
+      if (hasRoomFor(m, asked, enough_m)) {
         planned_clearance_m_ = std::min(planned_clearance_m_, enough_m);
         safety().planTaken();
         return keepThePlan(m);
@@ -1771,9 +1775,8 @@ class Decider final : public Supervisor {
   std::optional<double> calm_by_s_;  // or the mission fails
   double planned_for_mps_ = 0.0;     // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
-  stopping::Conflict conflict_;    // what the last condition found on the way
-  bool outline_too_near_ = false;  // and whether that is the hull's outline
-  double plan_time_s_ = 0.0;       // when the plan was taken, or an improvement asked for
+  stopping::Conflict conflict_;  // what the last condition found on the way
+  double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
   // When the tracker was given what is sailed.
   double given_s_ = -std::numeric_limits<double>::infinity();
   // When a plan was asked for that leaves the waves what they take.
