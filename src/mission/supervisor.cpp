@@ -104,7 +104,7 @@ class Decider final : public Supervisor {
     replans_ = 0;
     nearest_left_m_ = std::numeric_limits<double>::infinity();
     pilot_.newGoal(m.now_s);
-    return withOthers(m, follow(kGoalRules, m));
+    return handedOut(m, follow(kGoalRules, m));
   }
 
   Orders cancel(double now_s, const Situation& situation, const Obstacles& obstacles,
@@ -132,7 +132,7 @@ class Decider final : public Supervisor {
     if (!std::exchange(suspended_, std::nullopt)) {
       return failure("nothing is paused");
     }
-    return withOthers(m, follow(kResumeRules, m));
+    return handedOut(m, follow(kResumeRules, m));
   }
 
   void setOptions(const SupervisorOptions& options) override {
@@ -152,9 +152,9 @@ class Decider final : public Supervisor {
     const Moment m = momentOf(now_s, situation, obstacles);
     feel(m);
     lookOut(m);
-    return withOthers(m, plans_.overdue(now_s)
-                             ? planFailed(m, "no answer from the planner", plans_.take())
-                             : follow(kRules, m));
+    return handedOut(m, plans_.overdue(now_s)
+                            ? planFailed(m, "no answer from the planner", plans_.take())
+                            : follow(kRules, m));
   }
 
   Orders planFinished(double now_s, int id, const planner::Plan& plan, const Situation& situation,
@@ -166,10 +166,10 @@ class Decider final : public Supervisor {
     }
     asked->left_m = plan.left_m;
     if (plan.outcome != planner::Outcome::kSolved || plan.trajectory.empty()) {
-      return withOthers(m, planFailed(m, plan.reason, *asked));
+      return handedOut(m, planFailed(m, plan.reason, *asked));
     }
-    return withOthers(m, asked->from == From::kRest ? takeFromRest(m, plan, *asked)
-                                                    : takeMoving(m, plan, *asked));
+    return handedOut(m, asked->from == From::kRest ? takeFromRest(m, plan, *asked)
+                                                   : takeMoving(m, plan, *asked));
   }
 
   [[nodiscard]] double speedMax() const override { return plans_.safety.speedMax(); }
@@ -199,7 +199,7 @@ class Decider final : public Supervisor {
     seen_->add(*near_);
     return {now_s, situation, *seen_};
   }
-  Orders withOthers(const Moment& m, Orders orders) {
+  Orders handedOut(const Moment& m, Orders orders) {
     if (orders.plan && near_) {
       orders.plan->others = *near_;
     }
