@@ -423,35 +423,52 @@ TEST(Supervisor, StopsWhereNoLaterStopIsClearAsTheHullLies) {
   }
 }
 
+// Eastward along y = `y_m` at 2 m/s until something comes up and it stops; then that is gone.
+Orders stopForWhatGoesAway(ScriptedMission& m, double y_m) {
+  m.rest << -40.0, y_m, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = m.goTo({40.0, y_m});
+  (void)m.answer(*orders->plan, eastward({-40.0, y_m}, 80.0, 2.0));
+  (void)m.update(8.0);
+  m.put({m.situation().state.x() + 3.0, -5.0}, {m.situation().state.x() + 4.0, 5.0});
+  Orders stops = m.update(0.1);
+  for (int k = 0; k < 20 && m.supervisor->phase() != Phase::kStopping; ++k) {
+    stops = m.update(0.1);
+  }
+  EXPECT_EQ(m.supervisor->phase(), Phase::kStopping);
+  m.grid = test::openWater();
+  m.field = test::fieldOf(m.grid);
+  return stops;
+}
+
+// What it asks for then, or has asked for, is answered with 60 m straight on, the hull `aside_m`
+// off the stop: whether that is sailed.
+bool goesOnFromTheStop(ScriptedMission& m, const Orders& stops, double aside_m) {
+  std::optional<PlanRequest> asked = stops.plan;
+  for (int k = 0; k < 10 && !asked; ++k) {
+    asked = m.update(0.1).plan;
+  }
+  EXPECT_TRUE(asked);
+  if (!asked) {
+    return false;
+  }
+  const vessel::FlatPoint& start = asked->query.start.flat;
+  vessel::FlatPoint end;
+  end.position = start.position + Eigen::Vector2d(60.0, 0.0);
+  planner::Plan plan;
+  plan.outcome = planner::Outcome::kSolved;
+  plan.trajectory = trajectory::Trajectory({trajectory::hermitePiece(start, end, 30.0)});
+  Situation s = m.situation();
+  s.state.y() += aside_m;
+  return m.supervisor->planFinished(m.now_s, asked->id, plan, s, m.obstacles()).sail.has_value();
+}
+
 // A stop is given up for a plan on which the next stops exist too.
 TEST(Supervisor, GoesOnFromAStopOnlyWhereItCanStopForAWhile) {
   for (const double wall_m : {5.0, 40.0}) {
     ScriptedMission m;
-    m.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
-    const auto orders = m.goTo({40.0, 0.0});
-    (void)m.answer(*orders->plan, eastward({-40.0, 0.0}, 80.0, 2.0));
-    (void)m.update(8.0);
-    m.put({m.situation().state.x() + 3.0, -5.0}, {m.situation().state.x() + 4.0, 5.0});
-    Orders stops = m.update(0.1);
-    for (int k = 0; k < 20 && m.supervisor->phase() != Phase::kStopping; ++k) {
-      stops = m.update(0.1);
-    }
-    ASSERT_EQ(m.supervisor->phase(), Phase::kStopping);
-    // It is gone, but for another further on.
-    m.grid = test::openWater();
+    const Orders stops = stopForWhatGoesAway(m, 0.0);
     m.put({m.situation().state.x() + wall_m, -5.0}, {m.situation().state.x() + wall_m + 1.0, 5.0});
-    std::optional<PlanRequest> asked = stops.plan;
-    for (int k = 0; k < 10 && !asked; ++k) {
-      asked = m.update(0.1).plan;
-    }
-    ASSERT_TRUE(asked);
-    const trajectory::Boundary& from = asked->query.start;
-    vessel::FlatPoint end;
-    end.position = from.flat.position + Eigen::Vector2d(60.0, 0.0);
-    const bool sails =
-        m.answer(*asked, trajectory::Trajectory({trajectory::hermitePiece(from.flat, end, 30.0)}))
-            .sail.has_value();
-    EXPECT_EQ(sails, wall_m > 20.0) << wall_m;
+    EXPECT_EQ(goesOnFromTheStop(m, stops, 0.0), wall_m > 20.0) << wall_m;
   }
 }
 
@@ -460,35 +477,11 @@ TEST(Supervisor, GoesOnFromAStopOnlyWhereItCanStopForAWhile) {
 TEST(Supervisor, GoesOnFromAStopOnlyWhereThereIsRoomForWhatItIsOff) {
   const auto goesOn = [](double aside_m, bool has_wall) {
     ScriptedMission m;
-    m.rest << -40.0, 0.21, 0.0, 0.0, 0.0, 0.0;
-    const auto orders = m.goTo({40.0, 0.21});
-    (void)m.answer(*orders->plan, eastward({-40.0, 0.21}, 80.0, 2.0));
-    (void)m.update(8.0);
-    m.put({m.situation().state.x() + 3.0, -5.0}, {m.situation().state.x() + 4.0, 5.0});
-    Orders stops = m.update(0.1);
-    for (int k = 0; k < 20 && m.supervisor->phase() != Phase::kStopping; ++k) {
-      stops = m.update(0.1);
-    }
-    EXPECT_EQ(m.supervisor->phase(), Phase::kStopping);
-    m.grid = test::openWater();
-    m.field = test::fieldOf(m.grid);
+    const Orders stops = stopForWhatGoesAway(m, 0.21);
     if (has_wall) {
       m.put({-40.0, 1.0}, {40.0, 2.0});  // 0.25 m beside the hull
     }
-    std::optional<PlanRequest> asked = stops.plan;
-    for (int k = 0; k < 10 && !asked; ++k) {
-      asked = m.update(0.1).plan;
-    }
-    EXPECT_TRUE(asked);
-    vessel::FlatPoint end;
-    end.position = asked->query.start.flat.position + Eigen::Vector2d(60.0, 0.0);
-    planner::Plan plan;
-    plan.outcome = planner::Outcome::kSolved;
-    plan.trajectory =
-        trajectory::Trajectory({trajectory::hermitePiece(asked->query.start.flat, end, 30.0)});
-    Situation s = m.situation();
-    s.state.y() += aside_m;
-    return m.supervisor->planFinished(m.now_s, asked->id, plan, s, m.obstacles()).sail.has_value();
+    return goesOnFromTheStop(m, stops, aside_m);
   };
   EXPECT_TRUE(goesOn(-0.35, false));
   EXPECT_FALSE(goesOn(-0.35, true));
