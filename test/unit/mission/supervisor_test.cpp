@@ -470,6 +470,13 @@ TEST(Supervisor, GoesOnFromAStopOnlyWhereItCanStopForAWhile) {
     m.put({m.situation().state.x() + wall_m, -5.0}, {m.situation().state.x() + wall_m + 1.0, 5.0});
     EXPECT_EQ(goesOnFromTheStop(m, stops, 0.0), wall_m > 20.0) << wall_m;
   }
+  // Or one beside the way, which leaves the hull some room and stops too little.
+  for (const double from_m : {3.0, 10.0}) {
+    ScriptedMission m;
+    const Orders stops = stopForWhatGoesAway(m, 0.42);
+    m.put({m.situation().state.x() + from_m, 1.0}, {m.situation().state.x() + 40.0, 5.0});
+    EXPECT_EQ(goesOnFromTheStop(m, stops, 0.0), from_m > 5.0) << from_m;
+  }
 }
 
 // What the hull is off the stop it is off the plan too: with less than that beside it the plan is
