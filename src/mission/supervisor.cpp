@@ -943,6 +943,7 @@ class Decider final : public Supervisor {
     enter(Phase::kEvading, text("among %zu other vessels, the nearest %.1f m beside the way",
                                 m.situation.tracks.size(), found.danger.gap_m));
     sailed_ = from_sailed ? stopping::splice(sailed_, m.now_s, found.path) : found.path;
+    sailed_.speed_max_mps = task.speed_max_mps;
     return {std::nullopt, sailed_, false};
   }
   Orders planAfterEvading(const Moment& m) {

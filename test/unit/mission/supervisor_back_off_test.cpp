@@ -200,6 +200,23 @@ TEST(Evading, WaitsForNoPlan) {
   EXPECT_EQ(mission.supervisor->phase(), Phase::kEvading);
 }
 
+// Nor does the tracker catch up faster than the mission may sail.
+TEST(Evading, KeepsToTheSpeedLimit) {
+  constexpr double kLimitMps = 1.2;
+  test::ScriptedMission mission;
+  ASSERT_TRUE(mission.supervisor->setSpeedMax(kLimitMps));
+  (void)mission.goTo({-20.0, 0.0});
+  putManyNear(mission);
+  const Orders orders = mission.update(0.1);
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kEvading);
+  ASSERT_TRUE(orders.sail);
+  EXPECT_LE(orders.sail->speed_max_mps, kLimitMps);
+  const trajectory::Trajectory& way = orders.sail->trajectory;
+  for (double t = 0.0; t < way.duration(); t += 0.1) {
+    EXPECT_LT(way.flat(t).velocity.norm(), 1.02 * kLimitMps) << t;
+  }
+}
+
 // Also where she has hardly begun to move: the way would lead on.
 TEST(Evading, EndsAtRestWithTheMissionOrAtAPause) {
   for (const bool is_cancelled : {false, true}) {

@@ -521,6 +521,22 @@ TEST(Supervisor, ChangesAStopThatTouchesAsTheHullLies) {
   }
 }
 
+// One is kept that goes through where what is sailed is now, to within `off_m`, and comes to rest
+// in less than `within_s`.
+void expectAStopThatCanBeTaken(const ScriptedMission& m, double off_m, double within_s) {
+  SCOPED_TRACE(m.now_s);
+  const trajectory::TimedTrajectory& sailed = m.supervisor->sailed();
+  const std::optional<trajectory::TimedTrajectory>& stop = m.supervisor->lastStop();
+  ASSERT_TRUE(stop);
+  const trajectory::Trajectory& path = stop->trajectory;
+  EXPECT_LT((path.flat(stop->elapsed(m.now_s)).position -
+             sailed.trajectory.flat(sailed.elapsed(m.now_s)).position)
+                .norm(),
+            off_m);
+  EXPECT_LT(path.flat(path.duration()).velocity.norm(), 1e-3);
+  EXPECT_LT(stop->left(m.now_s), within_s);
+}
+
 // Where none can begin at the moment, as in a bend taken at the limit, one that begins later is
 // kept.
 TEST(Supervisor, KeepsAStopInAHardBend) {
@@ -535,16 +551,7 @@ TEST(Supervisor, KeepsAStopInAHardBend) {
   for (int k = 0; k < 25; ++k) {
     (void)m.update(0.1);
     ASSERT_EQ(m.supervisor->phase(), Phase::kSailing);
-    const trajectory::TimedTrajectory& sailed = m.supervisor->sailed();
-    const std::optional<trajectory::TimedTrajectory>& stop = m.supervisor->lastStop();
-    ASSERT_TRUE(stop);
-    const trajectory::Trajectory& path = stop->trajectory;
-    EXPECT_LT((path.flat(stop->elapsed(m.now_s)).position -
-               sailed.trajectory.flat(sailed.elapsed(m.now_s)).position)
-                  .norm(),
-              0.01);
-    EXPECT_LT(path.flat(path.duration()).velocity.norm(), 1e-3);
-    EXPECT_LT(stop->left(m.now_s), sailed.left(m.now_s));
+    expectAStopThatCanBeTaken(m, 0.01, m.supervisor->sailed().left(m.now_s));
   }
 }
 
@@ -566,17 +573,7 @@ TEST(Supervisor, KeepsAStopWithLessBesideItThanThePlanHas) {
   for (int k = 0; k < 12; ++k) {
     (void)m.update(0.1);
     ASSERT_EQ(m.supervisor->phase(), Phase::kReplanning);
-    const trajectory::TimedTrajectory& sailed = m.supervisor->sailed();
-    const std::optional<trajectory::TimedTrajectory>& stop = m.supervisor->lastStop();
-    ASSERT_TRUE(stop);
-    const trajectory::Trajectory& path = stop->trajectory;
-    EXPECT_LT((path.flat(stop->elapsed(m.now_s)).position -
-               sailed.trajectory.flat(sailed.elapsed(m.now_s)).position)
-                  .norm(),
-              1e-3)
-        << k;
-    EXPECT_LT(path.flat(path.duration()).velocity.norm(), 1e-3);
-    EXPECT_LT(stop->left(m.now_s), 15.0);
+    expectAStopThatCanBeTaken(m, 1e-3, 15.0);
   }
 }
 
