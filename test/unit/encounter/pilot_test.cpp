@@ -320,6 +320,33 @@ TEST_F(PilotTest, ListensBeforeItActsForOneItMayHaveToStandOnFor) {
   }
 }
 
+// Behind a slow one in a channel. Slower than anything new can begin she would be bound to that
+// until it is over, whatever comes of it.
+TEST_F(PilotTest, StaysFastEnoughToDecideAnew) {
+  constexpr double kNow = 10.0;
+  constexpr double kBeginsMps = 0.6;
+  const map::DistanceField channel = test::channel();
+  for (const double begins_mps : {0.0, kBeginsMps}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    for (double t = kNow - 8.0; t <= kNow; t += 0.5) {
+      const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+      traffic::Track slow = trackAt(0.0, 1.0, t);
+      slow.position = {0.0, -140.0 + t};
+      pilot_.observe(t, {z.position, z.velocity}, z.position, {slow}, {0.0, 200.0}, 1.98);
+    }
+    const auto way =
+        pilot_.decide({kNow, sailed_, {0.0, 200.0}, kNow + 0.3, limits_, channel, begins_mps});
+    ASSERT_TRUE(way) << begins_mps;
+    ASSERT_TRUE(way->to_the_goal);
+    double slowest = 2.0;
+    for (double t = 0.0; t < way->path.trajectory.duration(); t += 0.5) {
+      slowest = std::min(slowest, way->path.trajectory.flat(t).velocity.norm());
+    }
+    EXPECT_EQ(slowest < kBeginsMps, begins_mps == 0.0) << slowest;
+  }
+}
+
 TEST_F(PilotTest, NobodyNearNothingToDo) {
   EXPECT_FALSE(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}));
   traffic::Track far = trackAt(180.0, 2.0, 10.0);
