@@ -29,11 +29,12 @@ Motion motionAt(const Course& course, double t) {
 }
 
 // The sailed way up to `wait`, then at `share` of its speed for `hold`, then as before. False if it
-// falls below `least_mps` by that.
+// falls below `least_mps` by that for long.
 bool slowed(const Course& sailed, double wait, double share, double hold, double least_mps,
             Course& course) {
   course.legs.clear();
   double late = 0.0;  // what has been lost
+  double below_s = 0.0;
   for (std::size_t k = 0; k < sailed.legs.size(); ++k) {
     const Leg& leg = sailed.legs[k];
     double t = leg.from_s;
@@ -49,6 +50,9 @@ bool slowed(const Course& sailed, double wait, double share, double hold, double
                                     : std::numeric_limits<double>::infinity();
       const double lasts = std::min((end - t) / rate, until - at);
       if (within && leg.from_s < sailed.arrives_s && fallsBelow(leg.velocity, rate, least_mps)) {
+        below_s += lasts;
+      }
+      if (below_s > kBelowMostS) {
         return false;
       }
       course.legs.push_back({at, p, rate * leg.velocity});

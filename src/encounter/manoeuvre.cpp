@@ -218,8 +218,12 @@ Trajectory slowDown(const Trajectory& sailed, double at_s, double share, double 
   const double step = whole / knots;
   std::vector<Piece> pieces;
   FlatPoint before = pointAt(0.0);
+  double below_s = 0.0;
   for (int k = 1; k <= knots; ++k) {
     if (fallsBelow(sailed.flat(clock(k * step)).velocity, rate(k * step)[0], least_mps)) {
+      below_s += step;
+    }
+    if (below_s > kBelowMostS) {
       return {};
     }
     const FlatPoint after = pointAt(k * step);

