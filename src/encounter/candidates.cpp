@@ -195,12 +195,15 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
   std::vector<double> waits = {0.0, 8.0, 20.0, 40.0};
   for (const Other& other : others) {
     if (standsOn(other.record.role)) {
-      const double left =
-          nearestApproach({water.sailed.legs.front().position, water.sailed.legs.front().velocity},
-                          other.motion)
-              .time_s;
-      waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 3.0));
-      waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 7.0));
+      const Motion own{water.sailed.legs.front().position, water.sailed.legs.front().velocity};
+      const Approach left = nearestApproach(own, other.motion);
+      waits.push_back(std::max(0.0, left.time_s - options_.stand_on_until_s + 3.0));
+      waits.push_back(std::max(0.0, left.time_s - options_.stand_on_until_s + 7.0));
+      // Whoever comes up slowly is near before that.
+      const double along = std::sqrt(
+          std::max(0.0, std::pow(options_.stand_on_until_m, 2) - std::pow(left.distance_m, 2)));
+      const double closing = std::max(0.1, (other.motion.velocity - own.velocity).norm());
+      waits.push_back(std::max(0.0, left.time_s - along / closing + 3.0));
     }
   }
   std::sort(waits.begin(), waits.end());

@@ -211,8 +211,11 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
                              leg.from_s - record.since_s <= kAtOnceS;
           out.broken |= early ? 0U : kLate;
         } else {
+          const double lead = std::min(kTurnLeadS, leg.from_s);
+          const Eigen::Vector2d began =
+              from - lead * (record.kept_velocity - other.motion.velocity);
           const bool early = left.time_s + kTurnLeadS > options_.stand_on_until_s - kLaterS &&
-                             from.norm() > options_.stand_on_until_m;
+                             began.norm() > options_.stand_on_until_m;
           out.broken |= early ? kActedEarly : 0U;
         }
       }

@@ -125,6 +125,31 @@ TEST_F(PilotTest, StandsOnUntilSheHasNotActed) {
   EXPECT_LE(now, 80.0);
 }
 
+// From astern, so slowly that she is near before there are 30 s left: waiting for that is among
+// what there is to choose from.
+TEST_F(PilotTest, StandsOnUntilWhoOvertakesIsNear) {
+  for (const double closing_mps : {0.5, 0.8, 1.0}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    std::optional<Manoeuvre> way;
+    double range_m = 0.0;
+    for (double now = 8.0; now < 80.0 && !way; now += 1.0) {
+      for (double t = now - 0.5; t <= now; t += 0.5) {
+        const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+        traffic::Track track = trackAt(0.0, 2.0 + closing_mps, t);
+        track.covariance.diagonal() << 0.1, 0.1, 0.04, 0.04;
+        pilot_.observe(t, {z.position, z.velocity}, z.position, {track}, {0.0, 200.0}, 1.98);
+      }
+      range_m = closing_mps * (100.0 - now);
+      way = pilot_.decide({now, sailed_, {0.0, 200.0}, now + 0.3, limits_, water_});
+    }
+    ASSERT_TRUE(way);
+    EXPECT_EQ(pilot_.encounters()[0].role, Role::kOvertaken);
+    EXPECT_LT(range_m, 31.0) << closing_mps;
+    EXPECT_GT(range_m, 20.0) << closing_mps;
+  }
+}
+
 // She reports but every half minute; meanwhile we have turned for somebody else. What counts is
 // the course from which we turned.
 TEST_F(PilotTest, WhoIsHeardOfLateWasThereBefore) {

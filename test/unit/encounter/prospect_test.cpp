@@ -153,6 +153,19 @@ TEST(Prospect, WhoStandsOnWaits) {
   EXPECT_EQ(broken(80.0, -50.0), unsigned{kToPort});
 }
 
+// Who comes up slowly is near long before she is past: near when the turn begins, not at its
+// middle.
+TEST(Prospect, WhoIsOvertakenTurnsOnceSheIsNear) {
+  const Other other = meeting(0.0, 2.8);
+  ASSERT_EQ(look(sail({{north(2.0), 200.0}}), other).role, Role::kOvertaken);
+  const auto broken = [&](double at_s) {
+    return look(sail({{north(2.0), at_s}, {north(2.0, 40.0), 20.0}, {north(2.0), 60.0}}), other)
+        .broken;
+  };
+  EXPECT_EQ(broken(63.0), unsigned{kActedEarly});
+  EXPECT_EQ(broken(67.5), 0U);
+}
+
 // Slower, waves swing the course by what counts as a turn: after one to starboard that is no
 // matter.
 TEST(Prospect, SlowingDownInWavesMayShowATurnToPort) {
