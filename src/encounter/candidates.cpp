@@ -28,10 +28,13 @@ Motion motionAt(const Course& course, double t) {
   return {leg.position + (t - leg.from_s) * leg.velocity, leg.velocity};
 }
 
-// The sailed way up to `wait`, then at `share` of its speed for `hold`, then as before.
-void slowed(const Course& sailed, double wait, double share, double hold, Course& course) {
+// The sailed way up to `wait`, then at `share` of its speed for `hold`, then as before. False if it
+// falls below `least_mps` by that for long.
+bool slowed(const Course& sailed, double wait, double share, double hold, double least_mps,
+            Course& course) {
   course.legs.clear();
   double late = 0.0;  // what has been lost
+  double below_s = 0.0;
   for (std::size_t k = 0; k < sailed.legs.size(); ++k) {
     const Leg& leg = sailed.legs[k];
     double t = leg.from_s;
@@ -46,6 +49,12 @@ void slowed(const Course& sailed, double wait, double share, double hold, Course
                            : within ? wait + hold
                                     : std::numeric_limits<double>::infinity();
       const double lasts = std::min((end - t) / rate, until - at);
+      if (within && leg.from_s < sailed.arrives_s && fallsBelow(leg.velocity, rate, least_mps)) {
+        below_s += lasts;
+      }
+      if (below_s > kBelowMostS) {
+        return false;
+      }
       course.legs.push_back({at, p, rate * leg.velocity});
       p += rate * lasts * leg.velocity;
       t += rate * lasts;
@@ -54,6 +63,7 @@ void slowed(const Course& sailed, double wait, double share, double hold, Course
   }
   course.end_s = sailed.end_s + late;
   course.arrives_s = sailed.arrives_s + late;
+  return true;
 }
 
 }  // namespace
@@ -64,16 +74,16 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
   tail = 0;
   const double begin = sailed.legs.front().from_s + intent.wait_s;
   if (intent.alongThePath()) {
-    if (intent.share < 1.0 && intent.hold_s > 0.0) {
-      const Eigen::Vector2d v = motionAt(sailed, begin).velocity;
-      const double half = 0.5 * handling.changeDuration(v, intent.share * v);
-      slowed(sailed, begin + half, intent.share, half + intent.hold_s + half, course);
-    } else {
+    if (intent.share == 1.0 || intent.hold_s == 0.0) {
       course = sailed;
+      return true;
     }
-    return true;
+    const Eigen::Vector2d v = motionAt(sailed, begin).velocity;
+    const double half = 0.5 * handling.changeDuration(v, intent.share * v);
+    return slowed(sailed, begin + half, intent.share, half + intent.hold_s + half, water.least_mps,
+                  course);
   }
-  if (begin >= sailed.end_s - 1.0) {
+  if (begin >= sailed.end_s - 1.0 || intent.share * water.cruise_mps < water.least_mps) {
     return false;
   }
   course.legs.clear();
@@ -174,7 +184,8 @@ double Chooser::price(const Course& course, const std::vector<Other>& others,
 std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>& others,
                                     std::size_t count, bool may_wait, bool may_turn_to_port) const {
   constexpr double kTurnsDeg[] = {14.0, 24.0, 36.0, 48.0, 62.0, 80.0, 100.0, 130.0};
-  constexpr double kShares[] = {1.0, 0.72, 0.45, 0.2};
+  const double slowest = std::max(0.2, water.least_mps / water.cruise_mps);
+  const double shares[] = {1.0, 0.72, 0.45, slowest};
   constexpr double kHoldsS[] = {0.5, 3.0, 6.0, 10.0, 15.0, 22.0, 31.0, 43.0, 60.0, 85.0};
   constexpr double kThenS[] = {0.0, 8.0, 20.0, 40.0, 75.0};
   constexpr std::size_t kRefined = 5;
@@ -184,12 +195,15 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
   std::vector<double> waits = {0.0, 8.0, 20.0, 40.0};
   for (const Other& other : others) {
     if (standsOn(other.record.role)) {
-      const double left =
-          nearestApproach({water.sailed.legs.front().position, water.sailed.legs.front().velocity},
-                          other.motion)
-              .time_s;
-      waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 3.0));
-      waits.push_back(std::max(0.0, left - options_.stand_on_until_s + 7.0));
+      const Motion own{water.sailed.legs.front().position, water.sailed.legs.front().velocity};
+      const Approach left = nearestApproach(own, other.motion);
+      waits.push_back(std::max(0.0, left.time_s - options_.stand_on_until_s + 3.0));
+      waits.push_back(std::max(0.0, left.time_s - options_.stand_on_until_s + 7.0));
+      // Whoever comes up slowly is near before that.
+      const double along = std::sqrt(
+          std::max(0.0, std::pow(options_.stand_on_until_m, 2) - std::pow(left.distance_m, 2)));
+      const double closing = std::max(0.1, (other.motion.velocity - own.velocity).norm());
+      waits.push_back(std::max(0.0, left.time_s - along / closing + 3.0));
     }
   }
   std::sort(waits.begin(), waits.end());
@@ -241,7 +255,7 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
   };
   consider({});
   for (const double wait : waits) {
-    for (const double share : kShares) {
+    for (const double share : shares) {
       for (const double hold : kHoldsS) {
         if (share < 1.0) {
           consider({wait, 0.0, share, hold, 0.0, 0.0});

@@ -32,6 +32,7 @@ struct Water {
   // Points of it to come back to, the last is the goal.
   std::vector<Eigen::Vector2d> path;
   double cruise_mps = 0.0;
+  double least_mps = 0.0;  // no course is slower, before it arrives
 };
 
 struct Choice {

@@ -176,7 +176,7 @@ Trajectory steer(const FlatPoint& start, const std::vector<Change>& changes, dou
 }
 
 Trajectory slowDown(const Trajectory& sailed, double at_s, double share, double hold_s,
-                    double change_s) {
+                    double change_s, double least_mps) {
   // s(t): the sailed trajectory's time; s' goes from 1 to `share` and back.
   const double down = 1.0 - share;
   const double whole = 2.0 * change_s + hold_s;
@@ -218,7 +218,14 @@ Trajectory slowDown(const Trajectory& sailed, double at_s, double share, double 
   const double step = whole / knots;
   std::vector<Piece> pieces;
   FlatPoint before = pointAt(0.0);
+  double below_s = 0.0;
   for (int k = 1; k <= knots; ++k) {
+    if (fallsBelow(sailed.flat(clock(k * step)).velocity, rate(k * step)[0], least_mps)) {
+      below_s += step;
+    }
+    if (below_s > kBelowMostS) {
+      return {};
+    }
     const FlatPoint after = pointAt(k * step);
     pieces.push_back(trajectory::hermitePiece(before, after, step));
     before = after;

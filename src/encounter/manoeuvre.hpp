@@ -33,8 +33,16 @@ struct Change {
 [[nodiscard]] trajectory::Trajectory steer(const vessel::FlatPoint& start,
                                            const std::vector<Change>& changes, double end_s);
 
-// `sailed` from `at_s` on, its time running at `share` for about `hold_s`, then as before.
+// `sailed` from `at_s` on, its time running at `share` for about `hold_s`, then as before. Nothing
+// where that falls below `least_mps` for long, or lasts beyond the end.
 [[nodiscard]] trajectory::Trajectory slowDown(const trajectory::Trajectory& sailed, double at_s,
-                                              double share, double hold_s, double change_s);
+                                              double share, double hold_s, double change_s,
+                                              double least_mps);
+constexpr double kBelowMostS = 2.0;
+// Whether a velocity falls below `least_mps` at `share` of it, and not by itself.
+[[nodiscard]] inline bool fallsBelow(const Eigen::Vector2d& velocity, double share,
+                                     double least_mps) {
+  return share * velocity.norm() < least_mps && velocity.norm() >= least_mps;
+}
 
 }  // namespace otter_nav::encounter

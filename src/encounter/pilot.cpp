@@ -258,7 +258,9 @@ class Pilot::Impl {
       return std::nullopt;
     }
     const double zero = outset.now_s;
-    Water water{outset.obstacles.field(), outset.limits.clearance_m, {}, {}, 0.0};
+    constexpr double kBeginsMore = 1.05;  // what is sailed follows the legs but roughly
+    Water water{outset.obstacles.field(),       outset.limits.clearance_m, {}, {}, 0.0,
+                kBeginsMore * outset.begins_mps};
     water.sailed = along(outset.sailed, outset.joint_s, zero);
     water.cruise_mps = cruiseOf(water.sailed);
     if (water.sailed.legs.empty() || water.sailed.legs.front().velocity.norm() < 0.3) {
@@ -658,9 +660,9 @@ class Pilot::Impl {
       Course course;
       if (choice.intent.alongThePath()) {
         const Eigen::Vector2d v = start.velocity;
-        manoeuvre.path.trajectory =
-            slowDown(sailed, at, choice.intent.share, choice.intent.hold_s,
-                     slower * handling.changeDuration(v, choice.intent.share * v));
+        manoeuvre.path.trajectory = slowDown(
+            sailed, at, choice.intent.share, choice.intent.hold_s,
+            slower * handling.changeDuration(v, choice.intent.share * v), outset.begins_mps);
         manoeuvre.to_the_goal = true;
       } else {
         std::vector<Change> changes;

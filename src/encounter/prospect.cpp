@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
@@ -27,10 +28,9 @@ constexpr double kLaneCrossingM = 75.0;
 constexpr double kLaneOvertakingM = 20.0;
 constexpr double kClearAfterM = 40.0;  // past and clear, once they draw apart
 
-// Squared distance of the segment a-b from the box |x| <= half.x, |y| <= half.y.
-double distanceToBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                     const Eigen::Vector2d& half) {
-  // Clip: does the segment enter the box?
+// At which share of the segment a-b it enters the box |x| <= half.x, |y| <= half.y, if it does.
+std::optional<double> entersBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                const Eigen::Vector2d& half) {
   double from = 0.0;
   double to = 1.0;
   const Eigen::Vector2d d = b - a;
@@ -45,9 +45,16 @@ double distanceToBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
     from = std::max(from, std::min(u, v));
     to = std::min(to, std::max(u, v));
   }
-  if (!outside && from <= to) {
+  return !outside && from <= to ? std::optional<double>(from) : std::nullopt;
+}
+
+// Distance of the segment a-b from that box.
+double distanceToBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                     const Eigen::Vector2d& half) {
+  if (entersBox(a, b, half)) {
     return 0.0;
   }
+  const Eigen::Vector2d d = b - a;
   const auto ofPoint = [&](const Eigen::Vector2d& p) {
     return std::hypot(std::max(0.0, std::abs(p.x()) - half.x()),
                       std::max(0.0, std::abs(p.y()) - half.y()));
@@ -64,12 +71,6 @@ double distanceToBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
     }
   }
   return least;
-}
-
-bool crossesBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double x0, double x1,
-                double y) {
-  const Eigen::Vector2d middle(0.5 * (x0 + x1), 0.0);
-  return distanceToBox(a - middle, b - middle, {0.5 * (x1 - x0), y}) == 0.0;
 }
 
 double starboardTurn(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
@@ -210,8 +211,11 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
                              leg.from_s - record.since_s <= kAtOnceS;
           out.broken |= early ? 0U : kLate;
         } else {
+          const double lead = std::min(kTurnLeadS, leg.from_s);
+          const Eigen::Vector2d began =
+              from - lead * (record.kept_velocity - other.motion.velocity);
           const bool early = left.time_s + kTurnLeadS > options_.stand_on_until_s - kLaterS &&
-                             from.norm() > options_.stand_on_until_m;
+                             began.norm() > options_.stand_on_until_m;
           out.broken |= early ? kActedEarly : 0U;
         }
       }
@@ -236,9 +240,13 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
       const double ahead_m = record.role == Role::kGiveWay ? kLaneCrossingM : kLaneOvertakingM;
       const Eigen::Vector2d a = inHerFrame(from);
       const Eigen::Vector2d b = inHerFrame(from + (to - leg.from_s) * closing);
-      if (crossesBox(a, b, 0.0, ahead_m + half_length + 0.5 * other.length_m,
-                     kLaneM + half_length)) {
+      const double reach_m = ahead_m + half_length + 0.5 * other.length_m;
+      const Eigen::Vector2d middle(0.5 * reach_m, 0.0);
+      const std::optional<double> enters =
+          entersBox(a - middle, b - middle, {0.5 * reach_m, kLaneM + half_length});
+      if (enters && (out.broken & kIntoHerLane) == 0) {
         out.broken |= kIntoHerLane;
+        out.lane_s = leg.from_s + *enters * (to - leg.from_s);
       }
     }
     past = to > out.nearest_s && (from + (to - leg.from_s) * closing).norm() > kClearAfterM;
@@ -313,8 +321,15 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
     near += kNearMissS * std::max(0.0, least - r);
     near += kTouchS * std::max(0.0, 3.0 - r);
     near += r < kContactM ? kContactS : 0.0;
-    price += near * std::clamp((kDistantS - look.nearest_s) / (kDistantS - kSoonS), 0.0, 1.0);
-    for (unsigned bits = look.broken & ~(kActedEarly | kToPort); bits != 0; bits &= bits - 1) {
+    const auto counts = [&](double at_s) {
+      return std::clamp((kDistantS - at_s) / (kDistantS - kSoonS), 0.0, 1.0);
+    };
+    price += near * counts(look.nearest_s);
+    // Crossing, what we do is one action, now; after overtaking we come back into her lane later.
+    const double lane = look.role == Role::kOvertaking ? counts(look.lane_s) : 1.0;
+    price += (look.broken & kIntoHerLane) != 0 ? kRuleS * lane : 0.0;
+    for (unsigned bits = look.broken & ~(kActedEarly | kToPort | kIntoHerLane); bits != 0;
+         bits &= bits - 1) {
       price += kRuleS;
     }
   }

@@ -73,6 +73,7 @@ struct Outlook {
   double outlines_m = 0.0;  // the least between the outlines
   double nearest_s = 0.0;   // when the centres are nearest
   unsigned broken = 0;
+  double lane_s = 0.0;  // when her lane is entered first, if it is
   // While it is we who give way to her.
   double from_s = 0.0;
   double to_s = 0.0;

@@ -21,9 +21,7 @@ namespace {
 // counts and turns at once.
 std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, double at_s) {
   constexpr double kStepS = 0.1;
-  constexpr double kLeastSpeedMps = 0.4;
-  constexpr double kLeastSpeedShare = 0.4;  // of the speed limit, where that is less
-  const double least = std::min(kLeastSpeedMps, kLeastSpeedShare * whole.speed_max_mps);
+  const double least = PlanRequests::joiningSpeed(whole);
   const trajectory::Trajectory& sailed = whole.trajectory;
   const int steps = partsOf(sailed.duration() - at_s, kStepS, 0);
   for (int k = 0; k < steps; ++k) {
@@ -129,6 +127,12 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                        feasibility::SafetyLimits::of(vessel_, 0.0).thrust_share;
   return ask(now_s, std::move(request), goal, std::max(thrust_share, std::min(least, 1.0)),
              From::kSailed, obstacles);
+}
+
+double PlanRequests::joiningSpeed(const trajectory::TimedTrajectory& sailed) {
+  constexpr double kLeastSpeedMps = 0.4;
+  constexpr double kLeastSpeedShare = 0.4;  // of the speed limit, where that is less
+  return std::min(kLeastSpeedMps, kLeastSpeedShare * sailed.speed_max_mps);
 }
 
 std::optional<double> PlanRequests::joint(double now_s,

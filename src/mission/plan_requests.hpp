@@ -72,9 +72,10 @@ class PlanRequests {
   PlanRequest onward(double now_s, trajectory::TimedTrajectory lead, double thrust_share,
                      double sailed_mps, const vessel::Pose& goal,
                      const feasibility::Obstacles& obstacles);
-  // When something new can begin on the sailed trajectory.
+  // When something new can begin on the sailed trajectory, and at which speed at least.
   [[nodiscard]] std::optional<double> joint(double now_s,
                                             const trajectory::TimedTrajectory& sailed) const;
+  [[nodiscard]] static double joiningSpeed(const trajectory::TimedTrajectory& sailed);
   // Whether what is known of the water round the vessel, and of how it wanders, lets plans on a
   // level be markedly faster than at that share of the usual speed.
   [[nodiscard]] bool mayBeFaster(std::size_t level, double pace_share, const vessel::State& state,

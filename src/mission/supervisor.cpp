@@ -323,8 +323,8 @@ class Decider final : public Supervisor {
     if (!joint) {
       return false;
     }
-    way_made_ =
-        pilot_.decide({m.now_s, sailed_, goal_.position, *joint, planned_limits_, m.obstacles});
+    way_made_ = pilot_.decide({m.now_s, sailed_, goal_.position, *joint, planned_limits_,
+                               m.obstacles, PlanRequests::joiningSpeed(sailed_)});
     return way_made_.has_value();
   }
   // Of what is sailed. The tracker may speak of what it was given before still.

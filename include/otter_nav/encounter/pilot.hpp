@@ -52,6 +52,8 @@ struct Outset {
   double joint_s = 0.0;  // the earliest start of something new, on the clock of `now_s`
   const feasibility::SafetyLimits& limits;
   const feasibility::Obstacles& obstacles;  // on the clock of `now_s`
+  // Slower than this nothing new can begin: she would be bound to what she does until it ends.
+  double begins_mps = 0.0;
 };
 
 class Pilot {

@@ -50,7 +50,8 @@ TEST(Manoeuvre, BeginsAsWhatIsSailed) {
 
 TEST(Manoeuvre, SlowingDownKeepsTheWayAndItsEnd) {
   const trajectory::Trajectory sailed = steer(underWay(), {{30.0, 6.0, {1.6, 1.2}}}, 60.0);
-  const trajectory::Trajectory slow = slowDown(sailed, 10.0, 0.5, 12.0, 4.0);
+  const trajectory::Trajectory slow = slowDown(sailed, 10.0, 0.5, 12.0, 4.0, 0.9);
+  EXPECT_TRUE(slowDown(sailed, 10.0, 0.5, 12.0, 4.0, 1.1).empty());
   // Half the speed for 12 s and two changes of 4 s: 8 s later.
   EXPECT_NEAR(slow.duration(), 50.0 + 8.0, 1e-6);
   EXPECT_NEAR((slow.flat(slow.duration()).position - sailed.flat(60.0).position).norm(), 0.0, 1e-6);

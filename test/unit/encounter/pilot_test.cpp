@@ -125,6 +125,31 @@ TEST_F(PilotTest, StandsOnUntilSheHasNotActed) {
   EXPECT_LE(now, 80.0);
 }
 
+// From astern, so slowly that she is near before there are 30 s left: waiting for that is among
+// what there is to choose from.
+TEST_F(PilotTest, StandsOnUntilWhoOvertakesIsNear) {
+  for (const double closing_mps : {0.5, 0.8, 1.0}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    std::optional<Manoeuvre> way;
+    double range_m = 0.0;
+    for (double now = 8.0; now < 80.0 && !way; now += 1.0) {
+      for (double t = now - 0.5; t <= now; t += 0.5) {
+        const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+        traffic::Track track = trackAt(0.0, 2.0 + closing_mps, t);
+        track.covariance.diagonal() << 0.1, 0.1, 0.04, 0.04;
+        pilot_.observe(t, {z.position, z.velocity}, z.position, {track}, {0.0, 200.0}, 1.98);
+      }
+      range_m = closing_mps * (100.0 - now);
+      way = pilot_.decide({now, sailed_, {0.0, 200.0}, now + 0.3, limits_, water_});
+    }
+    ASSERT_TRUE(way);
+    EXPECT_EQ(pilot_.encounters()[0].role, Role::kOvertaken);
+    EXPECT_LT(range_m, 31.0) << closing_mps;
+    EXPECT_GT(range_m, 20.0) << closing_mps;
+  }
+}
+
 // She reports but every half minute; meanwhile we have turned for somebody else. What counts is
 // the course from which we turned.
 TEST_F(PilotTest, WhoIsHeardOfLateWasThereBefore) {
@@ -317,6 +342,33 @@ TEST_F(PilotTest, ListensBeforeItActsForOneItMayHaveToStandOnFor) {
     }
     const auto way = pilot_.decide({kNow, sailed_, {0.0, 200.0}, kNow + 0.3, limits_, water_});
     EXPECT_EQ(way.has_value(), since > 6.0);
+  }
+}
+
+// Behind a slow one in a channel. Slower than anything new can begin she would be bound to that
+// until it is over, whatever comes of it.
+TEST_F(PilotTest, StaysFastEnoughToDecideAnew) {
+  constexpr double kNow = 10.0;
+  constexpr double kBeginsMps = 0.6;
+  const map::DistanceField channel = test::channel();
+  for (const double begins_mps : {0.0, kBeginsMps}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    for (double t = kNow - 8.0; t <= kNow; t += 0.5) {
+      const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+      traffic::Track slow = trackAt(0.0, 1.0, t);
+      slow.position = {0.0, -140.0 + t};
+      pilot_.observe(t, {z.position, z.velocity}, z.position, {slow}, {0.0, 200.0}, 1.98);
+    }
+    const auto way =
+        pilot_.decide({kNow, sailed_, {0.0, 200.0}, kNow + 0.3, limits_, channel, begins_mps});
+    ASSERT_TRUE(way) << begins_mps;
+    ASSERT_TRUE(way->to_the_goal);
+    double slowest = 2.0;
+    for (double t = 0.0; t < way->path.trajectory.duration(); t += 0.5) {
+      slowest = std::min(slowest, way->path.trajectory.flat(t).velocity.norm());
+    }
+    EXPECT_EQ(slowest < kBeginsMps, begins_mps == 0.0) << slowest;
   }
 }
 

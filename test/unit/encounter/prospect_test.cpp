@@ -110,6 +110,35 @@ TEST(Prospect, CrossingAheadIsHerLane) {
   EXPECT_EQ(broken({{north(2.0), 5.0}, {north(0.8), 25.0}, {north(2.0), 190.0}}), 0U);
 }
 
+// Before somebody who is being overtaken, in a minute or in three: until then there is time to
+// decide, and her course by now tells little of where her lane will be. Crossing there is not.
+TEST(Prospect, TheLaneOfWhomWeOvertakeCountsLessTheLaterItIsEntered) {
+  Options without;
+  without.rules_of_the_road = false;
+  Other other = meeting(0.0, 1.0);
+  other.motion.position = {-30.0, -230.0};
+  other.record.kept_velocity = north(2.0);
+  other.record.acted = true;
+  other.record.first_turn = 1;
+  other.record.turn_max_rad = 1.0;
+  constexpr double kTurnsForS = 13.5;  // until her lane is reached
+  for (const double at_s : {60.0, 120.0, 180.0}) {
+    const Course before_her =
+        sail({{north(1.0), at_s - kTurnsForS}, {north(2.0, -90.0), 15.0}, {north(2.0), 20.0}});
+    const auto rules = [&] {
+      return Prospect(Options(), hull()).price(before_her, {other}, 1e9) -
+             Prospect(without, hull()).price(before_her, {other}, 1e9);
+    };
+    other.record.role = Role::kOvertaking;
+    EXPECT_EQ(look(before_her, other).broken, unsigned{kIntoHerLane}) << at_s;
+    EXPECT_NEAR(look(before_her, other).lane_s, at_s, 1e-6);
+    EXPECT_NEAR(rules(), at_s < 90.0 ? 60.0 : at_s < 150.0 ? 30.0 : 0.0, 1e-6) << at_s;
+    other.record.role = Role::kGiveWay;
+    EXPECT_EQ(look(before_her, other).broken, unsigned{kIntoHerLane}) << at_s;
+    EXPECT_NEAR(rules(), 60.0, 1e-6) << at_s;
+  }
+}
+
 TEST(Prospect, WhoStandsOnWaits) {
   const Other other = meeting(67.5, 2.0);  // from port
   ASSERT_EQ(look(sail({{north(2.0), 200.0}}), other).role, Role::kStandOn);
@@ -122,6 +151,19 @@ TEST(Prospect, WhoStandsOnWaits) {
   EXPECT_EQ(broken(50.0, 50.0), unsigned{kActedEarly});
   EXPECT_EQ(broken(80.0, 50.0), 0U);
   EXPECT_EQ(broken(80.0, -50.0), unsigned{kToPort});
+}
+
+// Who comes up slowly is near long before she is past: near when the turn begins, not at its
+// middle.
+TEST(Prospect, WhoIsOvertakenTurnsOnceSheIsNear) {
+  const Other other = meeting(0.0, 2.8);
+  ASSERT_EQ(look(sail({{north(2.0), 200.0}}), other).role, Role::kOvertaken);
+  const auto broken = [&](double at_s) {
+    return look(sail({{north(2.0), at_s}, {north(2.0, 40.0), 20.0}, {north(2.0), 60.0}}), other)
+        .broken;
+  };
+  EXPECT_EQ(broken(63.0), unsigned{kActedEarly});
+  EXPECT_EQ(broken(67.5), 0U);
 }
 
 // Slower, waves swing the course by what counts as a turn: after one to starboard that is no

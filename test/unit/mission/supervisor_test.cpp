@@ -735,5 +735,38 @@ TEST(Supervisor, DoesNotPlanFromARestBeyondWhatIsInTheWay) {
   }
 }
 
+// Behind a slow vessel in a channel: whatever was decided about her, something else can begin soon.
+TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
+  constexpr double kBeginsMps = 0.4;
+  map::OccupancyGrid water = test::openWater(300.0);
+  test::block(water, {-149.0, 4.0}, {149.0, 149.0});
+  test::block(water, {-149.0, -149.0}, {149.0, -4.0});
+  test::ScriptedMission mission(water);
+  mission.rest << -140.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = mission.goTo({140.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  (void)mission.answer(*orders->plan, test::eastward({-140.0, 0.0}, 280.0, 1.8));
+  (void)mission.update(10.0);
+  int made = 0;
+  double bound_s = 0.0;
+  const double began_s = mission.now_s;
+  for (int k = 0; k < 300; ++k) {
+    traffic::Track track;
+    track.id = 1;
+    track.stamp_s = mission.now_s + 0.1;
+    track.velocity = {1.0, 0.0};
+    track.position = {-84.0 + track.stamp_s - began_s, 0.0};
+    track.length_m = 6.0;
+    track.beam_m = 2.0;
+    mission.tracks = {track};
+    const int before = mission.supervisor->replans();
+    (void)mission.update(0.1);
+    made += mission.supervisor->replans() - before;
+    bound_s = vessel::speedOf(mission.situation().state) < kBeginsMps ? bound_s + 0.1 : 0.0;
+    EXPECT_LT(bound_s, 3.0) << 0.1 * k;
+  }
+  EXPECT_GT(made, 0);
+}
+
 }  // namespace
 }  // namespace otter_nav::mission
