@@ -21,6 +21,7 @@ struct TrackedVessel {
         begun_s(time_s),
         first_s(time_s),
         last_s(time_s),
+        plots(source == kRadar ? 1 : 0),
         sources(source) {}
 
   int id;
@@ -36,7 +37,15 @@ struct TrackedVessel {
   double last_new_s = kLongAgoS;  // the last of those
   int missed = 0;                 // scans in a row that ought to have shown it and didn't
 
+  int plots;  // of the radar's
   std::uint32_t sources;
+  // For all that the radar vouches for: one plot of its may be false, and fall among things that
+  // stand.
+  [[nodiscard]] bool isTheLidarsAlone() const {
+    constexpr int kFewestPlots = 2;
+    const std::uint32_t telling = plots < kFewestPlots ? sources & ~kRadar : sources;
+    return telling == kLidar;
+  }
 
   // Outline. A size is taken as a guess until something measures it.
   enum class Size { kGuessed, kSeen, kReported };
