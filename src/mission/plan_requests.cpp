@@ -103,13 +103,9 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                                                     double thrust_share, const vessel::Pose& goal,
                                                     const feasibility::Obstacles& obstacles,
                                                     double rests_by_s) {
-  const double soon = sailed.elapsed(now_s + latency.seconds());
-  std::optional<double> at = joiningTime(sailed, soon);
+  const std::optional<double> at = beginning(now_s, sailed, rests_by_s);
   if (!at) {
-    at = restingTime(sailed.trajectory, soon);
-    if (!at || sailed.start_time_s + *at > rests_by_s) {
-      return std::nullopt;
-    }
+    return std::nullopt;
   }
   const trajectory::Sample sample =
       trajectory::MotionAlong(sailed.trajectory, vessel_, safety.planDisturbance()).sample(*at);
@@ -129,6 +125,17 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                        feasibility::SafetyLimits::of(vessel_, 0.0).thrust_share;
   return ask(now_s, std::move(request), goal, std::max(thrust_share, std::min(least, 1.0)),
              From::kSailed, obstacles);
+}
+
+std::optional<double> PlanRequests::beginning(double now_s,
+                                              const trajectory::TimedTrajectory& sailed,
+                                              double rests_by_s) const {
+  const double soon = sailed.elapsed(now_s + latency.seconds());
+  if (const std::optional<double> at = joiningTime(sailed, soon)) {
+    return at;
+  }
+  const std::optional<double> at = restingTime(sailed.trajectory, soon);
+  return at && sailed.start_time_s + *at <= rests_by_s ? at : std::nullopt;
 }
 
 std::optional<double> PlanRequests::joint(double now_s,

@@ -75,6 +75,10 @@ class PlanRequests {
   // When something new can begin on the sailed trajectory.
   [[nodiscard]] std::optional<double> joint(double now_s,
                                             const trajectory::TimedTrajectory& sailed) const;
+  // When a plan from the sailed trajectory would begin, s from that one's start; see `fromSailed`.
+  [[nodiscard]] std::optional<double> beginning(double now_s,
+                                                const trajectory::TimedTrajectory& sailed,
+                                                double rests_by_s) const;
   // Whether what is known of the water round the vessel, and of how it wanders, lets plans on a
   // level be markedly faster than at that share of the usual speed.
   [[nodiscard]] bool mayBeFaster(std::size_t level, double pace_share, const vessel::State& state,

@@ -249,16 +249,6 @@ bool goesOnFrom(const trajectory::Sample& here, const Trajectory& stop,
   return std::abs(wrapAngle(psi - here.state[vessel::kPsi])) < kTurnRad;
 }
 
-// Beside the hull's outline where it comes to rest, m.
-double roomAtRest(const Trajectory& stop, const feasibility::Obstacles& obstacles,
-                  const vessel::Parameters& vessel) {
-  const double end = stop.duration();
-  const vessel::State rests = stop.sample(end, vessel).state;
-  return feasibility::outlineClearance(
-      vessel.hull, rests.head<2>(), rests[vessel::kPsi],
-      [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, end); });
-}
-
 // What it gets faster than it begins, m/s.
 double gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
   constexpr double kStepS = 0.1;
@@ -270,6 +260,15 @@ double gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
 }
 
 }  // namespace
+
+double roomAtRest(const Trajectory& stop, const feasibility::Obstacles& obstacles,
+                  const vessel::Parameters& vessel) {
+  const double end = stop.duration();
+  const vessel::State rests = stop.sample(end, vessel).state;
+  return feasibility::outlineClearance(
+      vessel.hull, rests.head<2>(), rests[vessel::kPsi],
+      [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, end); });
+}
 
 Braking brakingTrajectory(const Trajectory& sailed, double at_s,
                           const feasibility::Obstacles& obstacles, const vessel::Parameters& vessel,
