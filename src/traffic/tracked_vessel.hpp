@@ -39,13 +39,6 @@ struct TrackedVessel {
 
   int plots;  // of the radar's
   std::uint32_t sources;
-  // For all that the radar vouches for: one plot of its may be false, and fall among things that
-  // stand.
-  [[nodiscard]] bool isTheLidarsAlone() const {
-    constexpr int kFewestPlots = 2;
-    const std::uint32_t telling = plots < kFewestPlots ? sources & ~kRadar : sources;
-    return telling == kLidar;
-  }
 
   // Outline. A size is taken as a guess until something measures it.
   enum class Size { kGuessed, kSeen, kReported };
