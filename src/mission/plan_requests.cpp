@@ -101,13 +101,9 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                                                     double thrust_share, const vessel::Pose& goal,
                                                     const feasibility::Obstacles& obstacles,
                                                     double rests_by_s) {
-  const double soon = sailed.elapsed(now_s + latency.seconds());
-  std::optional<double> at = joiningTime(sailed, soon);
+  const std::optional<double> at = beginning(now_s, sailed, rests_by_s);
   if (!at) {
-    at = restingTime(sailed.trajectory, soon);
-    if (!at || sailed.start_time_s + *at > rests_by_s) {
-      return std::nullopt;
-    }
+    return std::nullopt;
   }
   const trajectory::Sample sample =
       trajectory::MotionAlong(sailed.trajectory, vessel_, safety.planDisturbance()).sample(*at);
@@ -133,6 +129,17 @@ double PlanRequests::joiningSpeed(const trajectory::TimedTrajectory& sailed) {
   constexpr double kLeastSpeedMps = 0.4;
   constexpr double kLeastSpeedShare = 0.4;  // of the speed limit, where that is less
   return std::min(kLeastSpeedMps, kLeastSpeedShare * sailed.speed_max_mps);
+}
+
+std::optional<double> PlanRequests::beginning(double now_s,
+                                              const trajectory::TimedTrajectory& sailed,
+                                              double rests_by_s) const {
+  const double soon = sailed.elapsed(now_s + latency.seconds());
+  if (const std::optional<double> at = joiningTime(sailed, soon)) {
+    return at;
+  }
+  const std::optional<double> at = restingTime(sailed.trajectory, soon);
+  return at && sailed.start_time_s + *at <= rests_by_s ? at : std::nullopt;
 }
 
 std::optional<double> PlanRequests::joint(double now_s,

@@ -76,6 +76,10 @@ class PlanRequests {
   [[nodiscard]] std::optional<double> joint(double now_s,
                                             const trajectory::TimedTrajectory& sailed) const;
   [[nodiscard]] static double joiningSpeed(const trajectory::TimedTrajectory& sailed);
+  // When a plan from the sailed trajectory would begin, s from that one's start; see `fromSailed`.
+  [[nodiscard]] std::optional<double> beginning(double now_s,
+                                                const trajectory::TimedTrajectory& sailed,
+                                                double rests_by_s) const;
   // Whether what is known of the water round the vessel, and of how it wanders, lets plans on a
   // level be markedly faster than at that share of the usual speed.
   [[nodiscard]] bool mayBeFaster(std::size_t level, double pace_share, const vessel::State& state,

@@ -36,8 +36,6 @@ constexpr double kWanderM = 0.2;
 // Among what nobody has charted plans keep so many times what it wanders on the levels that have
 // room for it, for what comes into sight takes some.
 constexpr double kTimesWander = 2.0;
-// The most that the hull's corners swing at rest in a light wind and waves.
-constexpr double kSwingsM = 0.3;
 
 }  // namespace
 

@@ -33,6 +33,9 @@ namespace otter_nav::mission {
 [[nodiscard]] double planClearance(const SupervisorOptions& options, std::size_t level,
                                    double gust_reach_m, const vessel::Hull& hull, double room_m);
 
+// The most that the hull's corners swing at rest in a light wind and waves.
+constexpr double kSwingsM = 0.3;
+
 // The clearances of the list in turn, from the widest to the narrowest and round again.
 class ClearanceLevels {
  public:
@@ -127,6 +130,8 @@ class Safety {
   void leftBehind() { ++times_left_behind_; }
   // A plan failed: the next is tried narrower; false where all levels were tried.
   bool refused();
+  // At all levels; for blind plans, since they are.
+  [[nodiscard]] int timesRefused() const;
   void planTaken();
   void tryWidest() { levels_.widest(); }
   // The vessel came to rest: what was refused under way is another matter from here.
@@ -143,8 +148,6 @@ class Safety {
   [[nodiscard]] bool liesOnAnyHeading() const;  // in that
   // The same where it can.
   [[nodiscard]] vessel::Disturbance lightLoad() const;
-  // At all levels; for blind plans, since they are.
-  [[nodiscard]] int timesRefused() const;
   // Of the thrust, what waves take from plans on this level.
   [[nodiscard]] double waveShare() const;
   // What room that takes, m.

@@ -292,6 +292,39 @@ class Decider final : public Supervisor {
   bool isClearAgain(const Moment& m) { return replan_for_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
   bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_, offSailed(m)); }
+  // The hull does not pass on its way, no plan leads round that, and of the stops before it none
+  // that begins later ends with as much beside the hull as the one that is kept: to go on only
+  // leads into the narrow place.
+  bool endsNarrowerLater(const Moment& m) {
+    constexpr double kStepS = 1.0;
+    if (replan_for_ != Cause::kClearance || !fallback_ || mayPlanRoundIt(m)) {
+      return false;
+    }
+    const double at = sailed_.elapsed(m.now_s);
+    const stopping::Conflict hull = stopping::outlineConflict(
+        sailed_.trajectory, at, sailed_.trajectory.duration(), alongSailed(m), vessel_,
+        safety().critical(), true, planned_limits_.disturbance);
+    if (!hull.found) {
+      return false;
+    }
+    const Obstacles known = m.obstacles.inKnownWater();
+    const auto room = [&](const Trajectory& stop, double start_s) {
+      return std::min(kSwingsM, stopping::roomAtRest(stop, known.startingAt(start_s), vessel_));
+    };
+    const double kept_m = room(fallback_->trajectory, fallback_->start_time_s);
+    for (double later = at + kStepS; later < hull.time_s; later += kStepS) {
+      const stopping::Braking braking = stop(m, sailed_, later, safety().stop(planned_limits_));
+      if (braking.clear && room(braking.trajectory, sailed_.start_time_s + later) >= kept_m) {
+        return false;
+      }
+    }
+    return true;
+  }
+  // From what is sailed, before that is not clear; until there was none at any clearance.
+  bool mayPlanRoundIt(const Moment& m) {
+    return safety().timesRefused() == 0 &&
+           plans_.beginning(m.now_s, sailed_, sailed_.start_time_s + conflict_.time_s);
+  }
   // The way to rest itself is not clear any more, or its end, and there is a milder one.
   bool hasMilderStop(const Moment& m) {
     constexpr double kAgainS = 0.2;
@@ -1094,6 +1127,7 @@ class Decider final : public Supervisor {
       {kUnderWay, &Decider::hasNoStop, &Decider::takeLastStop},
       {kUnderWay, &Decider::isTooFastForLong, &Decider::brakeForSpeed},
       {kReplanning, &Decider::isClearAgain, &Decider::keepThePlan, kGoesOn},
+      {kReplanning, &Decider::endsNarrowerLater, &Decider::takeLastStop},
       {kUnderWay, &Decider::mustWait, &Decider::keepOn},
       {kUnderWay, &Decider::shouldMakeWay, &Decider::makeWay},
       {kUnderWay, &Decider::isLeftBehind, &Decider::planFromFarOff},

@@ -249,16 +249,6 @@ bool goesOnFrom(const trajectory::Sample& here, const Trajectory& stop,
   return std::abs(wrapAngle(psi - here.state[vessel::kPsi])) < kTurnRad;
 }
 
-// Beside the hull's outline where it comes to rest, m.
-double roomAtRest(const Trajectory& stop, const feasibility::Obstacles& obstacles,
-                  const vessel::Parameters& vessel) {
-  const double end = stop.duration();
-  const vessel::State rests = stop.sample(end, vessel).state;
-  return feasibility::outlineClearance(
-      vessel.hull, rests.head<2>(), rests[vessel::kPsi],
-      [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, end); });
-}
-
 // What it gets faster than it begins, m/s.
 double gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
   constexpr double kStepS = 0.1;
@@ -270,6 +260,15 @@ double gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
 }
 
 }  // namespace
+
+double roomAtRest(const Trajectory& stop, const feasibility::Obstacles& obstacles,
+                  const vessel::Parameters& vessel) {
+  const double end = stop.duration();
+  const vessel::State rests = stop.sample(end, vessel).state;
+  return feasibility::outlineClearance(
+      vessel.hull, rests.head<2>(), rests[vessel::kPsi],
+      [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, end); });
+}
 
 Braking brakingTrajectory(const Trajectory& sailed, double at_s,
                           const feasibility::Obstacles& obstacles, const vessel::Parameters& vessel,
@@ -290,19 +289,23 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
   const double centre_m =
       std::max(stop.clearance_m, feasibility::HullCover(vessel.hull, stop.hull_margin_m).middle_m);
   // Whether the vessel could follow it, whatever is in the way: it may brake too hard, but not
-  // swing.
-  const auto canFollow = [&](const Trajectory& candidate) {
+  // swing. What begins in another attitude than its own it does not follow at all.
+  enum class Follows { kNever, kHardly, kWell };
+  const auto follows = [&](const Trajectory& candidate) {
     feasibility::SafetyLimits alone = limits;
     alone.clearance_m = -1.0;
     alone.thrust_share *= kMuchThrust;
     feasibility::Tolerances open = tolerances;
     open.keep_hull_clear = false;
-    return goesOnFrom(here, candidate, vessel) &&
-           feasibility::verify(candidate, ahead, vessel, alone, open).ok;
+    if (!goesOnFrom(here, candidate, vessel)) {
+      return Follows::kNever;
+    }
+    return feasibility::verify(candidate, ahead, vessel, alone, open).ok ? Follows::kWell
+                                                                         : Follows::kHardly;
   };
   Braking best;
   best.clearance_m = -1.0;
-  bool best_follows = false;
+  Follows best_follows = Follows::kNever;
   double best_path_m = 0.0;
   Touch best_touch;
   // Clear, but something comes over the place of rest: the one that has longest until then.
@@ -337,7 +340,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
       return {std::move(held), true, stop.clearance_m};
     }
     best_touch = firstTouch(held, 0.0, ahead, vessel, stop.off);
-    best_follows = true;
+    best_follows = Follows::kWell;
     best = {std::move(held), false, 0.0};
   }
   const auto keeps = [&](const Trajectory& candidate, bool own) {
@@ -375,15 +378,15 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
     const double clearance = leastClearance(candidate, ahead);
     const double path_m =
         (candidate.flat(candidate.duration()).position - here.flat.position).norm();
-    const bool follows = canFollow(candidate);
+    const Follows followed = follows(candidate);
     const bool same = !touch.milderThan(best_touch) && !best_touch.milderThan(touch);
     const bool farther =
         clearance > best.clearance_m || (clearance == best.clearance_m && path_m < best_path_m);
-    const bool better = follows != best_follows ? follows
-                        : same                  ? farther
-                                                : touch.milderThan(best_touch);
+    const bool better = followed != best_follows ? followed > best_follows
+                        : same                   ? farther
+                                                 : touch.milderThan(best_touch);
     if (best.trajectory.empty() || better) {
-      best_follows = follows;
+      best_follows = followed;
       best = {std::move(candidate), false, clearance};
       best_path_m = path_m;
       best_touch = touch;

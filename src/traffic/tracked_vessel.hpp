@@ -21,6 +21,7 @@ struct TrackedVessel {
         begun_s(time_s),
         first_s(time_s),
         last_s(time_s),
+        plots(source == kRadar ? 1 : 0),
         sources(source) {}
 
   int id;
@@ -36,6 +37,7 @@ struct TrackedVessel {
   double last_new_s = kLongAgoS;  // the last of those
   int missed = 0;                 // scans in a row that ought to have shown it and didn't
 
+  int plots;  // of the radar's
   std::uint32_t sources;
 
   // Outline. A size is taken as a guess until something measures it.

@@ -119,7 +119,7 @@ class Tracker::Impl {
       return lidarDetection(vessel, now, eye);
     };
     look.seen = [&](TrackedVessel& vessel, std::size_t k, bool first_course) {
-      if (first_course && vessel.sources == kLidar) {
+      if (first_course && isTheLidarsAlone(vessel)) {
         vessel.followMiddle(clusters[k], eye);
       }
       if (clusters[k].new_points >= kFewestNew) {
@@ -373,7 +373,7 @@ class Tracker::Impl {
         look.stamp_s - vessel.last_ais_s < (crowded_ ? kAisKeptCrowdedS : kAisKeptS);
     vessel.existence = std::clamp(exists, reports ? kReportedAtLeast : 0.0,
                                   vessel.confirmed ? 0.9999 : kUnconfirmedAtMost);
-    const bool in_doubt = !vessel.confirmed && vessel.sources == kLidar;
+    const bool in_doubt = !vessel.confirmed && isTheLidarsAlone(vessel);
     vessel.missed += concluded > 0.5 ? 1 : 0;
     if (in_doubt && vessel.missed > kMostMissed) {
       vessel.doubt(look.stamp_s);
@@ -396,6 +396,7 @@ class Tracker::Impl {
       vessel.last_s = look.stamp_s;
       ++vessel.hits;
       vessel.sources |= look.source;
+      vessel.plots += look.source == kRadar ? 1 : 0;
       look.seen(vessel, links[best].detection, vessel.followCourse());
     }
   }
@@ -660,6 +661,7 @@ class Tracker::Impl {
           TrackedVessel& stays = second.mmsi != 0 ? second : first;
           TrackedVessel& goes = second.mmsi != 0 ? first : second;
           stays.sources |= goes.sources;
+          stays.plots += goes.plots;
           stays.confirmed = stays.confirmed || goes.confirmed;
           goes.existence = 0.0;
         }
@@ -697,13 +699,21 @@ class Tracker::Impl {
     return off.head<4>().dot(p.inverse() * off.head<4>()) < 9.5;
   }
 
-  [[nodiscard]] static bool isGone(const TrackedVessel& vessel, double now_s) {
+  // For all that the radar vouches for: one plot of its may be false, and fall among things that
+  // stand. Among many it is somebody's.
+  [[nodiscard]] bool isTheLidarsAlone(const TrackedVessel& vessel) const {
+    const int fewest = crowded_ ? 1 : 2;
+    const std::uint32_t telling = vessel.plots < fewest ? vessel.sources & ~kRadar : vessel.sources;
+    return telling == kLidar;
+  }
+
+  [[nodiscard]] bool isGone(const TrackedVessel& vessel, double now_s) const {
     if (vessel.existence < kGone) {
       return true;
     }
     if (!vessel.confirmed) {
       return now_s - vessel.begun_s > kTentativeS ||
-             (vessel.sources == kLidar && vessel.hits > 1 && vessel.existence < kUnconfirmedGone);
+             (isTheLidarsAlone(vessel) && vessel.hits > 1 && vessel.existence < kUnconfirmedGone);
     }
     const double unseen = now_s - vessel.last_s;
     if (vessel.mmsi != 0) {
@@ -719,7 +729,7 @@ class Tracker::Impl {
     for (TrackedVessel& vessel : vessels_) {
       // What the lidar alone has seen lying where it is belongs to the map: it may be something
       // that never moved, and nothing is foretold of it.
-      if (vessel.confirmed && vessel.sources == kLidar && vessel.last_s == now_s &&
+      if (vessel.confirmed && isTheLidarsAlone(vessel) && vessel.last_s == now_s &&
           vessel.liesStill(now_s)) {
         vessel.existence = 0.0;
       }
@@ -732,7 +742,7 @@ class Tracker::Impl {
                             2 * vessel.moving_hits >= vessel.hits &&
                             vessel.last_new_s >= vessel.last_s;
       const bool moves = vessel.has_moved && comes_in && now_s - vessel.first_s >= kFewestSeconds;
-      if ((vessel.sources & (kRadar | kAis)) != 0 || moves) {
+      if (!isTheLidarsAlone(vessel) || moves) {
         vessel.confirmed = true;
         verdict_.ghosts.insert(verdict_.ghosts.end(), vessel.unconfirmed_points.begin(),
                                vessel.unconfirmed_points.end());

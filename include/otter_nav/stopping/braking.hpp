@@ -42,4 +42,9 @@ struct StopLimits {
                                         const feasibility::Obstacles& obstacles,
                                         const vessel::Parameters& vessel, const StopLimits& stop);
 
+// What is left beside the hull's outline where `stop` comes to rest, m.
+[[nodiscard]] double roomAtRest(const trajectory::Trajectory& stop,
+                                const feasibility::Obstacles& obstacles,
+                                const vessel::Parameters& vessel);
+
 }  // namespace otter_nav::stopping

@@ -577,6 +577,30 @@ TEST(Supervisor, KeepsAStopWithLessBesideItThanThePlanHas) {
   }
 }
 
+// A slot before the narrowest place: where no other plan is found she stops before the slot, and
+// not in it. While there may be one she sails on.
+TEST(Supervisor, StopsWhereThereIsMostRoomBeforeWhatItDoesNotPass) {
+  for (const bool refused : {false, true}) {
+    ScriptedMission m;
+    m.rest << -40.0, 0.05, 0.0, 0.0, 0.0, 0.0;
+    const auto orders = m.goTo({40.0, 0.05});
+    ASSERT_TRUE(m.answer(*orders->plan, eastward({-40.0, 0.05}, 80.0, 1.0)).sail);
+    (void)m.update(6.0);
+    m.put({-26.0, 1.0}, {-12.0, 4.0});
+    m.put({-26.0, -4.0}, {-12.0, -0.76});  // 0.26 m beside the hull
+    m.put({-12.0, 0.3}, {-10.0, 4.0});     // and nothing
+    for (int k = 0; k < 400 && m.supervisor->phase() != Phase::kStopped; ++k) {
+      Orders next = m.update(0.1);
+      while (next.plan && refused) {
+        next = m.refuse(*next.plan, "walled in");
+      }
+    }
+    ASSERT_EQ(m.supervisor->phase(), Phase::kStopped);
+    const double bow_m = m.situation().state.x() + 0.5 * vessel::Hull{}.length_m;
+    EXPECT_EQ(bow_m < -26.0, refused) << bow_m;
+  }
+}
+
 // A plan that leads a part of the way is sailed; one that leads on is taken though it takes longer,
 // and where none came the way is planned on from its end, which is no stop that counts.
 TEST(Supervisor, SailsAPartOfTheWayAndPlansOn) {

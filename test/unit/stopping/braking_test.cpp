@@ -248,6 +248,31 @@ TEST(Braking, KeepsTheHeadingOnALegAstern) {
   }
 }
 
+// Nothing is clear, and the hull is set across its heading, so that no stop can be followed well:
+// one that begins bow astern is worse than any.
+TEST(Braking, GoesOnAsternWhereNothingIsClear) {
+  const vessel::Parameters vessel;
+  for (const double wall_m : {1.5, 2.0, 2.5, 3.0}) {
+    vessel::FlatPoint from;
+    from.velocity = {-0.75, 0.1};
+    from.acceleration = {-0.4, 0.0};
+    vessel::FlatPoint to;
+    to.position = {-11.0, -3.0};
+    to.velocity = {-1.5, -1.0};
+    trajectory::Piece astern = trajectory::hermitePiece(from, to, 8.0);
+    astern.kind = trajectory::PieceKind::kSpin;
+    map::OccupancyGrid grid = openWater();
+    block(grid, {-wall_m - 2.0, -10.0}, {-wall_m, 10.0});
+    const map::DistanceField field = fieldOf(grid);
+    const Braking stop = brakingTrajectory(Trajectory({astern}), 0.0, feasibility::Obstacles(field),
+                                           vessel, StopLimits{0.5, 0.02});
+    EXPECT_FALSE(stop.clear) << wall_m;
+    ASSERT_FALSE(stop.trajectory.empty());
+    EXPECT_NEAR(wrapAngle(stop.trajectory.sample(0.0, vessel).state[vessel::kPsi]), 0.0, 0.1)
+        << wall_m;
+  }
+}
+
 // A stop that is clear as planned may touch on the hull's way back to it.
 TEST(Braking, IsJudgedAsTheHullLies) {
   const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);

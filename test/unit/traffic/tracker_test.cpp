@@ -224,6 +224,31 @@ TEST(TrafficTracker, TakesHardlyAnyOfManyCylindersForAVessel) {
   EXPECT_LE(tracks, 16);
 }
 
+// One plot of the radar's, which now and then sees what isn't there, makes none of them a vessel.
+TEST(TrafficTracker, TakesNoCylinderForAVesselByASinglePlot) {
+  int tracks = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    Sea sea(lidarOnly("none"), cylindersBeside(random), {}, seed);
+    const double east = random.uniform(0.0, 12.0);
+    const double north = random.uniform(-6.0, 6.0);
+    int scans = 0;
+    int last_id = 0;
+    sea.run(10.0, {6.0, 6.0}, [&](const ScanVerdict& /*verdict*/) {
+      if (sea.simulator.time() > scans + 1.0) {
+        const bool sees = scans++ == 2;
+        const std::vector<Eigen::Vector2d> plots(sees ? 1 : 0, Eigen::Vector2d(east, north));
+        sea.tracker.addRadar(sea.simulator.time(), plots, sea.simulator.odometry().state.head<2>());
+      }
+      for (const Track& track : sea.tracker.tracks()) {
+        tracks += track.id > last_id ? 1 : 0;
+        last_id = std::max(last_id, track.id);
+      }
+    });
+  }
+  EXPECT_LE(tracks, 3);
+}
+
 // Behind an island for a while, and the same vessel afterwards: on either course, near it and far,
 // for four to twenty-five seconds. One may be lost that was barely known when she was hidden.
 TEST(TrafficTracker, KeepsAVesselBehindAnIsland) {
