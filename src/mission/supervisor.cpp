@@ -342,23 +342,25 @@ class Decider final : public Supervisor {
     return centreClearance(vessel_.hull, levels[std::min(level, levels.size() - 1)]);
   }
   // Along its way, by more than waves swing it, and still more from moment to moment: with all its
-  // thrust it can't keep up. The same way later is as clear, and can be followed. In a firm load
-  // and in strong wind it is not time alone that lacks there.
+  // thrust it can't keep up. The same way later is as clear, and can be followed. In strong wind
+  // plans are slow, and what runs away from the hull draws it off the headings that a gust leaves
+  // it. In a firm load it is not time alone that lacks there.
   bool fallsBehind(const Moment& m) {
-    constexpr double kBehindM = 0.2;
-    constexpr double kUnderWayMps = 0.8;
+    const bool strong = mayLoseItsHeading();
+    const double least_m = strong ? 0.3 : 0.2;
+    const double under_way_mps = strong ? 0.2 : 0.8;
     const vessel::State& x = m.situation.state;
     const vessel::FlatPoint wanted = sailed_.trajectory.flat(sailed_.elapsed(m.now_s));
     const double speed = wanted.velocity.norm();
-    if (m.situation.tracking_error_m < kBehindM || speed < kUnderWayMps ||
-        safety().plansWithWeather() || mayLoseItsHeading()) {
+    if (m.situation.tracking_error_m < least_m || speed < under_way_mps ||
+        safety().plansWithWeather()) {
       return false;
     }
     const Eigen::Vector2d along = wanted.velocity / speed;
     const double behind_m = (wanted.position - x.head<2>()).dot(along);
     const Eigen::Vector2d velocity =
         Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
-    if (behind_m < kBehindM || velocity.dot(along) > speed) {
+    if (behind_m < least_m || velocity.dot(along) > speed) {
       return false;
     }
     later_ = sailed_;
@@ -860,7 +862,9 @@ class Decider final : public Supervisor {
     return {std::nullopt, sailed_, false};
   }
   Orders sailLater(const Moment& m) {
-    late_m_ = lateBy(m.now_s) + behind_m_;
+    // Another plan would be as late in a gust; a vessel that makes no way at all gets one.
+    constexpr double kGustShare = 0.25;
+    late_m_ = lateBy(m.now_s) + (mayLoseItsHeading() ? kGustShare : 1.0) * behind_m_;
     late_at_s_ = m.now_s;
     sailed_ = later_;
     return {std::nullopt, sailed_, false};
