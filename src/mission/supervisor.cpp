@@ -550,10 +550,12 @@ class Decider final : public Supervisor {
   }
   // At this speed gusts by now take the moment that holds the headings.
   bool isTooFastForGusts(const Moment& m) {
+    constexpr double kAgainS = 10.0;
     constexpr double kWorthShare = 0.7;  // of the speed: slowing down for less isn't worth it
     constexpr double kLeftS = 5.0;
     const double planned_mps = planned_limits_.speed_max_mps;
-    return mayReplanForWeather(m) && sailed_.left(m.now_s) > kLeftS &&
+    return mayReplanForWeather(m) && m.now_s - gusts_asked_s_ >= kAgainS &&
+           sailed_.left(m.now_s) > kLeftS &&
            safety().sailingSpeed(planned_mps) < kWorthShare * planned_mps;
   }
   // The way left is faster than the thrust allows that waves leave, by what is known by now: behind
@@ -741,8 +743,10 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders planForGusts(const Moment& m) {
+    gusts_asked_s_ = m.now_s;
     replan(text("gusts take the moment that holds headings at %.1f m/s",
-                planned_limits_.speed_max_mps));
+                planned_limits_.speed_max_mps),
+           Cause::kWeather);
     Orders orders = planFromSailed(m);
     return orders.plan ? orders : enter(Phase::kSailing);
   }
@@ -1687,8 +1691,10 @@ class Decider final : public Supervisor {
       return {};
     }
     const bool more = safety().refused();
-    if (replansForWeather() && safety().plansBlind()) {
-      // One that knows nothing of the weather is no better than the one being sailed.
+    // One that knows nothing of the weather is no better than the one being sailed; and looking on
+    // and on for one, the vessel would see to nothing else.
+    const bool in_vain = safety().plansWithWeather() ? safety().plansBlind() : !more;
+    if (replansForWeather() && in_vain) {
       safety().planTaken();
       return keepThePlan(m);
     }
@@ -1806,7 +1812,8 @@ class Decider final : public Supervisor {
   double behind_m_ = 0.0;
   double late_m_ = 0.0;  // what was put off in all, less what counts as made good since
   double late_at_s_ = 0.0;
-  double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
+  double gusts_asked_s_ = -std::numeric_limits<double>::infinity();  // for a slower plan
+  double evaded_s_ = -std::numeric_limits<double>::infinity();       // when it was decided last
   double crowded_s_ = 0.0;  // while she evades: when others were many or near last
   double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found
   std::vector<Eigen::Vector2d> way_;              // that the last plan to the goal took

@@ -768,6 +768,32 @@ ScriptedMission inWind(double towards_east_mps) {
   return mission;
 }
 
+// It goes on looking, but sees to everything else meanwhile.
+TEST(SupervisorInWind, SailsOnWhereNoPlanSlowsDownForGusts) {
+  ScriptedMission mission = inWind(0.0);
+  mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto first = mission.goTo({40.0, 0.0}, -0.5 * kPi);  // bow to the wind
+  ASSERT_TRUE(first && first->plan);
+  (void)mission.answer(*first->plan, test::eastward({-40.0, 0.0}, 80.0, 4.0));
+  (void)mission.update(4.0);
+  int rounds = 0;
+  int sailing = 0;
+  double asked_s = 0.0;
+  for (int k = 0; k < 120; ++k) {
+    mission.disturbance.wind_mps = {0.0, 8.0 * (1.0 + 0.2 * std::sin(0.5 * k))};
+    for (Orders orders = mission.update(0.1); orders.plan;) {
+      if (mission.supervisor->reason().find("gusts take") != std::string::npos) {
+        rounds += mission.now_s - asked_s > 3.0 ? 1 : 0;
+        asked_s = mission.now_s;
+      }
+      orders = mission.refuse(*orders.plan, "no");
+    }
+    sailing += mission.supervisor->phase() == Phase::kSailing ? 1 : 0;
+  }
+  EXPECT_EQ(rounds, 1);  // not again at once
+  EXPECT_GT(sailing, 100);
+}
+
 // The next gust would have it.
 TEST(SupervisorInWind, BeginsNoPlanFromAHeadingLostInStrongWind) {
   for (const double wind_mps : {5.0, 8.0}) {
