@@ -375,23 +375,25 @@ class Decider final : public Supervisor {
     return centreClearance(vessel_.hull, levels[std::min(level, levels.size() - 1)]);
   }
   // Along its way, by more than waves swing it, and still more from moment to moment: with all its
-  // thrust it can't keep up. The same way later is as clear, and can be followed. In a firm load
-  // and in strong wind it is not time alone that lacks there.
+  // thrust it can't keep up. The same way later is as clear, and can be followed. In strong wind
+  // plans are slow, and what runs away from the hull draws it off the headings that a gust leaves
+  // it. In a firm load it is not time alone that lacks there.
   bool fallsBehind(const Moment& m) {
-    constexpr double kBehindM = 0.2;
-    constexpr double kUnderWayMps = 0.8;
+    const bool strong = mayLoseItsHeading();
+    const double least_m = strong ? 0.3 : 0.2;
+    const double under_way_mps = strong ? 0.2 : 0.8;
     const vessel::State& x = m.situation.state;
     const vessel::FlatPoint wanted = sailed_.trajectory.flat(sailed_.elapsed(m.now_s));
     const double speed = wanted.velocity.norm();
-    if (m.situation.tracking_error_m < kBehindM || speed < kUnderWayMps ||
-        safety().plansWithWeather() || mayLoseItsHeading()) {
+    if (m.situation.tracking_error_m < least_m || speed < under_way_mps ||
+        safety().plansWithWeather()) {
       return false;
     }
     const Eigen::Vector2d along = wanted.velocity / speed;
     const double behind_m = (wanted.position - x.head<2>()).dot(along);
     const Eigen::Vector2d velocity =
         Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
-    if (behind_m < kBehindM || velocity.dot(along) > speed) {
+    if (behind_m < least_m || velocity.dot(along) > speed) {
       return false;
     }
     later_ = sailed_;
@@ -581,10 +583,12 @@ class Decider final : public Supervisor {
   }
   // At this speed gusts by now take the moment that holds the headings.
   bool isTooFastForGusts(const Moment& m) {
+    constexpr double kAgainS = 10.0;
     constexpr double kWorthShare = 0.7;  // of the speed: slowing down for less isn't worth it
     constexpr double kLeftS = 5.0;
     const double planned_mps = planned_limits_.speed_max_mps;
-    return mayReplanForWeather(m) && sailed_.left(m.now_s) > kLeftS &&
+    return mayReplanForWeather(m) && m.now_s - gusts_asked_s_ >= kAgainS &&
+           sailed_.left(m.now_s) > kLeftS &&
            safety().sailingSpeed(planned_mps) < kWorthShare * planned_mps;
   }
   // The way left is faster than the thrust allows that waves leave, by what is known by now: behind
@@ -772,8 +776,10 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders planForGusts(const Moment& m) {
+    gusts_asked_s_ = m.now_s;
     replan(text("gusts take the moment that holds headings at %.1f m/s",
-                planned_limits_.speed_max_mps));
+                planned_limits_.speed_max_mps),
+           Cause::kWeather);
     Orders orders = planFromSailed(m);
     return orders.plan ? orders : enter(Phase::kSailing);
   }
@@ -893,7 +899,9 @@ class Decider final : public Supervisor {
     return {std::nullopt, sailed_, false};
   }
   Orders sailLater(const Moment& m) {
-    late_m_ = lateBy(m.now_s) + behind_m_;
+    // Another plan would be as late in a gust; a vessel that makes no way at all gets one.
+    constexpr double kGustShare = 0.25;
+    late_m_ = lateBy(m.now_s) + (mayLoseItsHeading() ? kGustShare : 1.0) * behind_m_;
     late_at_s_ = m.now_s;
     sailed_ = later_;
     return {std::nullopt, sailed_, false};
@@ -1718,8 +1726,10 @@ class Decider final : public Supervisor {
       return {};
     }
     const bool more = safety().refused();
-    if (replansForWeather() && safety().plansBlind()) {
-      // One that knows nothing of the weather is no better than the one being sailed.
+    // One that knows nothing of the weather is no better than the one being sailed; and looking on
+    // and on for one, the vessel would see to nothing else.
+    const bool in_vain = safety().plansWithWeather() ? safety().plansBlind() : !more;
+    if (replansForWeather() && in_vain) {
       safety().planTaken();
       return keepThePlan(m);
     }
@@ -1837,7 +1847,8 @@ class Decider final : public Supervisor {
   double behind_m_ = 0.0;
   double late_m_ = 0.0;  // what was put off in all, less what counts as made good since
   double late_at_s_ = 0.0;
-  double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
+  double gusts_asked_s_ = -std::numeric_limits<double>::infinity();  // for a slower plan
+  double evaded_s_ = -std::numeric_limits<double>::infinity();       // when it was decided last
   double crowded_s_ = 0.0;  // while she evades: when others were many or near last
   double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found
   std::vector<Eigen::Vector2d> way_;              // that the last plan to the goal took

@@ -1,6 +1,7 @@
 // What the supervisor makes of wind and current.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -767,6 +768,32 @@ ScriptedMission inWind(double towards_east_mps) {
   return mission;
 }
 
+// It goes on looking, but sees to everything else meanwhile.
+TEST(SupervisorInWind, SailsOnWhereNoPlanSlowsDownForGusts) {
+  ScriptedMission mission = inWind(0.0);
+  mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto first = mission.goTo({40.0, 0.0}, -0.5 * kPi);  // bow to the wind
+  ASSERT_TRUE(first && first->plan);
+  (void)mission.answer(*first->plan, test::eastward({-40.0, 0.0}, 80.0, 4.0));
+  (void)mission.update(4.0);
+  int rounds = 0;
+  int sailing = 0;
+  double asked_s = 0.0;
+  for (int k = 0; k < 120; ++k) {
+    mission.disturbance.wind_mps = {0.0, 8.0 * (1.0 + 0.2 * std::sin(0.5 * k))};
+    for (Orders orders = mission.update(0.1); orders.plan;) {
+      if (mission.supervisor->reason().find("gusts take") != std::string::npos) {
+        rounds += mission.now_s - asked_s > 3.0 ? 1 : 0;
+        asked_s = mission.now_s;
+      }
+      orders = mission.refuse(*orders.plan, "no");
+    }
+    sailing += mission.supervisor->phase() == Phase::kSailing ? 1 : 0;
+  }
+  EXPECT_EQ(rounds, 1);  // not again at once
+  EXPECT_GT(sailing, 100);
+}
+
 // The next gust would have it.
 TEST(SupervisorInWind, BeginsNoPlanFromAHeadingLostInStrongWind) {
   for (const double wind_mps : {5.0, 8.0}) {
@@ -808,6 +835,49 @@ TEST(SupervisorInWind, TakesNoFasterPlanThatTheWindLeavesNoThrustFor) {
         {trajectory::hermitePiece(start, fast, 3.0), trajectory::hermitePiece(fast, slow, 10.0),
          trajectory::hermitePiece(slow, end, 0.5 * (end.position - slow.position).x())});
     EXPECT_EQ(mission.answer(*improve.plan, quick).sail.has_value(), against_mps < 5.0);
+  }
+}
+
+// A vessel that makes good less than its plan has, for a minute.
+struct PutOff {
+  int times = 0;
+  double most_off_m = 0.0;
+  std::optional<double> far_off_after_s;
+};
+PutOff fallBehind(ScriptedMission& mission, double makes_good_mps) {
+  PutOff put_off;
+  const double began_s = mission.now_s;
+  Vector2d here = mission.situation().state.head<2>();
+  while (mission.now_s < began_s + 60.0 && !put_off.far_off_after_s) {
+    mission.now_s += 0.1;
+    here.x() += 0.1 * makes_good_mps;
+    Situation behind = mission.situation();
+    behind.tracking_error_m = behind.state.x() - here.x();
+    behind.state.head<2>() = here;
+    behind.state[vessel::kSurge] = makes_good_mps;
+    const Orders orders = mission.supervisor->update(mission.now_s, behind, mission.obstacles());
+    put_off.times += orders.sail ? 1 : 0;
+    put_off.most_off_m = std::max(put_off.most_off_m, behind.tracking_error_m);
+    if (mission.supervisor->reason() == "far off the trajectory") {
+      put_off.far_off_after_s = mission.now_s - began_s;
+    }
+  }
+  return put_off;
+}
+
+// Another plan would be too fast too: in a gust as long as it makes any way.
+TEST(SupervisorInWind, SailsTheSameWayLaterInStrongWind) {
+  for (const double makes_good_mps : {0.3, 0.0}) {
+    ScriptedMission mission = inWind(-8.0);
+    mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    const auto orders = mission.goTo({40.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    (void)mission.answer(*orders->plan, test::eastward({-40.0, 0.0}, 80.0, 0.6));
+    (void)mission.update(30.0);
+    const PutOff put_off = fallBehind(mission, makes_good_mps);
+    EXPECT_GT(put_off.times, 10);
+    EXPECT_LT(put_off.most_off_m, 0.5);
+    EXPECT_EQ(put_off.far_off_after_s.has_value(), makes_good_mps == 0.0);
   }
 }
 
