@@ -38,7 +38,7 @@ struct Change {
 [[nodiscard]] trajectory::Trajectory slowDown(const trajectory::Trajectory& sailed, double at_s,
                                               double share, double hold_s, double change_s,
                                               double least_mps);
-constexpr double kBelowMostS = 2.0;
+constexpr double kBelowMostS = 2.0;  // longer than that is long
 // Whether a velocity falls below `least_mps` at `share` of it, and not by itself.
 [[nodiscard]] inline bool fallsBelow(const Eigen::Vector2d& velocity, double share,
                                      double least_mps) {
