@@ -4,6 +4,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/base/text.hpp"
 
 namespace otter_nav::encounter {
 namespace {
@@ -60,6 +61,14 @@ Role classify(const Motion& own, const Motion& other) {
     return Role::kHeadOn;
   }
   return bearing(own, other) >= 0.0 ? Role::kGiveWay : Role::kStandOn;
+}
+
+std::string describe(const Encounter& e) {
+  return text(
+      "vessel %d: %s (rule %s), since %.0f s, when she bore %.0f deg and saw us at %.0f "
+      "deg; %.0f m off, nearest %.0f m in %.0f s%s",
+      e.id, name(e.role), rule(e.role), e.since_s, e.bearing_rad / kDegree, e.aspect_rad / kDegree,
+      e.range_m, e.approach.distance_m, e.approach.time_s, e.acted ? ", acted" : "");
 }
 
 }  // namespace otter_nav::encounter

@@ -22,22 +22,6 @@
 
 namespace otter_nav::encounter {
 
-// Between us and one track, as it is now.
-struct Encounter {
-  int id = 0;
-  Role role = Role::kNone;
-  double since_s = 0.0;  // when the risk of collision arose
-  // Then, positive to starboard.
-  double bearing_rad = 0.0;
-  double aspect_rad = 0.0;
-  // Now.
-  double range_m = 0.0;
-  Approach approach;
-  bool acted = false;
-};
-// A sentence: to whom which rule applies, and why.
-[[nodiscard]] std::string describe(const Encounter& encounter);
-
 struct Manoeuvre {
   // Begins on the sailed trajectory.
   trajectory::TimedTrajectory path;

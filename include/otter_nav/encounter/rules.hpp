@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/config/fields.hpp"
@@ -92,5 +93,21 @@ constexpr double kRiskS = 120.0;
 // The first that fits: overtaking (she sees us more than 22.5 deg abaft her beam, and we are
 // faster), being overtaken, head-on (within 12 deg of both bows), crossing.
 [[nodiscard]] Role classify(const Motion& own, const Motion& other);
+
+// Between us and one track, as it is now.
+struct Encounter {
+  int id = 0;
+  Role role = Role::kNone;
+  double since_s = 0.0;  // when the risk of collision arose
+  // Then, positive to starboard.
+  double bearing_rad = 0.0;
+  double aspect_rad = 0.0;
+  // Now.
+  double range_m = 0.0;
+  Approach approach;
+  bool acted = false;
+};
+// A sentence: to whom which rule applies, and why.
+[[nodiscard]] std::string describe(const Encounter& encounter);
 
 }  // namespace otter_nav::encounter
