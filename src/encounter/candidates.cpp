@@ -181,6 +181,12 @@ double Chooser::price(const Course& course, const std::vector<Other>& others,
   return own + prospect_.price(course, others, give_up_above - own);
 }
 
+bool Chooser::actsEarly(const Course& course, const std::vector<Other>& others) const {
+  return std::any_of(others.begin(), others.end(), [&](const Other& other) {
+    return (prospect_.look(course, other).broken & kActedEarly) != 0;
+  });
+}
+
 std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>& others,
                                     std::size_t count, bool may_wait, bool may_turn_to_port) const {
   constexpr double kTurnsDeg[] = {14.0, 24.0, 36.0, 48.0, 62.0, 80.0, 100.0, 130.0};

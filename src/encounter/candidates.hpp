@@ -60,6 +60,8 @@ class Chooser {
   // Risks and rules, and the time.
   [[nodiscard]] double price(const Course& course, const std::vector<Other>& others,
                              double give_up_above) const;
+  // Before we may for somebody whom we stand on for.
+  [[nodiscard]] bool actsEarly(const Course& course, const std::vector<Other>& others) const;
 
  private:
   vessel::Parameters vessel_;

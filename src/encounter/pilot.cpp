@@ -133,14 +133,23 @@ class Pilot::Impl {
     }
     water.path.push_back(outset.goal);
     constexpr std::size_t kTried = 4;
-    const bool may_wait = outset.now_s < act_by_s_;
-    for (const Choice& choice :
-         chooser_.choose(water, others, kTried, may_wait, !lookout_.listens())) {
+    const bool may_turn_to_port = !lookout_.listens();
+    const auto choose = [&](bool may_wait) {
+      return chooser_.choose(water, others, kTried, may_wait, may_turn_to_port);
+    };
+    const bool overdue = outset.now_s >= act_by_s_;
+    std::vector<Choice> choices = choose(!overdue);
+    if (overdue && !choices.empty() && chooser_.actsEarly(choices.front().course, others)) {
+      // She is nearer later than it seemed when it was put off.
+      choices = choose(true);
+    }
+    for (const Choice& choice : choices) {
       if (choice.price + kBetterS >= keep) {
         break;  // not worth it
       }
       if (choice.intent.wait_s > kPeriodS) {
-        // Once put off it is not put off again: there would be no end to it.
+        // Once put off it is not put off again, but for whom we still stand on: there would be
+        // no end to it.
         act_by_s_ = std::min(act_by_s_, outset.now_s + choice.intent.wait_s);
         break;
       }

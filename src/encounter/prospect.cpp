@@ -199,7 +199,8 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
     settling = settling && share < 1.0 - kActionShare && leg.velocity.norm() > speed_before - 0.02;
     speed_before = leg.velocity.norm();
     const bool slows = !settling && std::abs(share - 1.0) > kActionShare;
-    const bool before_nearest = leg.from_s < out.nearest_s;
+    // Nearest where it turns: that turn is an action, too, it began before.
+    const bool before_nearest = leg.from_s <= out.nearest_s + 1e-6;
     if (before_nearest && (turns || slows) && leg.from_s >= record.since_s - 1e-6) {
       if (!record.acted) {
         record.acted = true;

@@ -19,7 +19,7 @@ class Swing {
   double seen(double now_s, const Eigen::Vector2d& off, const Eigen::Vector2d& steered_mps) {
     constexpr double kMemoryS = 30.0;
     constexpr double kUsuallyAtMostMps = 0.3;  // what is more is no wave
-    constexpr double kPeak = 1.5;              // of the root of the mean square
+    constexpr double kPeak = 1.7;              // of the root of the mean square: two waves in step
     const double dt = trail_.empty() ? 0.0 : now_s - trail_.back().first;
     trail_.push_back({now_s, off});
     while (trail_.size() > 2 && now_s - trail_[1].first >= kCourseS - 1e-6) {

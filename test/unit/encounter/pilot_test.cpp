@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "encounter/manoeuvre.hpp"
@@ -123,6 +124,37 @@ TEST_F(PilotTest, StandsOnUntilSheHasNotActed) {
   ASSERT_TRUE(way);
   EXPECT_GE(now, 69.0);  // 30 s left
   EXPECT_LE(now, 80.0);
+}
+
+// At first it seems that she is near sooner; what was put off until then is put off again.
+TEST_F(PilotTest, StandsOnWhenSheIsNearLaterThanItSeemed) {
+  for (const double sooner_s : {6.0, 7.0}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(-60.0);
+    std::optional<Manoeuvre> way;
+    double now = 8.0;
+    for (; now < 90.0 && !way; now += 1.0) {
+      for (double t = now - 0.5; t <= now; t += 0.5) {
+        const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+        traffic::Track track = trackAt(67.5, 2.0, t);
+        // On the same bearing, nearer by as much.
+        constexpr double kSeemsS = 25.0;
+        constexpr double kUntilS = 65.0;
+        const double share = std::clamp((kUntilS - t) / (kUntilS - kSeemsS), 0.0, 1.0);
+        const Eigen::Vector2d closing = track.velocity - z.velocity;
+        track.position += share * sooner_s * closing;
+        if (share > 0.0 && share < 1.0) {
+          track.velocity -= sooner_s / (kUntilS - kSeemsS) * closing;
+        }
+        pilot_.observe(t, {z.position, z.velocity}, z.position, {track}, {0.0, 200.0}, 1.98);
+      }
+      way = pilot_.decide({now, sailed_, {0.0, 200.0}, now + 0.3, limits_, water_});
+    }
+    ASSERT_TRUE(way);
+    EXPECT_EQ(pilot_.encounters()[0].role, Role::kStandOn);
+    EXPECT_GE(now, 69.0) << sooner_s;
+    EXPECT_LE(now, 82.0) << sooner_s;
+  }
 }
 
 // From astern, so slowly that she is near before there are 30 s left: waiting for that is among

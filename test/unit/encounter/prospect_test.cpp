@@ -153,6 +153,21 @@ TEST(Prospect, WhoStandsOnWaits) {
   EXPECT_EQ(broken(80.0, -50.0), unsigned{kToPort});
 }
 
+// She is nearest where it turns, and draws apart from then on.
+TEST(Prospect, TurningBackIsAnActionToo) {
+  const Other other = meeting(67.5, 2.0);
+  const auto turnsBack = [&](double at_s) {
+    return look(sail({{north(2.0), at_s}, {north(1.6, 150.0), 90.0}}), other);
+  };
+  for (const double at_s : {50.0, 60.0, 70.0}) {
+    const Outlook early = turnsBack(at_s);
+    ASSERT_NEAR(early.nearest_s, at_s, 1e-6);
+    EXPECT_EQ(early.acted_s, at_s);
+    EXPECT_EQ(early.broken, unsigned{kActedEarly}) << at_s;
+  }
+  EXPECT_EQ(turnsBack(80.0).broken, 0U);
+}
+
 // Who comes up slowly is near long before she is past: near when the turn begins, not at its
 // middle.
 TEST(Prospect, WhoIsOvertakenTurnsOnceSheIsNear) {
