@@ -59,8 +59,8 @@ Joint jointOf(const Helmsman& helmsman, const Hull& hull) {
 
 // Where the way itself tells the heading it is a way like any other; at rest, astern and where the
 // thrust dies or turns the heading is told beside it.
-Piece pieceOf(const Joint& from, const Joint& to, double duration_s,
-              const vessel::Parameters& vessel) {
+Piece pieceBetween(const Joint& from, const Joint& to, double duration_s,
+                   const vessel::Parameters& vessel) {
   constexpr double kFirmShare = 0.12;
   constexpr double kWellUnderWayMps = 0.8;
   Piece piece = trajectory::hermitePiece(from.flat, to.flat, duration_s);
@@ -181,7 +181,7 @@ Evasion::Way Evasion::find(const Task& task, const std::vector<traffic::Track>& 
   }
   std::vector<Piece> pieces;
   for (std::size_t k = 1; k < joints.size(); ++k) {
-    pieces.push_back(pieceOf(joints[k - 1], joints[k], Foretold::kStepS, vessel_));
+    pieces.push_back(pieceBetween(joints[k - 1], joints[k], Foretold::kStepS, vessel_));
   }
   const trajectory::Trajectory found_way(std::move(pieces));
   // The search looks at two discs for the hull, and at steps; nothing that lies still may be
@@ -209,12 +209,12 @@ Evasion::Way Evasion::judge(const Task& task, const trajectory::TimedTrajectory&
   Foretold::Nearness worst;
   Hull last;
   walk(path, task.start_s, along, vessel_, [&](const Hull& hull, int k) {
-    way.price += k > 0 ? search.priceOf(hull, k, all, worst) : 0.0;
+    way.price += k > 0 ? search.priceAt(hull, k, all, worst) : 0.0;
     last = hull;
   });
   for (int k = along + 1; k <= foretold.steps(); ++k) {
     last.position += Foretold::kStepS * last.velocity();
-    way.price += search.priceOf(last, k, all, worst);
+    way.price += search.priceAt(last, k, all, worst);
   }
   way.price += search.left(last);
   way.danger = dangerOf(worst);

@@ -166,7 +166,7 @@ double SpaceTimeSearch::slackAt(const Hull& hull) const {
          discs_.radius_m;
 }
 
-double SpaceTimeSearch::priceOf(const Hull& hull, int k, const std::vector<int>& near,
+double SpaceTimeSearch::priceAt(const Hull& hull, int k, const std::vector<int>& near,
                                 Foretold::Nearness& worst) const {
   const double slack = slackAt(hull);
   if (slack < slack_least_m_) {
@@ -214,7 +214,7 @@ SpaceTimeSearch::Way SpaceTimeSearch::find() const {
           constexpr double kHalfS = 0.5 * Foretold::kStepS;
           helmsman_.step(next.hull, helmOf(order, next.hull), kHalfS);
           helmsman_.step(next.hull, helmOf(order, next.hull), kHalfS);
-          next.price += priceOf(next.hull, k0 + s, near, next.worst);
+          next.price += priceAt(next.hull, k0 + s, near, next.worst);
           if (std::isinf(next.price)) {
             break;
           }

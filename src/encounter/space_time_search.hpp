@@ -57,7 +57,7 @@ class SpaceTimeSearch {
   // What is left from a state, s, as the price counts it.
   [[nodiscard]] double left(const Hull& hull) const;
   // The price of being there at step k for one step; infinite where something lies.
-  [[nodiscard]] double priceOf(const Hull& hull, int k, const std::vector<int>& near,
+  [[nodiscard]] double priceAt(const Hull& hull, int k, const std::vector<int>& near,
                                Foretold::Nearness& worst) const;
 
  private:

@@ -78,7 +78,7 @@ class Obstacles {
     return still;
   }
   // To the layers that move alone.
-  [[nodiscard]] double clearanceOfMoving(const Eigen::Vector2d& position, double time_s) const {
+  [[nodiscard]] double movingClearance(const Eigen::Vector2d& position, double time_s) const {
     double least = std::numeric_limits<double>::infinity();
     for (const ObstacleLayer* layer : layers_) {
       if (layer->rateBound() > 0.0) {

@@ -158,7 +158,7 @@ bool SplineProblem::mayMeetMoving(const PieceModel& piece) const {
                                   piece.duration_s * piece.ends.col(5).norm(),
                                   (piece.ends.col(4) - piece.ends.col(0)).norm()});
   const double moved = targets.obstacles->rateBound() * piece.duration_s * piece.clock;
-  return targets.obstacles->clearanceOfMoving(from, piece.start_s) <=
+  return targets.obstacles->movingClearance(from, piece.start_s) <=
          targets.limits.reach_m() + kDetour * sailed + moved;
 }
 

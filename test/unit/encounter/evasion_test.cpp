@@ -201,7 +201,7 @@ TEST(SpaceTimeSearch, FindsNothingDearerThanAnOrderThatIsHeld) {
       for (int half = 0; half < 2; ++half) {
         helmsman.step(hull, {speed * helmsman.speedMost(), 0.0}, 0.5 * Foretold::kStepS);
       }
-      price += search.priceOf(hull, k, all, worst);
+      price += search.priceAt(hull, k, all, worst);
     }
     EXPECT_LT(found.price, price + search.left(hull) + 1e-6) << speed;
   }
