@@ -34,6 +34,9 @@ GoalServer::GoalServer(ros::NodeHandle& node, OnGoal on_goal, OnCancel on_cancel
 
 void GoalServer::onActionGoal(const Handle& handle) {
   if (!ready_) {
+    if (!waiting_) {
+      waiting_since_ = ros::WallTime::now();
+    }
     abortWaiting(kReplaced);
     waiting_ = handle;
     return;
@@ -50,9 +53,14 @@ void GoalServer::retryWaiting() {
 
 void GoalServer::abortWaiting(const std::string& reason) {
   if (waiting_) {
+    ROS_WARN_STREAM("Dropped the goal that waited: " << reason);
     waiting_->setRejected(Outcome(), reason);
     waiting_.reset();
   }
+}
+
+std::optional<ros::WallDuration> GoalServer::waiting() const {
+  return waiting_ ? std::optional(ros::WallTime::now() - waiting_since_) : std::nullopt;
 }
 
 void GoalServer::take(Handle handle) {

@@ -36,7 +36,8 @@ class GoalServer {
   void setReady(bool ready) { ready_ = ready; }
   // The goal that waits, if any, is aborted.
   void abortWaiting(const std::string& reason);
-  [[nodiscard]] bool waiting() const { return waiting_.has_value(); }
+  // Wall time for which a goal has been waiting; none waits: nothing.
+  [[nodiscard]] std::optional<ros::WallDuration> waiting() const;
 
  private:
   using Server = actionlib::ActionServer<move_base_msgs::MoveBaseAction>;
@@ -51,6 +52,7 @@ class GoalServer {
   bool ready_ = false;
   std::optional<Handle> under_way_;
   std::optional<Handle> waiting_;
+  ros::WallTime waiting_since_;  // the first of those that waited
   ros::Publisher action_goal_;
   ros::Subscriber simple_goal_;
   Server server_;

@@ -143,7 +143,6 @@ class PlannerNode {
   int plan_under_way_ = 0;          // id of the request; 0 for none
   std::uint32_t sent_id_ = 0;       // of the last trajectory published
   std::uint32_t confirmed_id_ = 0;  // of the last the tracker has
-  ros::WallTime waiting_since_;
 
   ros::Publisher acknowledgement_;
   ros::Subscriber map_subscriber_;
@@ -432,12 +431,7 @@ void PlannerNode::settle() {
 
 // A goal that came before map and odometry waits for them, but not for ever.
 void PlannerNode::checkInputs() {
-  if (!goals_.waiting()) {
-    waiting_since_ = ros::WallTime::now();
-    return;
-  }
-  const ros::WallDuration patience(kInputPatienceS);
-  if (ros::WallTime::now() - waiting_since_ > patience) {
+  if (const auto waited = goals_.waiting(); waited && waited->toSec() > kInputPatienceS) {
     goals_.abortWaiting(!map_.ready()       ? "there is no map"
                         : odometry_.empty() ? "there is no odometry"
                                             : "there are no map updates");
