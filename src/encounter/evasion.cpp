@@ -80,6 +80,8 @@ Aim aimOf(const Evasion::Task& task, const map::DistanceField& still, double bes
   constexpr std::size_t kMost = 12;
   Aim aim;
   aim.goal = task.goal;
+  aim.arrival_m = task.arrival_m;
+  aim.arrival_rad = task.arrival_rad;
   std::vector<Eigen::Vector2d> way = task.way;
   if (way.empty() || (way.back() - task.goal.position).norm() > 0.1) {
     way.push_back(task.goal.position);
@@ -208,15 +210,19 @@ Evasion::Way Evasion::judge(const Task& task, const trajectory::TimedTrajectory&
   const int along = std::clamp(static_cast<int>(end / Foretold::kStepS), 0, foretold.steps());
   Foretold::Nearness worst;
   Hull last;
+  int arrived = -1;
   walk(path, task.start_s, along, vessel_, [&](const Hull& hull, int k) {
-    way.price += k > 0 ? search.priceAt(hull, k, all, worst) : 0.0;
-    last = hull;
+    if (arrived < 0) {
+      way.price += k > 0 ? search.priceAt(hull, k, all, worst) : 0.0;
+      arrived = search.arrives(hull) ? k : -1;
+      last = hull;
+    }
   });
-  for (int k = along + 1; k <= foretold.steps(); ++k) {
+  for (int k = along + 1; arrived < 0 && k <= foretold.steps(); ++k) {
     last.position += Foretold::kStepS * last.velocity();
     way.price += search.priceAt(last, k, all, worst);
   }
-  way.price += search.left(last);
+  way.price += arrived < 0 ? search.left(last) : SpaceTimeSearch::leftArrived(arrived);
   way.danger = dangerOf(worst);
   return way;
 }

@@ -1418,6 +1418,8 @@ class Decider final : public Supervisor {
     }
     task.way.assign(nearest, way_.end());
     task.goal = {goal_.position, safety().restHeading(goal_.psi_rad)};
+    task.arrival_m = options_.arrival_distance_m;
+    task.arrival_rad = options_.arrival_heading_rad;
     return task;
   }
   // Of a plan that leads to the goal.

@@ -45,6 +45,9 @@ class Evasion {
     double speed_max_mps = 0.0;
     std::vector<Eigen::Vector2d> way;  // to the goal, from near here on; may be empty
     vessel::Pose goal;
+    // At rest within these of the goal's place and heading the mission is over; 0: it goes on.
+    double arrival_m = 0.0;
+    double arrival_rad = 0.0;
   };
   struct Way {
     trajectory::TimedTrajectory path;  // empty: there is none

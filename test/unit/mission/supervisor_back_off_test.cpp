@@ -249,6 +249,22 @@ TEST(Evading, StaysAtTheGoal) {
   EXPECT_TRUE(orders.stop);
 }
 
+// And makes for it though it could not stay there: what comes after the arrival is another matter.
+TEST(Evading, ArrivesBeforeTheyComeOverTheGoal) {
+  test::ScriptedMission mission;
+  (void)mission.goTo({1.5, 0.0});
+  const double began_s = mission.now_s;
+  while (mission.supervisor->phase() != Phase::kArrived && mission.now_s < began_s + 6.0) {
+    mission.tracks.clear();
+    for (int k = 0; k < 4; ++k) {
+      mission.tracks.push_back(northward({1.5 - 8.0 * k, -21.0}, mission.now_s + 0.1, 3.0));
+      mission.tracks.back().id = k;
+    }
+    (void)mission.update(0.1);
+  }
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kArrived);
+}
+
 // Where she lies against something the search has no way; what else there is goes on.
 TEST(Evading, HoldsNothingUpWhereThereIsNoWay) {
   test::ScriptedMission mission;
