@@ -69,6 +69,14 @@ class Evasion {
   [[nodiscard]] Danger danger(const vessel::Pose& lies, double from_s, double ahead_s,
                               const std::vector<traffic::Track>& tracks) const;
 
+  // Of those who make way: the share of whom it is known how they will go on, as they have done so
+  // before or go round.
+  [[nodiscard]] double shareKnown(const std::vector<traffic::Track>& tracks) const;
+  // Near `from` and clear of what lies still: where fewest come, by all that was seen of them.
+  [[nodiscard]] Eigen::Vector2d quietPlace(const Eigen::Vector2d& from, double now_s,
+                                           const std::vector<traffic::Track>& tracks,
+                                           const map::DistanceField& still) const;
+
  private:
   vessel::Parameters vessel_;
   std::unique_ptr<Habits> habits_;
