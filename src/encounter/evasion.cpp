@@ -80,6 +80,8 @@ Aim aimOf(const Evasion::Task& task, const map::DistanceField& still, double bes
   constexpr std::size_t kMost = 12;
   Aim aim;
   aim.goal = task.goal;
+  aim.arrival_m = task.arrival_m;
+  aim.arrival_rad = task.arrival_rad;
   std::vector<Eigen::Vector2d> way = task.way;
   if (way.empty() || (way.back() - task.goal.position).norm() > 0.1) {
     way.push_back(task.goal.position);
@@ -208,15 +210,19 @@ Evasion::Way Evasion::judge(const Task& task, const trajectory::TimedTrajectory&
   const int along = std::clamp(static_cast<int>(end / Foretold::kStepS), 0, foretold.steps());
   Foretold::Nearness worst;
   Hull last;
+  int arrived = -1;
   walk(path, task.start_s, along, vessel_, [&](const Hull& hull, int k) {
-    way.price += k > 0 ? search.priceAt(hull, k, all, worst) : 0.0;
-    last = hull;
+    if (arrived < 0) {
+      way.price += k > 0 ? search.priceAt(hull, k, all, worst) : 0.0;
+      arrived = search.arrives(hull) ? k : -1;
+      last = hull;
+    }
   });
-  for (int k = along + 1; k <= foretold.steps(); ++k) {
+  for (int k = along + 1; arrived < 0 && k <= foretold.steps(); ++k) {
     last.position += Foretold::kStepS * last.velocity();
     way.price += search.priceAt(last, k, all, worst);
   }
-  way.price += search.left(last);
+  way.price += arrived < 0 ? search.left(last) : SpaceTimeSearch::leftArrived(arrived);
   way.danger = dangerOf(worst);
   return way;
 }
@@ -251,6 +257,61 @@ Danger Evasion::danger(const vessel::Pose& lies, double from_s, double ahead_s,
     danger.probable = std::max(danger.probable, nearness.danger);
   }
   return danger;
+}
+
+double Evasion::shareKnown(const std::vector<traffic::Track>& tracks) const {
+  constexpr double kAheadS = 4.0;
+  int all = 0;
+  int known = 0;
+  for (const traffic::Track& track : tracks) {
+    if (track.makesWay()) {
+      ++all;
+      known +=
+          habits_->steadyTurn(track) || !habits_->foretell(track, track.stamp_s, kAheadS, 1).empty()
+              ? 1
+              : 0;
+    }
+  }
+  return all == 0 ? 1.0 : static_cast<double>(known) / all;
+}
+
+Eigen::Vector2d Evasion::quietPlace(const Eigen::Vector2d& from, double now_s,
+                                    const std::vector<traffic::Track>& tracks,
+                                    const map::DistanceField& still) const {
+  constexpr double kReachM = 12.0;
+  constexpr double kEachM = 1.5;
+  constexpr double kOffStillM = 0.8;
+  constexpr double kAheadS = 8.0;  // in which somebody will hardly turn
+  constexpr double kPerM = 0.25;   // of the way there
+  const double hull = 0.5 * vessel_.hull.length_m;
+  std::vector<Eigen::Vector2d> comes;
+  for (const traffic::Track& track : tracks) {
+    const double ahead_s = track.makesWay() ? kAheadS : 0.0;
+    for (double t = 0.0; t <= ahead_s; t += 0.5) {
+      comes.push_back(track.position + (now_s - track.stamp_s + t) * track.velocity);
+    }
+  }
+  habits_->placesWithin(from, 3.0 * kReachM, comes);
+  Eigen::Vector2d best = from;
+  double most = -std::numeric_limits<double>::infinity();
+  for (double x = -kReachM; x <= kReachM; x += kEachM) {
+    for (double y = -kReachM; y <= kReachM; y += kEachM) {
+      const Eigen::Vector2d place = from + Eigen::Vector2d(x, y);
+      if (std::hypot(x, y) > kReachM || still.clearance(place) < hull + kOffStillM) {
+        continue;
+      }
+      double open = kReachM;
+      for (const Eigen::Vector2d& there : comes) {
+        open = std::min(open, (there - place).norm());
+      }
+      const double worth = open - kPerM * std::hypot(x, y);
+      if (worth > most) {
+        most = worth;
+        best = place;
+      }
+    }
+  }
+  return best;
 }
 
 }  // namespace otter_nav::encounter

@@ -11,8 +11,7 @@ namespace otter_nav::encounter {
 namespace {
 
 constexpr double kEachS = 0.4;
-constexpr double kGapS = 1.2;      // a longer one is no stretch of a way
-constexpr double kKnownMps = 0.8;  // standard deviation of a velocity worth remembering
+constexpr double kGapS = 2.5;  // a longer one is no stretch of a way; the radar may miss her once
 constexpr std::size_t kMostRecords = 20000;
 
 // Who is taken to be on the same way.
@@ -27,33 +26,48 @@ constexpr double kLeastToldS = 2.0;  // of a way told
 
 void Habits::observe(const std::vector<traffic::Track>& tracks) {
   for (const traffic::Track& track : tracks) {
-    const double deviation = std::sqrt(std::max(track.covariance(2, 2), track.covariance(3, 3)));
-    if (!track.makesWay() || deviation > kKnownMps) {
-      continue;
+    if (track.makesWay()) {
+      remember(track);
     }
-    Record record{track.stamp_s, track.position, track.velocity, track.id};
-    const auto last = last_.find(track.id);
-    if (last != last_.end()) {
-      const double since = track.stamp_s - records_[static_cast<std::size_t>(last->second)].time_s;
-      if (since < kEachS) {
-        continue;
-      }
-      if (since < kGapS) {
-        records_[static_cast<std::size_t>(last->second)].next = static_cast<int>(records_.size());
-        record.before = last->second;
-      }
-    }
-    record.tracked << track.position, track.velocity;
-    record.covariance = track.covariance;
-    last_[track.id] = static_cast<int>(records_.size());
-    records_.push_back(record);
-    smoothBefore(last_[track.id]);
   }
   for (const traffic::Track& track : tracks) {
     follow(track);
   }
   if (records_.size() > kMostRecords) {
     forgetOldest();
+  }
+  if (!tracks.empty()) {
+    forgetWhoIsGone(tracks.front().stamp_s);
+  }
+}
+
+void Habits::remember(const traffic::Track& track) {
+  Known& known = known_[track.id];
+  const std::optional<GoesOn> now = known.motion.follow(track);
+  if (!now) {
+    return;
+  }
+  Record next{now->stamp_s, now->mean.head<2>(), now->mean.tail<2>(), track.id};
+  next.tracked = now->mean;
+  next.covariance = now->covariance;
+  const double since_s = known.last < 0 ? kGapS : next.time_s - record(known.last).time_s;
+  if (since_s < kEachS) {
+    return;
+  }
+  if (!known.motion.wasLost() && since_s < kGapS) {
+    records_[static_cast<std::size_t>(known.last)].next = static_cast<int>(records_.size());
+    next.before = known.last;
+  }
+  known.last = static_cast<int>(records_.size());
+  records_.push_back(next);
+  smoothBefore(known.last);
+}
+
+// A track's number comes once: who is gone for a while comes back as another.
+void Habits::forgetWhoIsGone(double now_s) {
+  constexpr double kGoneS = 30.0;
+  for (auto it = known_.begin(); it != known_.end();) {
+    it = now_s - it->second.place.stamp_s > kGoneS ? known_.erase(it) : std::next(it);
   }
 }
 
@@ -64,35 +78,27 @@ void Habits::forgetOldest() {
     record.before = std::max(-1, record.before - cut);
     record.next = record.next < 0 ? -1 : record.next - cut;
   }
-  for (auto it = last_.begin(); it != last_.end();) {
-    it->second -= cut;
-    it = it->second < 0 ? last_.erase(it) : std::next(it);
+  for (auto& [id, known] : known_) {
+    known.last = std::max(-1, known.last - cut);
+    known.place.at = {};
   }
-  places_.clear();
 }
 
 // What came later tells better where she was and how she went: the smoother of Rauch, Tung and
 // Striebel (1965) over the last records of a track, the velocity straying at random.
 void Habits::smoothBefore(int last) {
   constexpr int kBack = 5;
-  constexpr double kStrays = 3.0;  // density of a white acceleration, m^2/s^3
   Eigen::Vector4d mean = record(last).tracked;
   int index = last;
   for (int k = 0; k < kBack && record(index).before >= 0; ++k) {
     const double dt = record(index).time_s - record(record(index).before).time_s;
     index = record(index).before;
     Record& then = records_[static_cast<std::size_t>(index)];
-    Eigen::Matrix4d moves = Eigen::Matrix4d::Identity();
-    Eigen::Matrix4d strays = Eigen::Matrix4d::Zero();
-    for (int axis = 0; axis < 2; ++axis) {
-      moves(axis, axis + 2) = dt;
-      strays(axis, axis) = kStrays * dt * dt * dt / 3.0;
-      strays(axis, axis + 2) = strays(axis + 2, axis) = kStrays * dt * dt / 2.0;
-      strays(axis + 2, axis + 2) = kStrays * dt;
-    }
-    const Eigen::Matrix4d foretold = moves * then.covariance * moves.transpose() + strays;
-    const Eigen::Matrix4d gain = then.covariance * moves.transpose() * foretold.inverse();
-    mean = then.tracked + gain * (mean - moves * then.tracked);
+    const Straying straying(dt);
+    const Eigen::Matrix4d foretold =
+        straying.moves * then.covariance * straying.moves.transpose() + straying.adds;
+    const Eigen::Matrix4d gain = then.covariance * straying.moves.transpose() * foretold.inverse();
+    mean = then.tracked + gain * (mean - straying.moves * then.tracked);
     then.position = mean.head<2>();
     then.velocity = mean.tail<2>();
   }
@@ -124,11 +130,12 @@ void Habits::follow(const traffic::Track& track) {
   constexpr double kOffOnAnotherCourseM = 1.0;
   constexpr double kAnotherCourseCosine = 0.7;
   constexpr double kMayBeOffS = 0.4;
+  constexpr double kLostS = 1.2;
   constexpr double kAlongS = 1.0;  // in which she is found to be earlier or later than before
-  Place& place = places_[track.id];
+  Place& place = known_[track.id].place;
   const double dt = track.stamp_s - place.stamp_s;
   place.stamp_s = track.stamp_s;
-  if (!track.makesWay() || (place.at.record >= 0 && (dt > kGapS || !moveAlong(place.at, dt)))) {
+  if (!track.makesWay() || (place.at.record >= 0 && (dt > kLostS || !moveAlong(place.at, dt)))) {
     place.at.record = -1;
   }
   if (!track.makesWay()) {
@@ -157,6 +164,7 @@ void Habits::follow(const traffic::Track& track) {
 
 Habits::Match Habits::match(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
                             int id, double before_s) const {
+  constexpr double kStretchM = 6.0;  // from the one nearest to her, at most
   Match best;
   double least = kSameWayM;
   const double speed = velocity.norm();
@@ -166,7 +174,7 @@ Habits::Match Habits::match(const Eigen::Vector2d& position, const Eigen::Vector
       continue;
     }
     const Eigen::Vector2d off = position - record.position;
-    if (off.squaredNorm() > 16.0) {
+    if (off.squaredNorm() > kStretchM * kStretchM) {
       continue;
     }
     const double then = record.velocity.norm();
@@ -190,21 +198,33 @@ Habits::Match Habits::match(const Eigen::Vector2d& position, const Eigen::Vector
   return best;
 }
 
+void Habits::placesWithin(const Eigen::Vector2d& of, double range_m,
+                          std::vector<Eigen::Vector2d>& places) const {
+  for (const Record& record : records_) {
+    if ((record.position - of).norm() < range_m) {
+      places.push_back(record.position);
+    }
+  }
+}
+
 std::optional<double> Habits::steadyTurn(const traffic::Track& track) const {
   constexpr double kHalfS = 1.2;
   constexpr double kLeastRadps = 0.04;
   constexpr double kAlike = 0.5;
-  const auto last = last_.find(track.id);
-  if (last == last_.end()) {
+  const auto known = known_.find(track.id);
+  if (known == known_.end() || known->second.last < 0) {
     return std::nullopt;
   }
   // Over two stretches, one before the other: who has turned a corner has turned in one alone.
-  const Record* now = &records_[static_cast<std::size_t>(last->second)];
+  const Record* now = &record(known->second.last);
   const Record* at = now;
   double turned_rad = 0.0;
   double first_rad = 0.0;
   double first_s = 0.0;
   while (at->before >= 0 && now->time_s - at->time_s < 2.0 * kHalfS) {
+    if (std::max(at->covariance(2, 2), at->covariance(3, 3)) > kKnownMps * kKnownMps) {
+      return std::nullopt;
+    }
     const Record* earlier = &records_[static_cast<std::size_t>(at->before)];
     // As tracked: smoothed, a corner looks like a round.
     const Eigen::Vector2d from = earlier->tracked.tail<2>();
@@ -235,20 +255,28 @@ std::vector<Eigen::Vector2d> Habits::foretell(const traffic::Track& track, doubl
   if (!track.makesWay()) {
     return {};
   }
-  std::vector<Eigen::Vector2d> places;
-  Eigen::Vector2d position = track.position + (from_s - track.stamp_s) * track.velocity;
-  Eigen::Vector2d velocity = track.velocity;
-  double told_s = 0.0;
-  // Where a way breaks off another may lead on.
+  const Eigen::Vector2d position = track.position + (from_s - track.stamp_s) * track.velocity;
+  const double before_s = track.stamp_s - kBeforeS;
+  Match found;
+  const auto known = known_.find(track.id);
+  const Place place = known == known_.end() ? Place{} : known->second.place;
+  if (place.at.record >= 0 && moveAlong(found = place.at, from_s - place.stamp_s)) {
+    found.share = std::clamp(found.share, 0.0, 1.0);
+  } else {
+    found = match(position, track.velocity, track.id, before_s);
+  }
+  return tell(found, position, track.velocity, track.id, before_s, step_s, steps);
+}
+
+std::vector<Eigen::Vector2d> Habits::tell(Match found, Eigen::Vector2d position,
+                                          Eigen::Vector2d velocity, int id, double before_s,
+                                          double step_s, int steps) const {
   constexpr int kWaysMost = 4;
+  std::vector<Eigen::Vector2d> places;
+  double told_s = 0.0;
   for (int ways = 0; ways < kWaysMost && static_cast<int>(places.size()) <= steps; ++ways) {
-    Match found;
-    const auto place = places_.find(track.id);
-    if (ways == 0 && place != places_.end() && place->second.at.record >= 0 &&
-        moveAlong(found = place->second.at, from_s - place->second.stamp_s)) {
-      found.share = std::clamp(found.share, 0.0, 1.0);
-    } else {
-      found = match(position, velocity, track.id, track.stamp_s - kBeforeS);
+    if (ways > 0) {
+      found = match(position, velocity, id, before_s);
     }
     if (found.record < 0) {
       break;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "encounter/met_motion.hpp"
 #include "otter_nav/traffic/track.hpp"
 
 namespace otter_nav::encounter {
@@ -20,6 +21,9 @@ class Habits {
   // was there on such a course before. Empty: nobody was, or nothing much came of it.
   [[nodiscard]] std::vector<Eigen::Vector2d> foretell(const traffic::Track& track, double from_s,
                                                       double step_s, int steps) const;
+  // Adds all places within `range_m` of one at which anybody has been.
+  void placesWithin(const Eigen::Vector2d& of, double range_m,
+                    std::vector<Eigen::Vector2d>& places) const;
   // How fast her course has been turning for a while, rad/s, if it has done so steadily.
   [[nodiscard]] std::optional<double> steadyTurn(const traffic::Track& track) const;
 
@@ -49,17 +53,29 @@ class Habits {
   [[nodiscard]] const Record& record(int index) const {
     return records_[static_cast<std::size_t>(index)];
   }
+  // Of one track.
+  struct Known {
+    MetMotion motion;
+    int last = -1;  // record
+    Place place;
+  };
+  void remember(const traffic::Track& track);
   void follow(const traffic::Track& track);
+  // Places from one on a way on; where that breaks off another may lead on. `position` and
+  // `velocity` are hers.
+  [[nodiscard]] std::vector<Eigen::Vector2d> tell(Match found, Eigen::Vector2d position,
+                                                  Eigen::Vector2d velocity, int id, double before_s,
+                                                  double step_s, int steps) const;
   // `by_s` later on the way, negative: before; whether the way goes so far.
   [[nodiscard]] bool moveAlong(Match& at, double by_s) const;
   void smoothBefore(int last);
   [[nodiscard]] Match match(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
                             int id, double before_s) const;
   void forgetOldest();
+  void forgetWhoIsGone(double now_s);
 
   std::vector<Record> records_;
-  std::map<int, int> last_;      // of each track
-  std::map<int, Place> places_;  // of each track that is on a way again
+  std::map<int, Known> known_;  // by the tracks' numbers
 };
 
 }  // namespace otter_nav::encounter

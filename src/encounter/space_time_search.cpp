@@ -9,6 +9,7 @@
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
+#include "otter_nav/vessel/rest.hpp"
 
 namespace otter_nav::encounter {
 namespace {
@@ -45,6 +46,7 @@ struct Node {
   double price = 0.0;  // so far
   double rank = 0.0;   // and what is left
   Foretold::Nearness worst;
+  int arrived = -1;  // at this step
   int parent = -1;
   int order = -1;
   int first = -1;    // order of all
@@ -154,6 +156,13 @@ double SpaceTimeSearch::left(const Hull& hull) const {
   return seconds;
 }
 
+bool SpaceTimeSearch::arrives(const Hull& hull) const {
+  constexpr double kShare = 0.8;  // of what is allowed: it is not followed to the last bit
+  return (hull.position - aim_.goal.position).norm() < kShare * aim_.arrival_m &&
+         std::abs(wrapAngle(hull.psi_rad - aim_.goal.psi_rad)) < kShare * aim_.arrival_rad &&
+         hull.velocity().norm() < kShare * vessel::kRestMps;
+}
+
 double SpaceTimeSearch::slackAt(const Hull& hull) const {
   const double reach = discs_.ahead_m + discs_.radius_m;
   const double centre = still_.clearance(hull.position);
@@ -214,15 +223,19 @@ SpaceTimeSearch::Way SpaceTimeSearch::find() const {
           constexpr double kHalfS = 0.5 * Foretold::kStepS;
           helmsman_.step(next.hull, helmOf(order, next.hull), kHalfS);
           helmsman_.step(next.hull, helmOf(order, next.hull), kHalfS);
+          if (next.arrived >= 0) {
+            continue;
+          }
           next.price += priceAt(next.hull, k0 + s, near, next.worst);
           if (std::isinf(next.price)) {
             break;
           }
+          next.arrived = arrives(next.hull) ? k0 + s : -1;
         }
         if (std::isinf(next.price)) {
           continue;
         }
-        next.rank = next.price + left(next.hull);
+        next.rank = next.price + (next.arrived < 0 ? left(next.hull) : leftArrived(next.arrived));
         grown.push_back(next);
       }
     }

@@ -31,6 +31,8 @@ struct Aim {
   std::vector<Eigen::Vector2d> points;
   std::vector<double> left_m;
   vessel::Pose goal;
+  double arrival_m = 0.0;  // from the goal, at rest: what comes then is no matter of the search's
+  double arrival_rad = 0.0;
 };
 
 class SpaceTimeSearch {
@@ -56,6 +58,10 @@ class SpaceTimeSearch {
   [[nodiscard]] Helm helmOf(const Order& order, const Hull& hull) const;
   // What is left from a state, s, as the price counts it.
   [[nodiscard]] double left(const Hull& hull) const;
+  // Whether it is over there. What is left then, at step k: less the sooner it is, for the horizon
+  // goes on.
+  [[nodiscard]] bool arrives(const Hull& hull) const;
+  [[nodiscard]] static double leftArrived(int k) { return k * Foretold::kStepS - kHorizonS; }
   // The price of being there at step k for one step; infinite where something lies.
   [[nodiscard]] double priceAt(const Hull& hull, int k, const std::vector<int>& near,
                                Foretold::Nearness& worst) const;

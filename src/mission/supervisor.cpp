@@ -12,6 +12,7 @@
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/encounter/evasion.hpp"
+#include "otter_nav/encounter/lying_off.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
@@ -104,6 +105,7 @@ class Decider final : public Supervisor {
     replans_ = 0;
     nearest_left_m_ = std::numeric_limits<double>::infinity();
     pilot_.newGoal(m.now_s);
+    lying_off_.newGoal();
     return handedOut(m, follow(kGoalRules, m));
   }
 
@@ -955,12 +957,18 @@ class Decider final : public Supervisor {
       return {};
     }
     evaded_s_ = m.now_s;
-    const encounter::Evasion::Task task = evasionFrom(m);
+    encounter::Evasion::Task task = evasionFrom(m);
     // Not into water that nobody has seen, unless it lies in such.
     constexpr double kInKnownM = 0.5;
     const map::DistanceField& known = m.obstacles.inKnownWater().field();
     const bool in_known = known.clearance(task.start.position) > kInKnownM;
     const map::DistanceField& still = in_known ? known : m.obstacles.field();
+    if (const auto off = lying_off_.place(m.now_s, task.start.position, goal_.position,
+                                          m.situation.tracks, still, evasion_)) {
+      task.goal = {*off, safety().restHeading(task.state[vessel::kPsi])};
+      task.way.clear();
+      task.arrival_m = task.arrival_rad = 0.0;
+    }
     const encounter::Evasion::Way found = evasion_.find(task, m.situation.tracks, still);
     const bool from_sailed = task.start_s > m.now_s;
     if (evades && from_sailed && sailed_.left(m.now_s) > kLeastLeftS) {
@@ -1418,6 +1426,8 @@ class Decider final : public Supervisor {
     }
     task.way.assign(nearest, way_.end());
     task.goal = {goal_.position, safety().restHeading(goal_.psi_rad)};
+    task.arrival_m = options_.arrival_distance_m;
+    task.arrival_rad = options_.arrival_heading_rad;
     return task;
   }
   // Of a plan that leads to the goal.
@@ -1843,6 +1853,7 @@ class Decider final : public Supervisor {
   std::optional<Obstacles> seen_;              // and what lies still
   encounter::Pilot pilot_;
   encounter::Evasion evasion_;
+  encounter::LyingOff lying_off_;
   TimedTrajectory later_;  // what is sailed, for a vessel that is so far behind:
   double behind_m_ = 0.0;
   double late_m_ = 0.0;  // what was put off in all, less what counts as made good since

@@ -77,6 +77,9 @@ Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& sta
     one.disc = static_cast<std::uint8_t>(track.shape == traffic::Shape::kDisc);
     std::copy(track.covariance.data(), track.covariance.data() + 16, one.covariance.begin());
     one.existence = track.existence;
+    one.met_stamp = toRosTime(track.met.stamp_s);
+    one.met_position = toPoint(track.met.position);
+    one.met_deviation = track.met.deviation_m;
     one.sources = static_cast<std::uint8_t>(track.sources);
     message.tracks.push_back(one);
   }
@@ -103,11 +106,15 @@ Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
     track.shape = one.disc != 0 ? traffic::Shape::kDisc : traffic::Shape::kBox;
     std::copy(one.covariance.begin(), one.covariance.end(), track.covariance.data());
     track.existence = one.existence;
+    track.met.stamp_s = one.met_stamp.toSec();
+    track.met.position = {one.met_position.x, one.met_position.y};
+    track.met.deviation_m = one.met_deviation;
     track.sources = one.sources;
     const bool finite = track.position.allFinite() && track.velocity.allFinite() &&
                         std::isfinite(one.heading) && std::isfinite(one.turn_rate) &&
-                        track.covariance.allFinite();
-    if (!finite || !(one.length >= 0.0) || !(one.beam >= 0.0) || !(one.turn_time > 0.0)) {
+                        track.covariance.allFinite() && track.met.position.allFinite();
+    if (!finite || !(one.met_deviation >= 0.0) || !(one.length >= 0.0) || !(one.beam >= 0.0) ||
+        !(one.turn_time > 0.0)) {
       return failure("track " + std::to_string(one.id) +
                      " holds a figure that is not finite, or a negative size or time");
     }

@@ -175,6 +175,7 @@ Track TrackedVessel::track() const {
   }
   track.existence = existence;
   track.sources = sources;
+  track.met = met;
   return track;
 }
 

@@ -37,6 +37,7 @@ struct TrackedVessel {
   double last_new_s = kLongAgoS;  // the last of those
   int missed = 0;                 // scans in a row that ought to have shown it and didn't
 
+  Track::Met met;
   int plots;  // of the radar's
   std::uint32_t sources;
 

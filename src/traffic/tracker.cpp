@@ -389,6 +389,7 @@ class Tracker::Impl {
     const double surprise = vessel.motion.distance2(candidates[best].measurement);
     vessel.motion.update(candidates);
     if (probabilities[best] > 0.5) {
+      vessel.met = met(look.stamp_s, candidates);
       vessel.missed = 0;
       if (in_doubt && !vessel.heading_rad && surprise > kSurprise2) {
         vessel.doubt(look.stamp_s);
@@ -399,6 +400,28 @@ class Tracker::Impl {
       vessel.plots += look.source == kRadar ? 1 : 0;
       look.seen(vessel, links[best].detection, vessel.followCourse());
     }
+  }
+
+  // Each candidate is hers as probably as it says.
+  [[nodiscard]] static Track::Met met(double stamp_s,
+                                      const std::vector<MotionFilter::Candidate>& candidates) {
+    double all = 0.0;
+    Track::Met met;
+    met.stamp_s = stamp_s;
+    for (const MotionFilter::Candidate& candidate : candidates) {
+      all += candidate.probability;
+      met.position += candidate.probability * candidate.measurement.value.head<2>();
+    }
+    met.position /= all;
+    double variance = 0.0;
+    for (const MotionFilter::Candidate& candidate : candidates) {
+      const Eigen::Vector2d off = candidate.measurement.value.head<2>() - met.position;
+      variance +=
+          candidate.probability / all * 0.5 *
+          (candidate.measurement.covariance.topLeftCorner<2, 2>().trace() + off.squaredNorm());
+    }
+    met.deviation_m = std::sqrt(variance);
+    return met;
   }
 
   // Two that pass close by are met as one thing, which is larger than either: each has the echoes

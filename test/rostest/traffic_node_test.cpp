@@ -89,6 +89,9 @@ TEST_F(TrafficNode, TracksWhatTheRadarAndAisTell) {
   EXPECT_NEAR(track.position.y, 20.0, 1.5);
   EXPECT_EQ(track.sources, Track::RADAR);
   EXPECT_GT(track.covariance[0], 0.0);
+  EXPECT_EQ(track.met_stamp, track.stamp);
+  EXPECT_NEAR(track.met_position.y, 20.0, 1.5);
+  EXPECT_GT(track.met_deviation, 0.0);
   EXPECT_EQ(tracks_.messages.back().header.frame_id, ros_bridge::frames().map);
 }
 

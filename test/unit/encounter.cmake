@@ -4,4 +4,6 @@ otter_nav_test(unit_encounter_prospect SOURCES ${encounter_tests}/prospect_test.
 otter_nav_test(unit_encounter_manoeuvre SOURCES ${encounter_tests}/manoeuvre_test.cpp ROOMS encounter)
 otter_nav_test(unit_encounter_pilot SOURCES ${encounter_tests}/pilot_test.cpp ROOMS encounter)
 otter_nav_test(unit_encounter_evasion SOURCES ${encounter_tests}/evasion_test.cpp ROOMS encounter)
+otter_nav_test(unit_encounter_met_motion SOURCES ${encounter_tests}/met_motion_test.cpp ROOMS encounter)
+otter_nav_test(unit_encounter_lying_off SOURCES ${encounter_tests}/lying_off_test.cpp ROOMS encounter)
 otter_nav_test(unit_encounter_swing SOURCES ${encounter_tests}/swing_test.cpp ROOMS encounter)

@@ -45,6 +45,9 @@ class Evasion {
     double speed_max_mps = 0.0;
     std::vector<Eigen::Vector2d> way;  // to the goal, from near here on; may be empty
     vessel::Pose goal;
+    // At rest within these of the goal's place and heading the mission is over; 0: it goes on.
+    double arrival_m = 0.0;
+    double arrival_rad = 0.0;
   };
   struct Way {
     trajectory::TimedTrajectory path;  // empty: there is none
@@ -65,6 +68,14 @@ class Evasion {
   // Of a hull that lies still.
   [[nodiscard]] Danger danger(const vessel::Pose& lies, double from_s, double ahead_s,
                               const std::vector<traffic::Track>& tracks) const;
+
+  // Of those who make way: the share of whom it is known how they will go on, as they have done so
+  // before or go round.
+  [[nodiscard]] double shareKnown(const std::vector<traffic::Track>& tracks) const;
+  // Near `from` and clear of what lies still: where fewest come, by all that was seen of them.
+  [[nodiscard]] Eigen::Vector2d quietPlace(const Eigen::Vector2d& from, double now_s,
+                                           const std::vector<traffic::Track>& tracks,
+                                           const map::DistanceField& still) const;
 
  private:
   vessel::Parameters vessel_;

@@ -31,6 +31,14 @@ struct Track {
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
   double existence = 1.0;     // probability that there is a vessel at all
   std::uint32_t sources = 0;  // bits of Source
+  // Where a sensor last met the outline's middle. Nothing of how she went before is in it, as it is
+  // in what stands above. A deviation of 0: nothing is known.
+  struct Met {
+    double stamp_s = 0.0;
+    Eigen::Vector2d position = Eigen::Vector2d::Zero();
+    double deviation_m = 0.0;  // standard deviation, each axis
+  };
+  Met met;
 
   // Faster than what lies still is taken to be while its track wanders.
   [[nodiscard]] bool makesWay() const {

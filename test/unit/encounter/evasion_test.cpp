@@ -109,6 +109,40 @@ TEST(Evasion, DoesNotLieStillInTheWayOfWhoComesOverHer) {
   EXPECT_GT(evasion.judge(task, stays, {she}, water).price, way.price + 5.0);
 }
 
+// Whether a way comes to rest at the goal, within what counts as arrival, and when; negative:
+// never.
+double arrivalTime(const trajectory::TimedTrajectory& path, const Evasion::Task& task,
+                   const vessel::Parameters& vessel) {
+  for (double t = 0.0; t <= path.trajectory.duration(); t += 0.05) {
+    const vessel::State x = path.trajectory.sample(t, vessel).state;
+    if ((x.head<2>() - task.goal.position).norm() < 0.9 &&
+        std::abs(wrapAngle(x[vessel::kPsi] - task.goal.psi_rad)) < 0.15 &&
+        x.segment<2>(vessel::kSurge).norm() < 0.25) {
+      return t;
+    }
+  }
+  return -1.0;
+}
+
+TEST(Evasion, ArrivesBeforeSheComesByThoughItCouldNotStayThere) {
+  const map::DistanceField water = test::openWater();
+  const vessel::Parameters vessel = vesselNamed("otter_gazebo");
+  const Evasion evasion(vessel);
+  Evasion::Task task = taskAt(0.0, 3.0);
+  task.goal = {{1.5, 0.0}, 0.0};
+  // Over the goal after 7 s.
+  const traffic::Track she = square(1, {1.5, 21.0}, {0.0, -3.0});
+  EXPECT_LT(arrivalTime(evasion.find(task, {she}, water).path, task, vessel), 0.0);
+  task.arrival_m = 0.9;
+  task.arrival_rad = 0.15;
+  const Evasion::Way way = evasion.find(task, {she}, water);
+  const double arrived_s = arrivalTime(way.path, task, vessel);
+  EXPECT_GE(arrived_s, 0.0);
+  EXPECT_LT(arrived_s, 5.0);
+  // What was found is worth keeping, and dearer the later it arrives.
+  EXPECT_NEAR(evasion.judge(task, way.path, {she}, water).price, way.price, 0.7);
+}
+
 // A wall across from beside the vessel: through it there is no way.
 TEST(Evasion, KeepsClearOfWhatLiesStill) {
   map::OccupancyGrid grid;

@@ -200,6 +200,27 @@ TEST(Evading, WaitsForNoPlan) {
   EXPECT_EQ(mission.supervisor->phase(), Phase::kEvading);
 }
 
+// Nobody's way is known yet: it lies off and looks on, but not for ever.
+TEST(Evading, LiesOffBeforeItGoesInAmongMany) {
+  test::ScriptedMission mission;
+  (void)mission.goTo({-40.0, 0.0});
+  const double began_s = mission.now_s;
+  const auto goOnUntil = [&](double until_s) {
+    while (mission.now_s < began_s + until_s) {
+      mission.tracks.clear();
+      for (int k = 0; k < 4; ++k) {
+        mission.tracks.push_back(northward({-12.0 + 8.0 * k, -30.0}, mission.now_s + 0.1, 1.0));
+        mission.tracks.back().id = k;
+      }
+      (void)mission.update(0.1);
+    }
+    return -mission.situation().state.x();
+  };
+  EXPECT_LT(goOnUntil(55.0), 8.0);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kEvading);
+  EXPECT_GT(goOnUntil(67.0), 5.0);
+}
+
 // Nor does the tracker catch up faster than the mission may sail.
 TEST(Evading, KeepsToTheSpeedLimit) {
   constexpr double kLimitMps = 1.2;
@@ -247,6 +268,22 @@ TEST(Evading, StaysAtTheGoal) {
   const Orders orders = mission.supervisor->update(mission.now_s, there, mission.obstacles());
   EXPECT_EQ(mission.supervisor->phase(), Phase::kArrived);
   EXPECT_TRUE(orders.stop);
+}
+
+// And makes for it though it could not stay there: what comes after the arrival is another matter.
+TEST(Evading, ArrivesBeforeTheyComeOverTheGoal) {
+  test::ScriptedMission mission;
+  (void)mission.goTo({1.5, 0.0});
+  const double began_s = mission.now_s;
+  while (mission.supervisor->phase() != Phase::kArrived && mission.now_s < began_s + 6.0) {
+    mission.tracks.clear();
+    for (int k = 0; k < 4; ++k) {
+      mission.tracks.push_back(northward({1.5 - 8.0 * k, -21.0}, mission.now_s + 0.1, 3.0));
+      mission.tracks.back().id = k;
+    }
+    (void)mission.update(0.1);
+  }
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kArrived);
 }
 
 // Where she lies against something the search has no way; what else there is goes on.

@@ -249,6 +249,25 @@ TEST(TrafficTracker, TakesNoCylinderForAVesselByASinglePlot) {
   EXPECT_LE(tracks, 3);
 }
 
+// Where she was met stands beside what her track makes of it: a plot 3 m off her way draws the
+// track to it by a part only.
+TEST(TrafficTracker, TellsWhereTheRadarMetHerLast) {
+  const plant::Options plant = test::plantOptions();
+  Tracker tracker(Options{}, map::OccupancyGrid{}, plant.vessel.hull);
+  Eigen::Vector2d plot;
+  for (int k = 0; k <= 12; ++k) {
+    plot = {60.0 - 2.0 * k, k < 12 ? 10.0 : 13.0};
+    tracker.addRadar(k, {plot}, {0.0, 0.0});
+  }
+  ASSERT_EQ(tracker.tracks().size(), 1U);
+  const Track& track = tracker.tracks().front();
+  EXPECT_LT((track.met.position - plot).norm(), 0.05);
+  EXPECT_EQ(track.met.stamp_s, 12.0);
+  EXPECT_GT(track.met.deviation_m, 0.3);
+  EXPECT_LT(track.met.deviation_m, 3.0);
+  EXPECT_GT((track.position - plot).norm(), 0.5);
+}
+
 // Behind an island for a while, and the same vessel afterwards: on either course, near it and far,
 // for four to twenty-five seconds. One may be lost that was barely known when she was hidden.
 TEST(TrafficTracker, KeepsAVesselBehindAnIsland) {
