@@ -6,8 +6,8 @@ namespace otter_nav::encounter {
 namespace {
 
 bool areMany(const Eigen::Vector2d& position, const std::vector<traffic::Track>& tracks) {
-  constexpr int kMany = 4;
-  constexpr double kNearM = 35.0;
+  constexpr int kMany = 8;
+  constexpr double kNearM = 60.0;
   return std::count_if(tracks.begin(), tracks.end(), [&](const traffic::Track& track) {
            return track.makesWay() && (track.position - position).norm() < kNearM;
          }) >= kMany;

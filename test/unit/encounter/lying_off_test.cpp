@@ -10,10 +10,10 @@
 namespace otter_nav::encounter {
 namespace {
 
-// Six beside each other to and fro across the way, 12 m and more ahead.
+// Eight beside each other to and fro across the way, 12 m and more ahead.
 std::vector<traffic::Track> across(double now_s) {
   std::vector<traffic::Track> tracks;
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < 8; ++k) {
     const double s = std::fmod(2.0 * now_s + 3.0 * k, 40.0);
     traffic::Track track;
     track.id = k;
@@ -52,12 +52,12 @@ Looks lookOn(std::size_t others, const Eigen::Vector2d& goal = {50.0, 0.0}) {
   const bool again =
       lying_off.place(looks.until_s + 1.0, {8.0, 0.0}, goal, across(0.0), water, evasion)
           .has_value();
-  EXPECT_EQ(again, others < 6U);
+  EXPECT_EQ(again, others < 8U);
   return looks;
 }
 
 TEST(LyingOff, LooksOnUntilTheirWaysAreKnown) {
-  const Looks looks = lookOn(6);
+  const Looks looks = lookOn(8);
   // There and back again takes each 20 s.
   EXPECT_GT(looks.until_s, 15.0);
   EXPECT_LT(looks.until_s, 40.0);
@@ -65,8 +65,8 @@ TEST(LyingOff, LooksOnUntilTheirWaysAreKnown) {
 }
 
 TEST(LyingOff, GoesOnAtOnceAmongFewOrRightBeforeTheGoal) {
-  EXPECT_EQ(lookOn(3).until_s, 0.0);
-  EXPECT_EQ(lookOn(6, {12.0, 0.0}).until_s, 0.0);
+  EXPECT_EQ(lookOn(6).until_s, 0.0);
+  EXPECT_EQ(lookOn(8, {12.0, 0.0}).until_s, 0.0);
 }
 
 }  // namespace

@@ -208,8 +208,8 @@ TEST(Evading, LiesOffBeforeItGoesInAmongMany) {
   const auto goOnUntil = [&](double until_s) {
     while (mission.now_s < began_s + until_s) {
       mission.tracks.clear();
-      for (int k = 0; k < 4; ++k) {
-        mission.tracks.push_back(northward({-12.0 + 8.0 * k, -30.0}, mission.now_s + 0.1, 1.0));
+      for (int k = 0; k < 8; ++k) {
+        mission.tracks.push_back(northward({-28.0 + 8.0 * k, -30.0}, mission.now_s + 0.1, 1.0));
         mission.tracks.back().id = k;
       }
       (void)mission.update(0.1);
