@@ -227,6 +227,9 @@ class Decider final : public Supervisor {
   bool doesNotKnowTheWeather(const Moment& /*m*/) {
     return !weather().isKnown() || (safety().mayPlanWithWeather() && weather().rises());
   }
+  // It steers into waves that it doesn't know yet, and swings its corners by as much again as they
+  // set it aside.
+  bool learnsTheWaves(const Moment& m) { return waves_since_s_ && mayLearnTheWaves(m); }
 
   // Or so near the edge that no plan starts there: it counts as occupied.
   bool isOverTheEdge(const Moment& m) { return knowsPlace(m) && inside(m) < safety().narrowest(); }
@@ -1122,6 +1125,7 @@ class Decider final : public Supervisor {
       {kWaiting, &Decider::mustWait, &Decider::keepOn},
       {kWaiting, &Decider::hasFault, &Decider::loseRound},
       {kWaiting, &Decider::doesNotKnowTheWeather, &Decider::keepOn},
+      {kWaiting, &Decider::learnsTheWaves, &Decider::keepOn},
       {kWaiting, &Decider::isOverTheEdge, &Decider::turnBack},
       {kWaiting, &Decider::isBeyondThrust, &Decider::waitForCalm},
       {kWaiting, &Decider::isDrivenAshore, &Decider::makeSeaRoom},
@@ -1678,7 +1682,22 @@ class Decider final : public Supervisor {
     if ((m.situation.state.head<2>() - start).norm() > kDriftM) {
       return planFromRest(m);
     }
+    if (isForNarrowWater(asked) && mayLearnTheWaves(m)) {
+      waves_since_s_ = waves_since_s_.value_or(m.now_s);
+      enter(phase_, "learns the waves before it goes through narrow water");
+      return holdHere();
+    }
     return sail(m, {plan.trajectory, m.now_s}, asked);
+  }
+  [[nodiscard]] bool isForNarrowWater(const PlanRequests::Asked& asked) const {
+    constexpr double kNarrowM = 0.3;  // beside the hull
+    return asked.request.query.limits.clearance_m < centreClearance(vessel_.hull, kNarrowM);
+  }
+  // Not for ever: there are trackers that never tell.
+  [[nodiscard]] bool mayLearnTheWaves(const Moment& m) const {
+    constexpr double kPatienceS = 20.0;
+    return !m.situation.disturbance.knows_waves &&
+           m.now_s < waves_since_s_.value_or(m.now_s) + kPatienceS;
   }
   Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
     constexpr double kLateM = 0.3;
@@ -1859,6 +1878,7 @@ class Decider final : public Supervisor {
   double late_m_ = 0.0;  // what was put off in all, less what counts as made good since
   double late_at_s_ = 0.0;
   double gusts_asked_s_ = -std::numeric_limits<double>::infinity();  // for a slower plan
+  std::optional<double> waves_since_s_;                              // it learns them
   double evaded_s_ = -std::numeric_limits<double>::infinity();       // when it was decided last
   double crowded_s_ = 0.0;  // while she evades: when others were many or near last
   double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found

@@ -151,6 +151,7 @@ DisturbanceEstimate toMessage(const vessel::DisturbanceEstimate& estimate) {
   for (int i = 0; i < estimate.covariance.size(); ++i) {  // symmetric: rows or columns first
     message.covariance[static_cast<std::size_t>(i)] = estimate.covariance.data()[i];
   }
+  message.knows_waves = static_cast<std::uint8_t>(estimate.knows_waves);
   return message;
 }
 
@@ -164,6 +165,7 @@ Result<vessel::DisturbanceEstimate> disturbanceEstimate(const DisturbanceEstimat
   for (int i = 0; i < estimate.covariance.size(); ++i) {
     estimate.covariance.data()[i] = message.covariance[static_cast<std::size_t>(i)];
   }
+  estimate.knows_waves = message.knows_waves != 0;
   const struct {
     const char* name;
     bool finite;

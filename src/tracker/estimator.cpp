@@ -380,6 +380,7 @@ vessel::DisturbanceEstimate Estimator::disturbanceEstimate() const {
   constexpr double kCalmM2ps2 = 1.0;  // below it the wind's slope over q is bounded
   Estimate estimate;
   estimate.mean = disturbance_;
+  estimate.knows_waves = wave_frequency_.isKnown();
   // w = q / sqrt|q|
   const double size = std::max(wind_pressure_.norm(), kCalmM2ps2);
   const Eigen::Vector2d n = wind_pressure_ / size;

@@ -21,6 +21,9 @@ constexpr double kMeansSettleS = 6.0;
 // Faster turns make sway of their own.
 constexpr double kTurnsRadps = 0.2;
 constexpr double kLittleMps = 0.02;  // moves the usual frequency half way
+// Crawled for so long without more than this to and fro there are no waves that matter.
+constexpr double kLooksS = 3.0;
+constexpr double kCalmMps = 0.03;
 
 }  // namespace
 
@@ -32,7 +35,7 @@ WaveFrequency::WaveFrequency() : radps_(kUsualRadps) {
 void WaveFrequency::add(double sway_mps, double yaw_rate_radps, double crawling, double dt_s) {
   if (crawled_s_ == 0.0) {
     smooth_mps_ = steady_mps_ = sway_mps;
-    aside_m_ = 0.0;
+    aside_m_ = most_mps_ = 0.0;
     felt_ = known_;
   }
   const auto follow = [&](double& value, double to, double time_s) {
@@ -44,6 +47,7 @@ void WaveFrequency::add(double sway_mps, double yaw_rate_radps, double crawling,
   follow(steady_mps_, smooth_mps_, std::clamp(crawled_s_, kSmoothS, kSteadyS));
   const double to_and_fro_mps = smooth_mps_ - steady_mps_;
   aside_m_ += dt_s * (to_and_fro_mps - aside_m_ / kSteadyS);
+  most_mps_ = std::max(most_mps_, std::abs(to_and_fro_mps));
   const double steady = std::max(0.0, 1.0 - std::abs(yaw_rate_radps) / kTurnsRadps);
   const double weight = crawling * steady;
   if (crawled_s_ < kMeansSettleS || weight <= 0.0) {
@@ -55,12 +59,17 @@ void WaveFrequency::add(double sway_mps, double yaw_rate_radps, double crawling,
     return;
   }
   known_ = felt_;
+  found_ = true;
   constexpr double kLittle = kLittleMps * kLittleMps;
   const double ratio =
       (known_.square_mps + kLittle) / (known_.square_m + kLittle / (kUsualRadps * kUsualRadps));
   // The position that follows takes 1 / kSteadyS^2 of it.
   radps_ = std::clamp(std::sqrt(std::max(0.0, ratio - 1.0 / (kSteadyS * kSteadyS))), kLeastRadps,
                       kMostRadps);
+}
+
+bool WaveFrequency::isKnown() const {
+  return found_ || (crawled_s_ >= kLooksS && most_mps_ < kCalmMps);
 }
 
 }  // namespace otter_nav::tracker

@@ -13,6 +13,8 @@ class WaveFrequency {
   void add(double sway_mps, double yaw_rate_radps, double crawling, double dt_s);
   // Of the waves' middle; that of a small lake's as long as nothing is known.
   [[nodiscard]] double radps() const { return radps_; }
+  // It was found once, or nothing much sways a hull that crawls.
+  [[nodiscard]] bool isKnown() const;
 
  private:
   struct Means {
@@ -23,6 +25,8 @@ class WaveFrequency {
   double steady_mps_ = 0.0;
   double aside_m_ = 0.0;  // from a position that follows slowly
   double crawled_s_ = 0.0;
+  double most_mps_ = 0.0;  // to and fro, since the hull has crawled
+  bool found_ = false;
   Means felt_;   // since the hull has crawled, too
   Means known_;  // of crawling that was long enough
   double radps_;

@@ -34,6 +34,8 @@ struct DisturbanceEstimate {
   enum Index : int { kForce = 0, kMoment = 2, kCurrent = 3, kWind = 5, kSize = 7 };
   Disturbance mean;
   Eigen::Matrix<double, kSize, kSize> covariance = Eigen::Matrix<double, kSize, kSize>::Zero();
+  // How fast the waves are that move the hull, or that none do.
+  bool knows_waves = false;
 };
 
 // Surge, sway, yaw: forces N and moment N m, or accelerations. Each of its own type, since each

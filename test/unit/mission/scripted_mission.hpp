@@ -29,6 +29,7 @@ class ScriptedMission {
     Situation s;
     s.odometry_stamp_s = now_s;
     s.disturbance.mean = disturbance;
+    s.disturbance.knows_waves = knows_waves;
     s.state = rest;
     s.tracks = tracks;
     const trajectory::TimedTrajectory& sailed = supervisor->sailed();
@@ -94,6 +95,7 @@ class ScriptedMission {
   SupervisorOptions options;
   std::unique_ptr<Supervisor> supervisor;
   vessel::State rest = vessel::State::Zero();
+  bool knows_waves = true;
   vessel::Disturbance disturbance;  // as the tracker estimates it
   double now_s = 98.5;              // 100 s once the weather is known
 };

@@ -8,6 +8,7 @@
 namespace otter_nav::mission {
 namespace {
 
+using test::eastward;
 using test::ScriptedMission;
 
 void expectRefused(ScriptedMission& mission, const Eigen::Vector2d& goal, double psi_rad,
@@ -121,6 +122,54 @@ TEST(Options, ShippedFileLoads) {
   YAML::Node broken = YAML::Clone((*root)["supervisor"]);
   broken["side_clearances_m"] = std::vector<double>{0.3, 0.4, 0.7, 1.1};
   EXPECT_FALSE(readSupervisorOptions(config::Section(broken, "broken")).has_value());
+}
+
+// With `beside_m` of water on either side of the hull, 80 m before the goal; the waves are not
+// known.
+struct BeforeAPassage {
+  explicit BeforeAPassage(double beside_m) : mission(test::openWater(), widths(beside_m)) {
+    mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    mission.knows_waves = false;
+    asked = mission.goTo({40.0, 0.0})->plan;
+  }
+  static SupervisorOptions widths(double beside_m) {
+    SupervisorOptions options;
+    options.side_clearances_m = {beside_m, 0.5 * beside_m};
+    return options;
+  }
+  bool sails() {
+    return mission.answer(asked.value(), eastward({-40.0, 0.0}, 80.0, 4.0)).sail.has_value();
+  }
+  // For how long nothing more is asked.
+  double waitsFor(double at_most_s) {
+    const double began_s = mission.now_s;
+    asked.reset();
+    while (!asked && mission.now_s < began_s + at_most_s) {
+      asked = mission.update(0.1).plan;
+    }
+    return mission.now_s - began_s;
+  }
+  ScriptedMission mission;
+  std::optional<PlanRequest> asked;
+};
+
+// Its corners would swing in them; where the water is wide that is no matter.
+TEST(Goal, LearnsTheWavesBeforeItGoesThroughNarrowWater) {
+  EXPECT_TRUE(BeforeAPassage(0.5).sails());
+  BeforeAPassage narrow(0.2);
+  EXPECT_FALSE(narrow.sails());
+  EXPECT_GE(narrow.waitsFor(10.0), 10.0);
+  EXPECT_EQ(narrow.mission.supervisor->phase(), Phase::kPlanning);
+  narrow.mission.knows_waves = true;
+  EXPECT_LT(narrow.waitsFor(10.0), 0.2);
+  EXPECT_TRUE(narrow.sails());
+}
+
+TEST(Goal, WaitsForNoTrackerThatNeverKnowsTheWaves) {
+  BeforeAPassage narrow(0.2);
+  EXPECT_FALSE(narrow.sails());
+  EXPECT_NEAR(narrow.waitsFor(60.0), 20.0, 0.5);
+  EXPECT_TRUE(narrow.sails());
 }
 
 }  // namespace

@@ -86,5 +86,22 @@ TEST(WaveFrequency, IsNoSlowerThanWavesAre) {
   EXPECT_GE(found({0.3, 1.0}), 1.0);
 }
 
+// When it is known that they are so and no otherwise, or that there are none.
+double knownAfter(double amplitude_m, double crawling) {
+  WaveFrequency frequency;
+  double t = 0.0;
+  while (!frequency.isKnown() && t < 60.0) {
+    frequency.add(amplitude_m * 1.26 * std::cos(1.26 * t), 0.0, crawling, kSampleS);
+    t += kSampleS;
+  }
+  return t;
+}
+
+TEST(WaveFrequency, TellsWhenItIsKnown) {
+  EXPECT_NEAR(knownAfter(0.09, 1.0), 15.0, 1.0);
+  EXPECT_NEAR(knownAfter(0.005, 1.0), 3.0, 0.1) << "calm";
+  EXPECT_GE(knownAfter(0.09, 0.0), 60.0) << "at speed";
+}
+
 }  // namespace
 }  // namespace otter_nav::tracker
