@@ -211,7 +211,8 @@ SpaceTimeSearch::Way SpaceTimeSearch::find() const {
       const bool near_goal = (node.hull.position - aim_.goal.position).norm() < 2.0 * kApproachM;
       for (std::size_t o = 0; o < orders_.size(); ++o) {
         const Order& order = orders_[o];
-        if (order.kind == Order::Kind::kPark && !near_goal) {
+        const bool parks = order.kind == Order::Kind::kPark;
+        if (parks ? !near_goal : node.arrived >= 0) {
           continue;
         }
         Node next = node;

@@ -139,6 +139,10 @@ TEST(Evasion, ArrivesBeforeSheComesByThoughItCouldNotStayThere) {
   const double arrived_s = arrivalTime(way.path, task, vessel);
   EXPECT_GE(arrived_s, 0.0);
   EXPECT_LT(arrived_s, 5.0);
+  // And lies there: it is not to be found so at a moment alone.
+  const vessel::FlatPoint end = way.path.trajectory.flat(kHorizonS);
+  EXPECT_LT((end.position - task.goal.position).norm(), 0.9);
+  EXPECT_LT(end.velocity.norm(), 0.25);
   // What was found is worth keeping, and dearer the later it arrives.
   EXPECT_NEAR(evasion.judge(task, way.path, {she}, water).price, way.price, 0.7);
 }
