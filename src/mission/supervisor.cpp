@@ -452,26 +452,31 @@ class Decider final : public Supervisor {
     constexpr double kPatienceS = 1.5;
     constexpr double kAheadS = 2.0;
     constexpr double kStepS = 0.25;
-    if (errorOf(m) < 0.5 * options_.tracking_error_max_m) {
-      off_since_s_ = m.now_s;
-      return false;
-    }
     if (!isFarOff(m)) {
       off_since_s_ = m.now_s;
     }
     // Where the wind can take the heading, with something near, a plan from there leads nowhere: at
-    // rest, bow to it, there is a better. Unless the vessel is coming back.
+    // rest, bow to it, there is a better. Unless the vessel is coming back. A gust lets go of it no
+    // sooner than it lies so, and the sooner it turns the less way it has got: it is seen soon how
+    // far off it will be.
     constexpr double kNearShare = 0.5;  // of what a lost heading takes
+    constexpr double kSoonS = 1.5;
     const vessel::State& x = m.situation.state;
     const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
     const Eigen::Vector2d velocity =
         Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
     const vessel::FlatPoint wanted = sailed_.trajectory.flat(sailed_.elapsed(m.now_s));
-    const bool comes_back = (x.head<2>() - wanted.position).dot(velocity - wanted.velocity) < 0.0;
-    const bool hurries =
-        mayLoseItsHeading() && here < kNearShare * weather().drift().norm() && !comes_back;
-    const double patience_s = hurries ? 0.0 : kPatienceS;
-    if (isFarOff(m) && m.now_s - off_since_s_ >= patience_s) {
+    const Eigen::Vector2d off = x.head<2>() - wanted.position;
+    const Eigen::Vector2d goes_off = velocity - wanted.velocity;
+    const bool hurries = mayLoseItsHeading() && here < kNearShare * weather().drift().norm() &&
+                         off.dot(goes_off) >= 0.0;
+    if (hurries && (off + kSoonS * goes_off).norm() > options_.tracking_error_max_m) {
+      return true;
+    }
+    if (errorOf(m) < 0.5 * options_.tracking_error_max_m) {
+      return false;
+    }
+    if (isFarOff(m) && m.now_s - off_since_s_ >= kPatienceS) {
       return true;
     }
     for (double later = kStepS; later <= kAheadS; later += kStepS) {

@@ -1051,6 +1051,35 @@ TEST(SupervisorInWind, IsImpatientOffItsTrajectoryWithSomethingNear) {
   }
 }
 
+// In such a wind what drives a hull off doesn't let go of it until it lies in the wind: it is not
+// waited for how far that takes it.
+TEST(SupervisorInWind, StopsBeforeItIsFarOffWithSomethingNear) {
+  struct Case {
+    double moment_nm;
+    bool near;
+    double away_mps;
+    bool stops;
+  };
+  for (const auto& [moment_nm, near, away_mps, stops] :
+       {Case{20.0, true, 0.9, true}, Case{20.0, true, 0.3, false}, Case{20.0, true, -0.9, false},
+        Case{20.0, false, 0.9, false}, Case{0.0, true, 0.9, false}}) {
+    ScriptedMission mission;
+    mission.disturbance.moment_nm = moment_nm;
+    blow(mission, 5.0, [](double) { return Vector2d(-30.0, 0.0); });
+    mission.setOut(6.0);
+    Situation aside = mission.situation();
+    aside.state.y() -= 0.4;
+    aside.state[vessel::kSway] = -away_mps;
+    aside.tracking_error_m = 0.4;
+    if (near) {
+      const Vector2d here = aside.state.head<2>();
+      mission.put(here + Vector2d(-2.0, -4.0), here + Vector2d(2.0, -2.0));
+    }
+    const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
+    EXPECT_EQ(orders.stop, stops) << moment_nm << " " << near << " " << away_mps;
+  }
+}
+
 // Set aside until it stops; s from there to the request for another plan, which is granted.
 double plansAgainAfter(ScriptedMission& mission) {
   mission.rest = mission.situation().state;
