@@ -143,7 +143,7 @@ double HullSearch::leftS(const Eigen::Vector2d& position) {
   return left;
 }
 
-Eigen::Vector2d HullSearch::placeOf(int x, int y) const {
+Eigen::Vector2d HullSearch::middleOf(int x, int y) const {
   return start_.position +
          Eigen::Vector2d((x + 0.5) * kCoarseM - kReachM, (y + 0.5) * kCoarseM - kReachM);
 }
@@ -163,7 +163,7 @@ void HullSearch::reachLeft(int x, int y, float cost_s) {
       std::max(room_.centre_m, 0.5 * hull_.beam_m + room_.beside_m) - kOffGridM;
   const int at = y * kCoarse + x;
   if (cost_s < left_s_[static_cast<std::size_t>(at)] &&
-      obstacles_->field().isClear(placeOf(x, y), clearance_m)) {
+      obstacles_->field().isClear(middleOf(x, y), clearance_m)) {
     left_s_[static_cast<std::size_t>(at)] = cost_s;
     left_front_.emplace_back(-cost_s, at);
     std::push_heap(left_front_.begin(), left_front_.end());
@@ -184,7 +184,7 @@ void HullSearch::measureLeft() {
   const int y = at / kCoarse;
   // No heading leaves the hull more than its middle has.
   const double middle_m = cover_.middle_m + room_.beside_m - kOffGridM;
-  const double most_m = obstacles_->field().clearance(placeOf(x, y)) - middle_m;
+  const double most_m = obstacles_->field().clearance(middleOf(x, y)) - middle_m;
   const auto tight =
       static_cast<float>(1.0 + kTightPrice * std::clamp(1.0 - most_m / kRoomyM, 0.0, 1.0));
   for (int i = -1; i <= 1; ++i) {

@@ -79,7 +79,7 @@ class HullSearch {
   [[nodiscard]] std::size_t keyOf(const Node& node) const;
   // To the goal, of the centre alone; measured as far as is asked for.
   [[nodiscard]] double leftS(const Eigen::Vector2d& position);
-  [[nodiscard]] Eigen::Vector2d placeOf(int x, int y) const;  // of the coarse grid
+  [[nodiscard]] Eigen::Vector2d middleOf(int x, int y) const;  // of the coarse grid
   void beginLeft(const Eigen::Vector2d& goal);
   void reachLeft(int x, int y, float cost_s);
   void measureLeft();

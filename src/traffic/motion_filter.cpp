@@ -323,7 +323,7 @@ MotionState MotionFilter::meanOf(std::size_t models) const {
   return mean;
 }
 
-MotionCovariance MotionFilter::covarianceOf(std::size_t models, const MotionState& mean) const {
+MotionCovariance MotionFilter::covarianceAround(std::size_t models, const MotionState& mean) const {
   MotionCovariance all = MotionCovariance::Zero();
   for (std::size_t m = 0; m < models; ++m) {
     const MotionState off = models_[m].x - mean;
@@ -336,7 +336,7 @@ MotionState MotionFilter::state() const {
   return meanOf(kModels);
 }
 MotionCovariance MotionFilter::covariance() const {
-  return covarianceOf(kModels, state());
+  return covarianceAround(kModels, state());
 }
 
 MotionState MotionFilter::usualState() const {
@@ -345,7 +345,7 @@ MotionState MotionFilter::usualState() const {
 }
 MotionCovariance MotionFilter::usualCovariance() const {
   const double left_out = usualModels() < kModels ? models_[kAnew].weight : 0.0;
-  return covarianceOf(usualModels(), usualState()) / (1.0 - left_out);
+  return covarianceAround(usualModels(), usualState()) / (1.0 - left_out);
 }
 
 MotionCovariance MotionFilter::likelyCovariance() const {

@@ -81,7 +81,8 @@ class MotionFilter {
   // The first so many.
   [[nodiscard]] std::size_t usualModels() const;
   [[nodiscard]] MotionState meanOf(std::size_t models) const;
-  [[nodiscard]] MotionCovariance covarianceOf(std::size_t models, const MotionState& mean) const;
+  [[nodiscard]] MotionCovariance covarianceAround(std::size_t models,
+                                                  const MotionState& mean) const;
 
   std::array<Model, kModels> models_;
   double stamp_s_ = 0.0;
