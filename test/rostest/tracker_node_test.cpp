@@ -29,6 +29,17 @@ Trajectory straight(std::uint32_t id, const ros::Time& start) {
                                ros_bridge::frames().map, vessel::Parameters());
 }
 
+// By which a mission goes into narrow water or waits.
+TEST(DisturbanceEstimateMessage, TellsWhetherTheWavesAreKnown) {
+  for (const bool known : {false, true}) {
+    vessel::DisturbanceEstimate estimate;
+    estimate.knows_waves = known;
+    const auto told = ros_bridge::disturbanceEstimate(ros_bridge::toMessage(estimate));
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->knows_waves, known);
+  }
+}
+
 // The message's constants are the names that the tracker gives its modes.
 TEST(TrackerStatusMessage, NamesTheModes) {
   using tracker::Mode;

@@ -8,10 +8,28 @@
 
 #include <limits>
 
+#include "otter_nav/ros/tracks.hpp"
 #include "support.hpp"
 
 namespace otter_nav::rostest {
 namespace {
+
+// What the planner remembers ways by comes back as it was sent.
+TEST(TracksMessage, CarriesWhereTheyWereMet) {
+  traffic::Track track;
+  track.met = {12.25, {3.0, -4.0}, 0.75};
+  Tracks message = ros_bridge::toMessage({track}, ros::Time(13.0));
+  const auto told = ros_bridge::toTracks(message);
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->at(0).met.stamp_s, track.met.stamp_s);
+  EXPECT_EQ(told->at(0).met.position, track.met.position);
+  EXPECT_EQ(told->at(0).met.deviation_m, track.met.deviation_m);
+  message.tracks[0].met_position.y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(ros_bridge::toTracks(message));
+  message = ros_bridge::toMessage({track}, ros::Time(13.0));
+  message.tracks[0].met_deviation = -1.0;
+  EXPECT_FALSE(ros_bridge::toTracks(message));
+}
 
 class TrafficNode : public testing::Test {
  protected:
