@@ -12,7 +12,7 @@
 namespace otter_nav::encounter {
 namespace {
 
-// Round a square of 12 m at 2 m/s, `late_s` behind one that began at a corner at 0 s.
+// Round a square of 12 m at 2 m/s, at its corner at 0 s.
 Eigen::Vector2d roundASquare(double t) {
   constexpr double kSideM = 12.0;
   const double s = std::fmod(2.0 * t, 4.0 * kSideM);
