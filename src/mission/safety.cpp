@@ -36,6 +36,8 @@ constexpr double kWanderM = 0.2;
 // Among what nobody has charted plans keep so many times what it wanders on the levels that have
 // room for it, for what comes into sight takes some.
 constexpr double kTimesWander = 2.0;
+// At the usual speed waves set the corners aside by so much more than the hull wanders at a crawl.
+constexpr double kTimesAtSpeed = 1.75;
 
 }  // namespace
 
@@ -115,7 +117,8 @@ double Safety::wandersAt(std::size_t level) const {
 
 bool Safety::wandersMuch(std::size_t level) const {
   const double most = is_slow_ ? kMostToGoFaster : kMostOfRoom;
-  return wandersAt(level) > most * options_.side_clearances_m[level];
+  return std::max(wandersAt(level), kTimesAtSpeed * reach()) >
+         most * options_.side_clearances_m[level];
 }
 
 double Safety::paceAt(std::size_t level, double usual_mps) const {
