@@ -226,6 +226,22 @@ TEST(Safety, CrawlsWhereItsCornersWouldHaveNoRoomAtSpeed) {
   }
 }
 
+// Of a gap with room for twice what it wanders and one without the first comes first.
+TEST(Safety, KeepsTwiceWhatItWandersInUnknownWaterButOnTheNarrowestLevel) {
+  Safety safety(SupervisorOptions{}, vessel::Parameters{});
+  for (int k = 0; k < 400; ++k) {
+    safety.wander(0.1 * k, 0.04);
+  }
+  const auto marginAt = [&](std::size_t level) {
+    safety.tryLevel(level);
+    return safety.limits(0.95, kWideWater).hull_margin_m;
+  };
+  EXPECT_NEAR(marginAt(2), 0.08, 0.005);
+  safety.inUnknownWater(true);
+  EXPECT_NEAR(marginAt(2), 0.16, 0.01);
+  EXPECT_NEAR(marginAt(3), 0.1, 1e-9);
+}
+
 // In the first seconds under way nobody knows how far it wanders.
 TEST(Safety, ReckonsWithWanderingInUnknownWater) {
   Safety safety(SupervisorOptions{}, vessel::Parameters{});
