@@ -33,9 +33,11 @@ constexpr double kMostToGoFaster = 0.6;
 // Of what it wanders, kept on the narrow levels too; and what it is expected to where it was not
 // under way for long enough to tell.
 constexpr double kWanderM = 0.2;
-// Among what nobody has charted plans keep so many times what it wanders on the levels that have
-// room for it, for what comes into sight takes some.
+// Among what nobody has charted plans keep so many times what it wanders on all levels but the
+// narrowest, as far as these have room for it, for what comes into sight takes some.
 constexpr double kTimesWander = 2.0;
+// At the usual speed waves set the corners aside by so much more than the hull wanders at a crawl.
+constexpr double kTimesAtSpeed = 1.75;
 
 }  // namespace
 
@@ -110,12 +112,13 @@ double Safety::wandersAt(std::size_t level) const {
   if (side_m <= kWanderM && !wander_.isKnown()) {
     return std::max(kWanderM, reach());  // by more than there is room for, until it shows
   }
-  return (in_unknown_water_ && side_m > kWanderM ? kTimesWander : 1.0) * reach();
+  return (in_unknown_water_ && side_m >= kWanderM ? kTimesWander : 1.0) * reach();
 }
 
 bool Safety::wandersMuch(std::size_t level) const {
   const double most = is_slow_ ? kMostToGoFaster : kMostOfRoom;
-  return wandersAt(level) > most * options_.side_clearances_m[level];
+  return std::max(wandersAt(level), kTimesAtSpeed * reach()) >
+         most * options_.side_clearances_m[level];
 }
 
 double Safety::paceAt(std::size_t level, double usual_mps) const {

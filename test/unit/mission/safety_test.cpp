@@ -204,6 +204,44 @@ TEST(Safety, CrawlsWhereThereIsNoRoomToWander) {
   EXPECT_GT(speedAt(3), 2.0);
 }
 
+// The faster it goes the farther off its corners are: where there is no room for that it crawls,
+// whatever it wanders by then.
+TEST(Safety, CrawlsWhereItsCornersWouldHaveNoRoomAtSpeed) {
+  const double crawl = 0.4 * vessel::Parameters{}.hull.length_m;
+  for (const bool is_unknown : {false, true}) {
+    for (const double reach_m : {0.04, 0.13}) {
+      Safety safety(SupervisorOptions{}, vessel::Parameters{});
+      for (int k = 0; k < 400; ++k) {
+        safety.wander(0.1 * k, 0.5 * reach_m);
+      }
+      safety.inUnknownWater(is_unknown);
+      const auto speedAt = [&](std::size_t level) {
+        safety.tryLevel(level);
+        return safety.limits(0.95, kWideWater).speed_max_mps;
+      };
+      EXPECT_GT(speedAt(1), 2.0);
+      EXPECT_EQ(speedAt(2) < crawl + 1e-9, reach_m > 0.1);  // 0.2 m beside it
+      EXPECT_GT(speedAt(1), 2.0);
+    }
+  }
+}
+
+// Of a gap with room for twice what it wanders and one without the first comes first.
+TEST(Safety, KeepsTwiceWhatItWandersInUnknownWaterButOnTheNarrowestLevel) {
+  Safety safety(SupervisorOptions{}, vessel::Parameters{});
+  for (int k = 0; k < 400; ++k) {
+    safety.wander(0.1 * k, 0.04);
+  }
+  const auto marginAt = [&](std::size_t level) {
+    safety.tryLevel(level);
+    return safety.limits(0.95, kWideWater).hull_margin_m;
+  };
+  EXPECT_NEAR(marginAt(2), 0.08, 0.005);
+  safety.inUnknownWater(true);
+  EXPECT_NEAR(marginAt(2), 0.16, 0.01);
+  EXPECT_NEAR(marginAt(3), 0.1, 1e-9);
+}
+
 // In the first seconds under way nobody knows how far it wanders.
 TEST(Safety, ReckonsWithWanderingInUnknownWater) {
   Safety safety(SupervisorOptions{}, vessel::Parameters{});
