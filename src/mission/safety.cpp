@@ -36,7 +36,8 @@ constexpr double kWanderM = 0.2;
 // Among what nobody has charted plans keep so many times what it wanders on all levels but the
 // narrowest, as far as these have room for it, for what comes into sight takes some.
 constexpr double kTimesWander = 2.0;
-// At the usual speed waves set the corners aside by so much more than the hull wanders at a crawl.
+// At the usual speed waves set the corners aside by so much more than the hull wanders at a crawl:
+// what counts on the narrow levels.
 constexpr double kTimesAtSpeed = 1.75;
 
 }  // namespace
@@ -116,9 +117,10 @@ double Safety::wandersAt(std::size_t level) const {
 }
 
 bool Safety::wandersMuch(std::size_t level) const {
+  const double side_m = options_.side_clearances_m[level];
+  const double times = side_m <= kWanderM ? kTimesAtSpeed : 1.0;
   const double most = is_slow_ ? kMostToGoFaster : kMostOfRoom;
-  return std::max(wandersAt(level), kTimesAtSpeed * reach()) >
-         most * options_.side_clearances_m[level];
+  return std::max(wandersAt(level), times * reach()) > most * side_m;
 }
 
 double Safety::paceAt(std::size_t level, double usual_mps) const {
