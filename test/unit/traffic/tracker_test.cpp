@@ -646,10 +646,10 @@ TEST(TrafficTracker, LearnsNoSizesOfWhatPassesInACrowd) {
     sea.run(40.0, {0.0, 0.0}, [&](const ScanVerdict& /*verdict*/) {
       for (const Track& track : sea.tracker.tracks()) {
         ++moments;
-        wrong += std::max(std::abs(track.length_m - kSquareM), std::abs(track.beam_m - kSquareM)) >
-                         kOffM
-                     ? 1
-                     : 0;
+        wrong +=
+            std::max(std::abs(track.length_m - kSquareM), std::abs(track.beam_m - kSquareM)) > kOffM
+                ? 1
+                : 0;
       }
     });
   }
