@@ -277,6 +277,31 @@ TEST(Habits, WhoHasTurnedThereBeforeIsForetoldToTurnAgain) {
   }
 }
 
+// What is remembered is reckoned with for four of five, and the straight way for the fifth.
+TEST(Foretold, KeepsTheStraightWayInMindBesideTheRememberedOne) {
+  constexpr double kNowS = 27.0;  // at x = 14 m, eastward
+  constexpr double kLaterS = 4.6;
+  Habits habits;
+  traffic::Track she;
+  for (int k = 0; k <= 270; ++k) {
+    const double t = 0.1 * k;
+    she = square(1, toAndFro(t), (toAndFro(t + 0.01) - toAndFro(t)) / 0.01);
+    she.stamp_s = t;
+    habits.observe({she});
+  }
+  const vessel::Hull hull;
+  const Foretold foretold({she}, habits, kNowS, 8.0, {20.0, 0.0}, 2.0, hull);
+  const auto dangerAt = [&](const Eigen::Vector2d& place) {
+    const int k = static_cast<int>(kLaterS / Foretold::kStepS);
+    return foretold.at(place, {0.0, 1.0}, k, foretold.all()).danger;
+  };
+  const double straight = dangerAt(she.position + kLaterS * she.velocity);
+  const double remembered = dangerAt(toAndFro(kNowS + kLaterS));
+  EXPECT_GT(straight, 0.1);
+  EXPECT_LT(straight, 0.25);
+  EXPECT_GT(remembered, 2.5 * straight);
+}
+
 // Where a known way ends she is carried on straight from there, without a jump.
 TEST(Habits, CarriesOnFromTheEndOfAKnownWay) {
   constexpr double kMps = 3.0;
