@@ -148,8 +148,8 @@ void Habits::follow(const traffic::Track& track) {
   constexpr double kOffOnAnotherCourseM = 1.0;
   constexpr double kAnotherCourseCosine = 0.7;
   // Beside the way: of what is known well she is off sooner.
-  constexpr double kBesideM = 0.3;
-  constexpr double kBesideSigmas = 2.0;
+  constexpr double kWellBesideM = 0.3;
+  constexpr double kWellBesideSigmas = 2.0;
   constexpr double kMayBeOffS = 0.4;
   constexpr double kLostS = 1.2;
   constexpr double kAlongS = 2.0;  // in which she is found to be earlier or later than before
@@ -178,7 +178,7 @@ void Habits::follow(const traffic::Track& track) {
   const double beside = std::abs(cross(stretch, off)) / std::max(1e-6, stretch.norm());
   const bool is_off =
       off.norm() > kOffM || (another && off.norm() > kOffOnAnotherCourseM) ||
-      beside > kBesideM + kBesideSigmas * std::sqrt(variance(from) + she.variance_m2);
+      beside > kWellBesideM + kWellBesideSigmas * std::sqrt(variance(from) + she.variance_m2);
   place.off_s = is_off ? place.off_s + dt : 0.0;
   const Eigen::Vector2d velocity = stretch / (to.time_s - from.time_s);
   const double later_s =
