@@ -246,6 +246,26 @@ TEST(SpaceTimeSearch, FindsNothingDearerThanAnOrderThatIsHeld) {
   EXPECT_GT(found.worst.gap_m, 0.0);
 }
 
+// That it comes to contact costs more than what it lasts does.
+TEST(SpaceTimeSearch, PaysForContactHoweverBriefItIs) {
+  const vessel::Parameters vessel = vesselNamed("otter_gazebo");
+  const map::DistanceField water = test::openWater();
+  const Helmsman helmsman(vessel, {}, 4.0);
+  const Foretold foretold({square(1, {0.0, 0.0}, {0.1, 0.0})}, {}, 0.0, kHorizonS, {0.0, 0.0},
+                          helmsman.speedMost(), vessel.hull);
+  Aim aim;
+  aim.points = {{40.0, 0.0}};
+  aim.left_m = {0.0};
+  aim.goal = {{40.0, 0.0}, 0.0};
+  Hull hull;
+  const SpaceTimeSearch search(vessel.hull, helmsman, aim, foretold, water, hull);
+  Foretold::Nearness worst;
+  const double touched = search.priceAt(hull, 1, foretold.all(), worst);
+  const double on = search.priceAt(hull, 2, foretold.all(), worst);
+  EXPECT_GT(touched, 30.0);
+  EXPECT_LT(on, 15.0);
+}
+
 // To and fro between x = 0 and 20 m at 2 m/s.
 Eigen::Vector2d toAndFro(double t) {
   const double s = std::fmod(2.0 * t, 40.0);
