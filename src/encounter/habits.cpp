@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "otter_nav/base/planar.hpp"
 
@@ -20,6 +21,8 @@ constexpr double kCourseCosine = 0.87;  // 30 degrees: of who is hardly seen a c
 constexpr double kChangeShare = 0.3;
 constexpr double kBeforeS = 3.0;
 constexpr double kSameTrackM = 0.5;  // worth so much
+constexpr double kAnotherPassS = 4.0;
+constexpr double kStraysM = 0.25;    // from a way, who goes it again
 constexpr double kLeastToldS = 2.0;  // of a way told
 
 }  // namespace
@@ -122,6 +125,21 @@ bool Habits::moveAlong(Match& at, double by_s) const {
   return true;
 }
 
+void Habits::followBetterKnown(const traffic::Track& track, Place& place) const {
+  constexpr double kWellKnownM2 = 0.25;
+  constexpr double kEachSoOftenS = 0.4;
+  if (variance(record(place.at.record)) < kWellKnownM2 ||
+      track.stamp_s - place.sought_s < kEachSoOftenS) {
+    return;
+  }
+  place.sought_s = track.stamp_s;
+  const Match other = match(seen(track, track.stamp_s));
+  if (other.record >= 0 && variance(record(other.record)) < kWellKnownM2) {
+    place.at = other;
+    place.off_s = 0.0;
+  }
+}
+
 // Once on a way again she is so until she is off it for a moment: as she turns a corner there her
 // course is known late.
 void Habits::follow(const traffic::Track& track) {
@@ -129,9 +147,12 @@ void Habits::follow(const traffic::Track& track) {
   constexpr double kOffM = 2.5;
   constexpr double kOffOnAnotherCourseM = 1.0;
   constexpr double kAnotherCourseCosine = 0.7;
+  // Beside the way: of what is known well she is off sooner.
+  constexpr double kWellBesideM = 0.3;
+  constexpr double kWellBesideSigmas = 2.0;
   constexpr double kMayBeOffS = 0.4;
   constexpr double kLostS = 1.2;
-  constexpr double kAlongS = 1.0;  // in which she is found to be earlier or later than before
+  constexpr double kAlongS = 2.0;  // in which she is found to be earlier or later than before
   Place& place = known_[track.id].place;
   const double dt = track.stamp_s - place.stamp_s;
   place.stamp_s = track.stamp_s;
@@ -141,18 +162,23 @@ void Habits::follow(const traffic::Track& track) {
   if (!track.makesWay()) {
     return;
   }
+  const Seen she = seen(track, track.stamp_s);
   if (place.at.record < 0) {
-    place.at = match(track.position, track.velocity, track.id, track.stamp_s - kBeforeS);
+    place.at = match(she);
     place.off_s = 0.0;
     return;
   }
+  followBetterKnown(track, place);
   const Record& from = record(place.at.record);
   const Record& to = record(from.next);
   const Eigen::Vector2d stretch = to.position - from.position;
   const Eigen::Vector2d off = track.position - from.position - place.at.share * stretch;
   const bool another =
       track.velocity.dot(stretch) < kAnotherCourseCosine * track.velocity.norm() * stretch.norm();
-  const bool is_off = off.norm() > kOffM || (another && off.norm() > kOffOnAnotherCourseM);
+  const double beside = std::abs(cross(stretch, off)) / std::max(1e-6, stretch.norm());
+  const bool is_off =
+      off.norm() > kOffM || (another && off.norm() > kOffOnAnotherCourseM) ||
+      beside > kWellBesideM + kWellBesideSigmas * std::sqrt(variance(from) + she.variance_m2);
   place.off_s = is_off ? place.off_s + dt : 0.0;
   const Eigen::Vector2d velocity = stretch / (to.time_s - from.time_s);
   const double later_s =
@@ -162,40 +188,99 @@ void Habits::follow(const traffic::Track& track) {
   }
 }
 
-Habits::Match Habits::match(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
-                            int id, double before_s) const {
+Habits::Seen Habits::seen(const traffic::Track& track, double at_s) {
+  return {track.position + (at_s - track.stamp_s) * track.velocity, track.velocity,
+          0.5 * (track.covariance(0, 0) + track.covariance(1, 1)), track.id,
+          track.stamp_s - kBeforeS};
+}
+
+template <typename Visit>
+void Habits::eachSameWay(const Seen& seen, const Visit& visit) const {
   constexpr double kStretchM = 6.0;  // from the one nearest to her, at most
-  Match best;
-  double least = kSameWayM;
-  const double speed = velocity.norm();
+  const double speed = seen.velocity.norm();
   for (std::size_t k = 0; k < records_.size(); ++k) {
-    const Record& record = records_[k];
-    if (record.time_s > before_s || record.next < 0) {
+    const Record& from = records_[k];
+    if (from.time_s > seen.before_s || from.next < 0) {
       continue;
     }
-    const Eigen::Vector2d off = position - record.position;
+    const Eigen::Vector2d off = seen.position - from.position;
     if (off.squaredNorm() > kStretchM * kStretchM) {
       continue;
     }
-    const double then = record.velocity.norm();
+    const double then = from.velocity.norm();
     if (std::abs(then - speed) > kChangeShare * speed ||
-        velocity.dot(record.velocity) < kCourseCosine * then * speed) {
+        seen.velocity.dot(from.velocity) < kCourseCosine * then * speed) {
       continue;
     }
-    const Eigen::Vector2d stretch =
-        records_[static_cast<std::size_t>(record.next)].position - record.position;
+    const Eigen::Vector2d stretch = record(from.next).position - from.position;
     const double length2 = std::max(1e-6, stretch.squaredNorm());
     const double share = off.dot(stretch) / length2;
     if (share < -0.1 || share > 1.1) {
       continue;
     }
-    const double beside = (off - share * stretch).norm() + (record.id == id ? 0.0 : kSameTrackM);
-    if (beside < least) {
-      least = beside;
-      best = {static_cast<int>(k), std::clamp(share, 0.0, 1.0)};
+    const double beside = (off - share * stretch).norm();
+    if (beside + (from.id == seen.id ? 0.0 : kSameTrackM) < kSameWayM) {
+      visit(Match{static_cast<int>(k), std::clamp(share, 0.0, 1.0)}, beside);
     }
   }
+}
+
+// A way that the lidar has met is known better than the radar's, and who is on it is hardly beside
+// it.
+double Habits::unlikely(const Seen& seen, const Match& at, double beside_m) const {
+  constexpr double kOfAnother = 0.7;  // half as likely
+  const Record& there = record(at.record);
+  const double spread2 = variance(there) + seen.variance_m2 + kStraysM * kStraysM;
+  return 0.5 * (beside_m * beside_m / spread2 + std::log(spread2)) +
+         (there.id == seen.id ? 0.0 : kOfAnother);
+}
+
+Habits::Match Habits::match(const Seen& seen) const {
+  Match best;
+  double least = std::numeric_limits<double>::infinity();
+  eachSameWay(seen, [&](const Match& at, double beside_m) {
+    const double now = unlikely(seen, at, beside_m);
+    if (now < least) {
+      least = now;
+      best = at;
+    }
+  });
   return best;
+}
+
+std::vector<Habits::Pass> Habits::passesOf(const Seen& seen) const {
+  std::vector<Pass> passes;
+  std::map<int, std::size_t> latest;  // of each track
+  eachSameWay(seen, [&](const Match& at, double beside_m) {
+    const Record& there = record(at.record);
+    const Pass now = {at, unlikely(seen, at, beside_m), there.time_s};
+    const auto before = latest.find(there.id);
+    if (before == latest.end() || there.time_s - passes[before->second].last_s >= kAnotherPassS) {
+      latest[there.id] = passes.size();
+      passes.push_back(now);
+      return;
+    }
+    Pass& pass = passes[before->second];
+    pass.last_s = there.time_s;
+    if (now.unlikely < pass.unlikely) {
+      pass = now;
+    }
+  });
+  std::stable_sort(passes.begin(), passes.end(),
+                   [](const Pass& a, const Pass& b) { return a.unlikely < b.unlikely; });
+  return passes;
+}
+
+double Habits::varianceAhead(const Match& at) const {
+  constexpr double kAheadS = 4.0;
+  const double began = record(at.record).time_s;
+  double all = 0.0;
+  int count = 0;
+  for (int k = at.record; k >= 0 && record(k).time_s - began < kAheadS; k = record(k).next) {
+    all += variance(record(k));
+    ++count;
+  }
+  return all / count;
 }
 
 void Habits::placesWithin(const Eigen::Vector2d& of, double range_m,
@@ -255,37 +340,80 @@ std::vector<Eigen::Vector2d> Habits::foretell(const traffic::Track& track, doubl
   if (!track.makesWay()) {
     return {};
   }
-  const Eigen::Vector2d position = track.position + (from_s - track.stamp_s) * track.velocity;
-  const double before_s = track.stamp_s - kBeforeS;
+  const Seen now = seen(track, from_s);
   Match found;
   const auto known = known_.find(track.id);
   const Place place = known == known_.end() ? Place{} : known->second.place;
   if (place.at.record >= 0 && moveAlong(found = place.at, from_s - place.stamp_s)) {
     found.share = std::clamp(found.share, 0.0, 1.0);
   } else {
-    found = match(position, track.velocity, track.id, before_s);
+    found = match(now);
   }
-  return tell(found, position, track.velocity, track.id, before_s, step_s, steps);
+  std::vector<Eigen::Vector2d> places = tell(found, now, step_s, steps);
+  if (!places.empty()) {
+    takeTheMean(found, now, step_s, places);
+  }
+  return places;
 }
 
-std::vector<Eigen::Vector2d> Habits::tell(Match found, Eigen::Vector2d position,
-                                          Eigen::Vector2d velocity, int id, double before_s,
-                                          double step_s, int steps) const {
+void Habits::takeTheMean(const Match& found, const Seen& seen, double step_s,
+                         std::vector<Eigen::Vector2d>& places) const {
+  constexpr std::size_t kMost = 8;
+  constexpr double kAnotherWayM = 4.0;
+  constexpr double kLeastM2 = 0.04;
+  const std::vector<Eigen::Vector2d> first = places;
+  const double known = 1.0 / (kLeastM2 + varianceAhead(found));
+  std::vector<double> weights(places.size(), known);
+  for (Eigen::Vector2d& place : places) {
+    place *= known;
+  }
+  std::size_t taken = 0;
+  for (const Pass& pass : passesOf(seen)) {
+    const Record& there = record(pass.at.record);
+    const bool same = there.id == record(found.record).id &&
+                      std::abs(there.time_s - record(found.record).time_s) < kAnotherPassS;
+    if (same) {
+      continue;
+    }
+    if (++taken > kMost) {
+      break;
+    }
+    const std::vector<Eigen::Vector2d> told =
+        tell(pass.at, seen, step_s, static_cast<int>(places.size()) - 1);
+    const double weight = 1.0 / (kLeastM2 + varianceAhead(pass.at));
+    for (std::size_t k = 0; k < told.size() && (told[k] - first[k]).norm() < kAnotherWayM; ++k) {
+      places[k] += weight * told[k];
+      weights[k] += weight;
+    }
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    places[k] /= weights[k];
+  }
+}
+
+std::vector<Eigen::Vector2d> Habits::tell(Match found, Seen seen, double step_s, int steps) const {
   constexpr int kWaysMost = 4;
+  constexpr double kAsideS = 1.5;
   std::vector<Eigen::Vector2d> places;
   double told_s = 0.0;
   for (int ways = 0; ways < kWaysMost && static_cast<int>(places.size()) <= steps; ++ways) {
     if (ways > 0) {
-      found = match(position, velocity, id, before_s);
+      found = match(seen);
     }
     if (found.record < 0) {
       break;
     }
-    const Record* record = &records_[static_cast<std::size_t>(found.record)];
-    const Record* next = &records_[static_cast<std::size_t>(record->next)];
-    const double began = record->time_s + found.share * (next->time_s - record->time_s);
+    const Record* from = &record(found.record);
+    const Record* next = &record(from->next);
+    const double began = from->time_s + found.share * (next->time_s - from->time_s);
     const Eigen::Vector2d aside =
-        position - (record->position + found.share * (next->position - record->position));
+        seen.position - (from->position + found.share * (next->position - from->position));
+    // Of what she is beside it as much as is an error, and not her straying.
+    const double error2 = variance(*from) + seen.variance_m2;
+    const double wrong = error2 / (error2 + kStraysM * kStraysM);
+    const auto asideAfter = [&](double t) -> Eigen::Vector2d {
+      return (1.0 - wrong * (1.0 - std::exp(-t / kAsideS))) * aside;
+    };
     const double first_s = told_s;
     for (;;) {
       const double t = static_cast<double>(places.size()) * step_s;
@@ -294,29 +422,31 @@ std::vector<Eigen::Vector2d> Habits::tell(Match found, Eigen::Vector2d position,
       }
       const double then = began + t - first_s;
       while (next != nullptr && then > next->time_s) {
-        record = next;
-        next = record->next < 0 ? nullptr : &records_[static_cast<std::size_t>(record->next)];
+        from = next;
+        next = from->next < 0 ? nullptr : &record(from->next);
       }
       if (next == nullptr) {
         break;
       }
-      const double share = (then - record->time_s) / (next->time_s - record->time_s);
-      places.emplace_back(aside + record->position + share * (next->position - record->position));
+      const double share = (then - from->time_s) / (next->time_s - from->time_s);
+      places.emplace_back(asideAfter(t - first_s) + from->position +
+                          share * (next->position - from->position));
       told_s = t;
     }
     if (next != nullptr) {
       break;
     }
-    position = aside + record->position;
-    velocity = record->velocity;
-    told_s = first_s + record->time_s - began;
+    told_s = first_s + from->time_s - began;
+    seen.position = asideAfter(told_s - first_s) + from->position;
+    seen.velocity = from->velocity;
+    seen.variance_m2 = variance(*from);
   }
   if (told_s < kLeastToldS) {
     return {};
   }
   while (static_cast<int>(places.size()) <= steps) {
     const double t = static_cast<double>(places.size()) * step_s;
-    places.emplace_back(position + (t - told_s) * velocity);
+    places.emplace_back(seen.position + (t - told_s) * seen.velocity);
   }
   return places;
 }

@@ -44,11 +44,26 @@ class Habits {
     int record = -1;
     double share = 0.0;  // of the stretch to the next one
   };
+  // Somebody whose way is asked for.
+  struct Seen {
+    Eigen::Vector2d position;
+    Eigen::Vector2d velocity;
+    double variance_m2 = 0.0;  // of her place, each axis
+    int id = 0;
+    double before_s = 0.0;  // what was later is no way yet
+  };
+  // One time that somebody went a way, where she who is seen would be on it.
+  struct Pass {
+    Match at;
+    double unlikely = 0.0;
+    double last_s = 0.0;
+  };
   // Where a track is on the way it goes again.
   struct Place {
     Match at;
-    double stamp_s = 0.0;  // of the track
-    double off_s = 0.0;    // for so long she has been off it
+    double stamp_s = 0.0;   // of the track
+    double off_s = 0.0;     // for so long she has been off it
+    double sought_s = 0.0;  // when another was looked for
   };
   [[nodiscard]] const Record& record(int index) const {
     return records_[static_cast<std::size_t>(index)];
@@ -61,16 +76,31 @@ class Habits {
   };
   void remember(const traffic::Track& track);
   void follow(const traffic::Track& track);
-  // Places from one on a way on; where that breaks off another may lead on. `position` and
-  // `velocity` are hers.
-  [[nodiscard]] std::vector<Eigen::Vector2d> tell(Match found, Eigen::Vector2d position,
-                                                  Eigen::Vector2d velocity, int id, double before_s,
-                                                  double step_s, int steps) const;
+  // Beside a way that the radar alone has met there may be one that is known well.
+  void followBetterKnown(const traffic::Track& track, Place& place) const;
+  // Places from one on a way on; where that breaks off another may lead on.
+  [[nodiscard]] std::vector<Eigen::Vector2d> tell(Match found, Seen seen, double step_s,
+                                                  int steps) const;
+  // With what the other times tell that somebody went this way: each is off by itself.
+  void takeTheMean(const Match& found, const Seen& seen, double step_s,
+                   std::vector<Eigen::Vector2d>& places) const;
+  // The likeliest first.
+  [[nodiscard]] std::vector<Pass> passesOf(const Seen& seen) const;
   // `by_s` later on the way, negative: before; whether the way goes so far.
   [[nodiscard]] bool moveAlong(Match& at, double by_s) const;
   void smoothBefore(int last);
-  [[nodiscard]] Match match(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
-                            int id, double before_s) const;
+  [[nodiscard]] static Seen seen(const traffic::Track& track, double at_s);
+  [[nodiscard]] Match match(const Seen& seen) const;
+  // Visits where she might be on a way again, and how far beside it, m.
+  template <typename Visit>
+  void eachSameWay(const Seen& seen, const Visit& visit) const;
+  // The negative logarithm of how likely she is on that way.
+  [[nodiscard]] double unlikely(const Seen& seen, const Match& at, double beside_m) const;
+  // How well a place on a way is known, m^2, each axis; and the next seconds of it.
+  [[nodiscard]] static double variance(const Record& record) {
+    return 0.5 * (record.covariance(0, 0) + record.covariance(1, 1));
+  }
+  [[nodiscard]] double varianceAhead(const Match& at) const;
   void forgetOldest();
   void forgetWhoIsGone(double now_s);
 

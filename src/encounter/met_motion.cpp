@@ -43,8 +43,11 @@ std::optional<GoesOn> MetMotion::follow(const traffic::Track& track) {
   if (met.stamp_s <= now_.stamp_s) {
     return std::nullopt;
   }
+  const double speed = std::max(now_.mean.tail<2>().norm(), track.velocity.norm());
+  const bool reached = canBeAt(met, speed);
   const bool fits = update(met);
-  lost_ = lost_ || !fits;
+  lost_ = lost_ || (!fits && !reached);
+  last_ = met;
   if (met.deviation_m < kWellMetM && isKnown(track) &&
       std::abs(met.stamp_s - track.stamp_s) < kSameInstantS) {
     now_ = asTracked(track);
@@ -81,6 +84,16 @@ bool MetMotion::update(const traffic::Track::Met& met) {
   now_.mean = mean + gain * off;
   now_.covariance = covariance - gain * covariance.topRows<2>();
   return true;
+}
+
+bool MetMotion::canBeAt(const traffic::Track::Met& met, double speed_mps) const {
+  constexpr double kSoonS = 2.5;  // the radar may miss her once
+  constexpr double kFaster = 1.2;
+  constexpr double kSigmas = 3.0;
+  const double dt = met.stamp_s - last_.stamp_s;
+  return last_.deviation_m > 0.0 && dt < kSoonS &&
+         (met.position - last_.position).norm() <
+             kFaster * speed_mps * dt + kSigmas * std::hypot(last_.deviation_m, met.deviation_m);
 }
 
 bool MetMotion::wasLost() {

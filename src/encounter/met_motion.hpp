@@ -37,8 +37,11 @@ class MetMotion {
  private:
   // By the place alone; whether it fits what was known.
   [[nodiscard]] bool update(const traffic::Track::Met& met);
+  // Whether she can have come there from where she was met last, turning as she liked.
+  [[nodiscard]] bool canBeAt(const traffic::Track::Met& met, double speed_mps) const;
 
   GoesOn now_;
+  traffic::Track::Met last_;
   bool lost_ = false;
 };
 

@@ -31,6 +31,7 @@ constexpr std::size_t kBeam = 64;
 constexpr std::size_t kOfEach = 3;  // of those that begin with the same order, at least
 
 constexpr double kSureContactS = 60.0;  // a second of sure contact, in seconds
+constexpr double kTouchedS = 40.0;      // and that it comes to one, however brief
 constexpr double kThirdS = 6.0;         // in which what is foretold counts a third
 constexpr double kBesideM = 0.15;       // off what lies still
 constexpr double kRoomM = 0.6;          // preferred there
@@ -182,13 +183,17 @@ double SpaceTimeSearch::priceAt(const Hull& hull, int k, const std::vector<int>&
     return kInfinity;
   }
   double price = slack < kRoomM ? kNoRoomPerS * (1.0 - slack / kRoomM) : 0.0;
+  double touched = 0.0;
   if (!near.empty()) {
     const Foretold::Nearness nearness = foretold_.at(hull.position, hull.ahead, k, near);
+    const double soon = std::exp(-k * Foretold::kStepS / kThirdS);
+    const double rises = std::max(0.0, nearness.danger - worst.danger);
     worst.gap_m = std::min(worst.gap_m, nearness.gap_m);
-    worst.danger = std::max(worst.danger, nearness.danger);
-    price += kSureContactS * nearness.danger * std::exp(-k * Foretold::kStepS / kThirdS);
+    worst.danger += rises;
+    price += kSureContactS * nearness.danger * soon;
+    touched = kTouchedS * rises * soon;
   }
-  return Foretold::kStepS * price;
+  return Foretold::kStepS * price + touched;
 }
 
 SpaceTimeSearch::Way SpaceTimeSearch::find() const {

@@ -62,7 +62,8 @@ class SpaceTimeSearch {
   // goes on.
   [[nodiscard]] bool arrives(const Hull& hull) const;
   [[nodiscard]] static double leftArrived(int k) { return k * Foretold::kStepS - kHorizonS; }
-  // The price of being there at step k for one step; infinite where something lies.
+  // The price of being there at step k for one step, `worst` being what was on the way until then;
+  // infinite where something lies.
   [[nodiscard]] double priceAt(const Hull& hull, int k, const std::vector<int>& near,
                                Foretold::Nearness& worst) const;
 

@@ -251,19 +251,34 @@ void TrackedVessel::followMiddle(const Cluster& cluster, const Eigen::Vector2d& 
   motion.shift((headed - before).head<2>());
 }
 
-void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye) {
+bool TrackedVessel::isShownAgain(const Eigen::Vector2d& size_m) {
+  constexpr double kAlikeM = 0.3;
+  constexpr int kOften = 5;
+  shown_alike = (size_m - shown_m).cwiseAbs().maxCoeff() < kAlikeM ? shown_alike + 1 : 0;
+  shown_m = size_m;
+  return shown_alike >= kOften;
+}
+
+void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye, bool among_many) {
   if (size == Size::kReported) {
     return;
   }
   constexpr double kGrows = 0.3;  // of the difference, a scan
   constexpr double kShrinks = 0.01;
-  const auto learn = [](double& known, double seen, bool guessed) {
-    known += (guessed ? 1.0 : (seen > known ? kGrows : kShrinks)) * (seen - known);
+  constexpr double kShrinksAmongMany = 0.1;  // what was taken for hers before may have been more
+  const double shrinks = among_many ? kShrinksAmongMany : kShrinks;
+  const auto learn = [shrinks](double& known, double seen, bool guessed) {
+    known += (guessed ? 1.0 : (seen > known ? kGrows : shrinks)) * (seen - known);
   };
-  if (!heading_rad) {
+  const std::optional<double> heading =
+      heading_rad && among_many ? headingBySides(cluster) : heading_rad;
+  if (!heading) {
     return;
   }
-  const View view(cluster, eye, unitVector(*heading_rad));
+  const View view(cluster, eye, unitVector(*heading));
+  if (among_many && !isShownAgain({view.along.length(), view.athwart.length()})) {
+    return;
+  }
   const bool guessed = size == Size::kGuessed;
   // Both have to be seen before a guess is left; what is cut off is longer than it seems.
   const bool cut = cluster.out_of_range || cluster.first_hidden || cluster.last_hidden;

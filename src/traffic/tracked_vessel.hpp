@@ -47,6 +47,9 @@ struct TrackedVessel {
   double length_m = 7.0;
   double beam_m = 2.5;
   std::optional<double> heading_rad;
+  // Along and athwart, as the last echoes showed it among many, and how often in a row alike.
+  Eigen::Vector2d shown_m = Eigen::Vector2d::Zero();
+  int shown_alike = 0;
 
   std::uint32_t mmsi = 0;
   double last_ais_s = kLongAgoS;
@@ -93,8 +96,12 @@ struct TrackedVessel {
                                     bool by_sides = false) const;
   // The first heading is known now: the hull's middle is followed from here on.
   void followMiddle(const Cluster& cluster, const Eigen::Vector2d& eye);
-  // What a cluster that is this vessel says of its size.
-  void learnSize(const Cluster& cluster, const Eigen::Vector2d& eye);
+  // What a cluster that is this vessel says of its size. `among_many`: it may be a part of her that
+  // something hides, or two who pass close by, so that only a rectangle counts that is shown the
+  // same again and again.
+  void learnSize(const Cluster& cluster, const Eigen::Vector2d& eye, bool among_many = false);
+  // To be called with each size that echoes show: whether the last few were alike.
+  bool isShownAgain(const Eigen::Vector2d& size_m);
   // Dimensions reported by AIS: the size, and where in the outline the reported position is.
   void takeDimensions(const ais::Message& message);
   [[nodiscard]] Eigen::Vector2d middleFromReported() const;

@@ -127,7 +127,7 @@ class Tracker::Impl {
         vessel.last_new_s = look.stamp_s;
       }
       if (!crowded_ || !clusters[k].shared) {
-        vessel.learnSize(clusters[k], eye);
+        vessel.learnSize(clusters[k], eye, crowded_);
       }
       if (!vessel.confirmed) {
         vessel.unconfirmed_points.insert(vessel.unconfirmed_points.end(),

@@ -246,6 +246,26 @@ TEST(SpaceTimeSearch, FindsNothingDearerThanAnOrderThatIsHeld) {
   EXPECT_GT(found.worst.gap_m, 0.0);
 }
 
+// That it comes to contact costs more than what it lasts does.
+TEST(SpaceTimeSearch, PaysForContactHoweverBriefItIs) {
+  const vessel::Parameters vessel = vesselNamed("otter_gazebo");
+  const map::DistanceField water = test::openWater();
+  const Helmsman helmsman(vessel, {}, 4.0);
+  const Foretold foretold({square(1, {0.0, 0.0}, {0.1, 0.0})}, {}, 0.0, kHorizonS, {0.0, 0.0},
+                          helmsman.speedMost(), vessel.hull);
+  Aim aim;
+  aim.points = {{40.0, 0.0}};
+  aim.left_m = {0.0};
+  aim.goal = {{40.0, 0.0}, 0.0};
+  Hull hull;
+  const SpaceTimeSearch search(vessel.hull, helmsman, aim, foretold, water, hull);
+  Foretold::Nearness worst;
+  const double touched = search.priceAt(hull, 1, foretold.all(), worst);
+  const double on = search.priceAt(hull, 2, foretold.all(), worst);
+  EXPECT_GT(touched, 30.0);
+  EXPECT_LT(on, 15.0);
+}
+
 // To and fro between x = 0 and 20 m at 2 m/s.
 Eigen::Vector2d toAndFro(double t) {
   const double s = std::fmod(2.0 * t, 40.0);
@@ -275,6 +295,31 @@ TEST(Habits, WhoHasTurnedThereBeforeIsForetoldToTurnAgain) {
       EXPECT_LT((told[k] - toAndFro(now + 0.5 * static_cast<double>(k))).norm(), 1.2) << k;
     }
   }
+}
+
+// What is remembered is reckoned with for four of five, and the straight way for the fifth.
+TEST(Foretold, KeepsTheStraightWayInMindBesideTheRememberedOne) {
+  constexpr double kNowS = 27.0;  // at x = 14 m, eastward
+  constexpr double kLaterS = 4.6;
+  Habits habits;
+  traffic::Track she;
+  for (int k = 0; k <= 270; ++k) {
+    const double t = 0.1 * k;
+    she = square(1, toAndFro(t), (toAndFro(t + 0.01) - toAndFro(t)) / 0.01);
+    she.stamp_s = t;
+    habits.observe({she});
+  }
+  const vessel::Hull hull;
+  const Foretold foretold({she}, habits, kNowS, 8.0, {20.0, 0.0}, 2.0, hull);
+  const auto dangerAt = [&](const Eigen::Vector2d& place) {
+    const int k = static_cast<int>(kLaterS / Foretold::kStepS);
+    return foretold.at(place, {0.0, 1.0}, k, foretold.all()).danger;
+  };
+  const double straight = dangerAt(she.position + kLaterS * she.velocity);
+  const double remembered = dangerAt(toAndFro(kNowS + kLaterS));
+  EXPECT_GT(straight, 0.1);
+  EXPECT_LT(straight, 0.25);
+  EXPECT_GT(remembered, 2.5 * straight);
 }
 
 // Where a known way ends she is carried on straight from there, without a jump.
@@ -384,6 +429,87 @@ TEST(Habits, RemembersAWaySmootherThanItWasTracked) {
   for (std::size_t k = 0; k < told.size(); ++k) {
     EXPECT_NEAR(told[k].y(), 0.0, 0.45) << k;
   }
+}
+
+// Remembers somebody on a way, 2 m/s along the points given, known to a variance.
+void remember(Habits& habits, int id, double from_s, double variance,
+              const std::vector<Eigen::Vector2d>& way) {
+  constexpr double kMps = 2.0;
+  constexpr double kEachS = 0.2;
+  double t = from_s;
+  for (std::size_t k = 0; k + 1 < way.size(); ++k) {
+    const Eigen::Vector2d leg = way[k + 1] - way[k];
+    for (double s = 0.0; s < leg.norm(); s += kMps * kEachS) {
+      traffic::Track she = square(id, way[k] + s * leg.normalized(), kMps * leg.normalized());
+      she.covariance.diagonal() << variance, variance, variance, variance;
+      she.stamp_s = t;
+      habits.observe({she});
+      t += kEachS;
+    }
+  }
+}
+traffic::Track seenAt(int id, double now, const Eigen::Vector2d& position,
+                      const Eigen::Vector2d& velocity) {
+  traffic::Track she = square(id, position, velocity);
+  she.stamp_s = now;
+  return she;
+}
+
+constexpr double kByLidarM2 = 0.02;
+constexpr double kByRadarM2 = 0.5;
+
+// Two ways lie side by side; what the radar alone has met is not known to be the nearer one.
+TEST(Habits, TakesAWayThatTheLidarHasMetForOneOfTheRadars) {
+  Habits habits;
+  remember(habits, 1, 0.0, kByLidarM2, {{0.0, 0.0}, {40.0, 0.0}});
+  remember(habits, 2, 30.0, kByRadarM2, {{0.0, 0.5}, {12.0, 0.5}, {12.0, 30.0}});
+  const auto told = habits.foretell(seenAt(3, 80.0, {4.0, 0.3}, {2.0, 0.0}), 80.0, 0.5, 16);
+  ASSERT_EQ(told.size(), 17U);
+  EXPECT_LT((told[16] - Eigen::Vector2d(20.0, 0.3)).norm(), 1.0);
+}
+
+// The lidar met somebody there only farther on.
+TEST(Habits, ChangesToAWayThatIsBetterKnown) {
+  Habits habits;
+  remember(habits, 1, 0.0, kByRadarM2, {{0.0, 0.0}, {24.0, 0.0}, {24.0, 30.0}});
+  remember(habits, 2, 40.0, kByLidarM2, {{10.0, 0.0}, {60.0, 0.0}});
+  remember(habits, 3, 80.0, kByLidarM2, {{0.0, 0.0}, {14.0, 0.0}});
+  const auto told = habits.foretell(seenAt(3, 87.0, {14.0, 0.0}, {2.0, 0.0}), 87.0, 0.5, 20);
+  ASSERT_EQ(told.size(), 21U);
+  EXPECT_LT((told[20] - Eigen::Vector2d(34.0, 0.0)).norm(), 1.0);
+}
+
+// Each time a radar makes something else of the same way.
+TEST(Habits, TellsTheMeanOfSeveralPasses) {
+  Habits habits;
+  int id = 0;
+  for (const double aside : {1.5, -1.6, 1.4, -1.3}) {
+    ++id;
+    remember(habits, id, 30.0 * id, kByRadarM2, {{0.0, -0.25 * aside}, {24.0, 1.25 * aside}});
+  }
+  const auto told = habits.foretell(seenAt(9, 200.0, {4.0, 0.0}, {2.0, 0.0}), 200.0, 0.5, 16);
+  ASSERT_EQ(told.size(), 17U);
+  EXPECT_LT(std::abs(told[16].y()), 0.4);
+}
+
+// Beside a way of the radar's, as that is wrong there: farther on it is wrong in another way.
+TEST(Habits, ComesBackToAWayThatIsHardlyKnown) {
+  Habits habits;
+  remember(habits, 1, 0.0, kByRadarM2, {{0.0, 0.0}, {40.0, 0.0}});
+  const auto told = habits.foretell(seenAt(2, 60.0, {4.0, 0.9}, {2.0, 0.0}), 60.0, 0.5, 16);
+  ASSERT_EQ(told.size(), 17U);
+  EXPECT_NEAR(told[0].y(), 0.9, 0.1);
+  EXPECT_LT(std::abs(told[16].y()), 0.3);
+}
+
+// By and by she draws away from a way that is known well, on nearly the same course.
+TEST(Habits, LeavesAWayThatIsKnownWellWithHer) {
+  Habits habits;
+  remember(habits, 1, 0.0, kByLidarM2, {{0.0, 0.0}, {30.0, 0.0}, {30.0, -30.0}});
+  const Eigen::Vector2d end(18.0, 1.6);
+  remember(habits, 2, 60.0, kByLidarM2, {{0.0, 0.0}, {10.0, 0.0}, end});
+  const double now = 60.0 + 0.5 * (10.0 + (end - Eigen::Vector2d(10.0, 0.0)).norm());
+  EXPECT_TRUE(habits.foretell(seenAt(2, now, end, {2.0, 0.4}), now, 0.5, 16).empty());
 }
 
 TEST(Habits, TellsARoundFromACorner) {

@@ -97,5 +97,38 @@ TEST(Habits, JoinsNoWaysOfATrackThatWasTakenForAnother) {
   }
 }
 
+// Back at once at either end of 20 m, at 4 m/s, behind something for the last 2 m: she comes out
+// where she isn't looked for, but where she can be.
+TEST(Habits, RemembersAWayThroughATurnAtOnce) {
+  const auto toAndFro = [](double t) {
+    const double s = std::fmod(4.0 * t, 40.0);
+    return Eigen::Vector2d(s < 20.0 ? s : 40.0 - s, 0.0);
+  };
+  Habits habits;
+  traffic::Track she;
+  she.id = 1;
+  she.covariance.diagonal().setConstant(0.02);
+  const auto seen = [&](double t) {
+    she.stamp_s = t;
+    she.position = toAndFro(t);
+    she.velocity = (toAndFro(t + 0.01) - toAndFro(t)) / 0.01;
+    she.met = {t, she.position, 0.2};
+    return she;
+  };
+  for (int k = 0; k < 90; ++k) {
+    const bool hidden = seen(0.2 * k).velocity.x() < 0.0 && she.position.x() > 17.0;
+    if (!hidden) {
+      habits.observe({she});
+    }
+  }
+  // At x = 10 m, 2.5 s before she turns.
+  constexpr double kNowS = 22.5;
+  const std::vector<Eigen::Vector2d> places = habits.foretell(seen(kNowS), kNowS, 0.5, 10);
+  ASSERT_EQ(places.size(), 11U);
+  for (const int k : {3, 7, 10}) {
+    EXPECT_LT((places[static_cast<std::size_t>(k)] - toAndFro(kNowS + 0.5 * k)).norm(), 0.3) << k;
+  }
+}
+
 }  // namespace
 }  // namespace otter_nav::encounter
