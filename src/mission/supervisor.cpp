@@ -58,6 +58,10 @@ constexpr double kEvadeAgainS = 0.25;  // from one decision about others to the 
 // What the thrusters lack for so much longer on one way than on another makes a difference.
 constexpr double kOvertaxedLongerS = 1.5;
 
+// Why a plan is given up, or the vessel stops: something in the way, or the weather's doing, by
+// which the vessel is off its way, wants for thrust on it, or can't hold the goal's heading.
+enum class Cause { kOther, kClearance, kOff, kLoad, kGoalHeading };
+
 // What a decision is made on.
 struct Moment {
   double now_s;
@@ -102,7 +106,8 @@ class Decider final : public Supervisor {
     rooms_made_ = 0;
     cancelled_ = false;
     suspended_.reset();
-    replans_ = 0;
+    replans_ = {};
+    cause_ = Cause::kOther;
     nearest_left_m_ = std::numeric_limits<double>::infinity();
     pilot_.newGoal(m.now_s);
     lying_off_.newGoal();
@@ -186,7 +191,7 @@ class Decider final : public Supervisor {
   [[nodiscard]] std::vector<encounter::Encounter> encounters() const override {
     return pilot_.encounters();
   }
-  [[nodiscard]] int replans() const override { return replans_; }
+  [[nodiscard]] Replans replans() const override { return replans_; }
   [[nodiscard]] int stops() const override { return retries_.stops(); }
 
  private:
@@ -294,7 +299,7 @@ class Decider final : public Supervisor {
                 .found &&
            leewardRoom(m, sailed_, kAheadS) >= asked.drift_m.norm() - kStepM;
   }
-  bool isClearAgain(const Moment& m) { return replan_for_ == Cause::kClearance && !isNarrow(m); }
+  bool isClearAgain(const Moment& m) { return cause_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
   bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_, offSailed(m)); }
   // The hull does not pass on its way, no plan leads round that, and of the stops before it none
@@ -302,7 +307,7 @@ class Decider final : public Supervisor {
   // leads into the narrow place.
   bool endsNarrowerLater(const Moment& m) {
     constexpr double kStepS = 1.0;
-    if (replan_for_ != Cause::kClearance || !fallback_ || mayPlanRoundIt(m)) {
+    if (cause_ != Cause::kClearance || !fallback_ || mayPlanRoundIt(m)) {
       return false;
     }
     const double at = sailed_.elapsed(m.now_s);
@@ -587,8 +592,7 @@ class Decider final : public Supervisor {
   // it was planned. Once the weather is known, then not for each change again.
   bool lacksThrust(const Moment& m) {
     constexpr double kAgainS = 5.0;
-    return mayReplanForWeather(m) &&
-           (replansForWeather() || m.now_s - weather_asked_s_ >= kAgainS) &&
+    return mayReplanForWeather(m) && (replansForLoad() || m.now_s - weather_asked_s_ >= kAgainS) &&
            overtaxed(m.now_s, sailed_, weather().mean()) > planned_overtaxed_s_ + kOvertaxedLongerS;
   }
   // At this speed gusts by now take the moment that holds the headings.
@@ -736,7 +740,7 @@ class Decider final : public Supervisor {
         plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles, rests_by_s),
         {},
         false};
-    if (orders.plan && phase_ == Phase::kReplanning && replan_for_ == Cause::kClearance) {
+    if (orders.plan && phase_ == Phase::kReplanning && cause_ == Cause::kClearance) {
       const feasibility::SafetyLimits& asked = orders.plan->query.limits;
       const double listed_m = std::min(listedClearance(safety().level()), asked.clearance_m);
       const double enough_m = listed_m + kForGustsShare * (asked.clearance_m - listed_m);
@@ -757,7 +761,7 @@ class Decider final : public Supervisor {
               false};
     }
     plans_.drop();
-    ++replans_;
+    ++replans_.all;
     planned_left_m_ = 0.0;
     const double catch_up_mps = sailed_.speed_max_mps;
     sailed_ = stopping::splice(sailed_, m.now_s, path);
@@ -770,15 +774,14 @@ class Decider final : public Supervisor {
       safety().leftBehind();
     }
     late_m_ = 0.0;
-    return planFromVessel(m, "far off the trajectory");
+    return planFromVessel(m, "far off the trajectory", Cause::kOff);
   }
   Orders planForWeather(const Moment& m) {
     weather_asked_s_ = m.now_s;
-    return planFromVessel(m, "wind and current take thrust that the plan counts on",
-                          Cause::kWeather);
+    return planFromVessel(m, "wind and current take thrust that the plan counts on", Cause::kLoad);
   }
   Orders planForGoalHeading(const Moment& m) {
-    replan("the heading at the goal is another in this wind and current");
+    replan("the heading at the goal is another in this wind and current", Cause::kGoalHeading);
     Orders orders = planFromSailed(m);
     if (!orders.plan) {
       return enter(Phase::kSailing);
@@ -789,7 +792,7 @@ class Decider final : public Supervisor {
     gusts_asked_s_ = m.now_s;
     replan(text("gusts take the moment that holds headings at %.1f m/s",
                 planned_limits_.speed_max_mps),
-           Cause::kWeather);
+           Cause::kLoad);
     Orders orders = planFromSailed(m);
     return orders.plan ? orders : enter(Phase::kSailing);
   }
@@ -850,6 +853,7 @@ class Decider final : public Supervisor {
         text("not settled at the trajectory's end: %.2f m and %.2f rad from the goal, at %.2f m/s",
              (m.situation.state.head<2>() - goal_.position).norm(), headingOff(m),
              vessel::speedOf(m.situation.state));
+    cause_ = Cause::kOff;
     return rest(m, why, why);
   }
 
@@ -879,26 +883,29 @@ class Decider final : public Supervisor {
   }
 
   Orders brakeAsItLies(const Moment& m) {
-    return brakeFor(m, "off its attitude, and about to touch something");
+    return brakeFor(m, "off its attitude, and about to touch something", Cause::kOff);
   }
   Orders brakeForSpeed(const Moment& m) {
     return brakeFor(m, text("no plan keeps to %.2f m/s from here", safety().speedMax()));
   }
   Orders takeLastStop(const Moment& m) {
-    return takeLastStop(m, phase_ == Phase::kReplanning && conflict_.found
-                               ? conflictText(conflict_)
-                               : "no later stop in water known to be free");
+    return takeLastStop(m,
+                        phase_ == Phase::kReplanning && conflict_.found
+                            ? conflictText(conflict_)
+                            : "no later stop in water known to be free",
+                        Cause::kClearance);
   }
   // The last one that was found; it may be under way already when this is decided late.
-  Orders takeLastStop(const Moment& m, std::string why) {
+  Orders takeLastStop(const Moment& m, std::string why, Cause cause) {
     constexpr double kApartM = 0.2;
     const auto place = [&](const TimedTrajectory& path) {
       return path.trajectory.flat(path.elapsed(m.now_s)).position;
     };
     if (!fallback_ || (place(*fallback_) - place(sailed_)).norm() > kApartM) {
-      return brakeFor(m, std::move(why));
+      return brakeFor(m, std::move(why), cause);
     }
     plans_.drop();
+    cause_ = cause;
     stop_time_s_ = m.now_s;
     enter(Phase::kStopping, std::move(why));
     sailed_ = *std::exchange(fallback_, std::nullopt);
@@ -934,7 +941,8 @@ class Decider final : public Supervisor {
   // The tracker turns the bow into it and keeps the place; a plan from rest comes next.
   Orders stopHeadingLost(const Moment& m) {
     return stopByItself(
-        m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
+        m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m),
+        Cause::kOff);
   }
   Orders turnIntoTheLoad(const Moment& /*m*/) { return holdHere(); }
   Orders keepThePlace(const Moment& /*m*/) {
@@ -945,7 +953,8 @@ class Decider final : public Supervisor {
   Orders makeSeaRoom(const Moment& m) {
     Orders orders = manoeuvre(m, Phase::kBackingOff, legAhead(m, sea_room_m_),
                               text("makes room, %.1f m %s", std::abs(sea_room_m_),
-                                   sea_room_m_ > 0.0 ? "ahead" : "astern"));
+                                   sea_room_m_ > 0.0 ? "ahead" : "astern"),
+                              Cause::kOff);
     makes_room_ = true;
     return orders;
   }
@@ -987,13 +996,14 @@ class Decider final : public Supervisor {
     }
     if (found.path.trajectory.empty()) {
       no_way_s_ = m.now_s;
-      return under_way ? takeLastStop(m, "no way among other vessels") : Orders{};
+      return under_way ? takeLastStop(m, "no way among other vessels", Cause::kOther) : Orders{};
     }
     plans_.drop();  // what is asked for begins on what was sailed
     if (!evades) {
       fallback_.reset();
       stop_time_s_ = m.now_s;
       is_aside_ = makes_room_ = holds_ = false;
+      cause_ = Cause::kOther;
       planned_clearance_m_ = 0.0;
       crowded_s_ = m.now_s;
     }
@@ -1014,11 +1024,11 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders stopSetAside(const Moment& m) {
-    return stopByItself(m,
-                        text("set aside, %.1f m off the trajectory", m.situation.tracking_error_m));
+    return stopByItself(
+        m, text("set aside, %.1f m off the trajectory", m.situation.tracking_error_m), Cause::kOff);
   }
   Orders stopBeyondThrust(const Moment& m) {
-    return stopByItself(m, "too much wind and current: " + safety().beyondThrust());
+    return stopByItself(m, "too much wind and current: " + safety().beyondThrust(), Cause::kOff);
   }
   // Bow to it, until it abates or for too long.
   Orders waitForCalm(const Moment& m) {
@@ -1033,7 +1043,7 @@ class Decider final : public Supervisor {
     return holdHere();
   }
   Orders stopOverTheEdge(const Moment& m) {
-    return stopByItself(m, "over the map's edge and far off the trajectory");
+    return stopByItself(m, "over the map's edge and far off the trajectory", Cause::kOff);
   }
   Orders stopBlocked(const Moment& m) {
     return stopByItself(m, std::string("something came up in the way while ") + name(phase_));
@@ -1072,7 +1082,8 @@ class Decider final : public Supervisor {
   Orders turnBack(const Moment& m) {
     if (std::optional<Trajectory> path =
             stopping::turnBack(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_)) {
-      return manoeuvre(m, Phase::kTurningBack, std::move(*path), "over the map's edge");
+      return manoeuvre(m, Phase::kTurningBack, std::move(*path), "over the map's edge",
+                       Cause::kOff);
     }
     if (inside(m) >= 0.0) {
       return planFromRest(m);
@@ -1585,14 +1596,23 @@ class Decider final : public Supervisor {
                kHorizonS;
   }
 
-  // What alone another plan is looked for under way.
-  enum class Cause { kOther, kClearance, kWeather };
   Orders replan(std::string why, Cause cause = Cause::kOther) {
-    replan_for_ = cause;
+    cause_ = cause;
     return enter(Phase::kReplanning, std::move(why));
   }
-  [[nodiscard]] bool replansForWeather() const {
-    return phase_ == Phase::kReplanning && replan_for_ == Cause::kWeather;
+  [[nodiscard]] bool replansForLoad() const {
+    return phase_ == Phase::kReplanning && cause_ == Cause::kLoad;
+  }
+  // What was asked for to gain time was not for the weather's sake; what takes the place of a plan
+  // that was given up, or follows a stop, was for that of its cause.
+  void countReplan(const PlanRequests::Asked& asked) {
+    if (asked.from == From::kRest && phase_ != Phase::kStopped) {
+      return;
+    }
+    const bool for_weather = asked.gain ? *asked.gain != Gain::kTime
+                                        : cause_ != Cause::kOther && cause_ != Cause::kClearance;
+    ++replans_.all;
+    replans_.for_weather += for_weather ? 1 : 0;
   }
   Orders enter(Phase phase, std::string reason = {}) {
     phase_ = phase;
@@ -1611,7 +1631,7 @@ class Decider final : public Supervisor {
         !findStop(m, plan, planned, from_sailed ? offSailed(m) : stopping::Off{})) {
       return asked.gain ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
     }
-    replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;
+    countReplan(asked);
     sailed_ = std::move(plan);
     planned_left_m_ = asked.left_m;
     if (planned_left_m_ == 0.0) {
@@ -1640,8 +1660,10 @@ class Decider final : public Supervisor {
     return {std::nullopt, sailed_, false};
   }
   // A way to rest, without a plan; an empty one is the tracker's to find.
-  Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason) {
+  Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason,
+                   Cause cause = Cause::kOther) {
     plans_.drop();
+    cause_ = cause;
     stop_time_s_ = m.now_s;
     is_aside_ = makes_room_ = false;
     planned_clearance_m_ = 0.0;
@@ -1655,11 +1677,11 @@ class Decider final : public Supervisor {
     sailed_ = {std::move(path), m.now_s};
     return {std::nullopt, sailed_, false};
   }
-  Orders stopByItself(const Moment& m, std::string reason) {
-    return manoeuvre(m, Phase::kStopping, {}, std::move(reason));
+  Orders stopByItself(const Moment& m, std::string reason, Cause cause = Cause::kOther) {
+    return manoeuvre(m, Phase::kStopping, {}, std::move(reason), cause);
   }
-  Orders brakeFor(const Moment& m, std::string reason) {
-    return manoeuvre(m, Phase::kStopping, stopNow(m).trajectory, std::move(reason));
+  Orders brakeFor(const Moment& m, std::string reason, Cause cause = Cause::kOther) {
+    return manoeuvre(m, Phase::kStopping, stopNow(m).trajectory, std::move(reason), cause);
   }
   // Plans from rest come next, unless there were too many stops.
   Orders rest(const Moment& m, const std::string& reason, const std::string& last) {
@@ -1676,7 +1698,7 @@ class Decider final : public Supervisor {
     return enter(Phase::kStopped, reason);
   }
 
-  Orders planFromVessel(const Moment& m, std::string why, Cause cause = Cause::kOther) {
+  Orders planFromVessel(const Moment& m, std::string why, Cause cause) {
     replan(std::move(why), cause);
     return {plans_.fromVessel(m.now_s, m.situation.state, goal_, m.obstacles), {}, false};
   }
@@ -1763,7 +1785,7 @@ class Decider final : public Supervisor {
     // One that knows nothing of the weather is no better than the one being sailed; and looking on
     // and on for one, the vessel would see to nothing else.
     const bool in_vain = safety().plansWithWeather() ? safety().plansBlind() : !more;
-    if (replansForWeather() && in_vain) {
+    if (replansForLoad() && in_vain) {
       safety().planTaken();
       return keepThePlan(m);
     }
@@ -1778,7 +1800,8 @@ class Decider final : public Supervisor {
               stopping::backOff(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_,
                                 m.situation.disturbance.mean, safety().reach())) {
         noteDeadEnd(m);
-        return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why);
+        return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why,
+                         Cause::kClearance);
       }
     }
     if (mayPass(m)) {
@@ -1868,9 +1891,9 @@ class Decider final : public Supervisor {
   bool cancelled_ = false;          // the mission ends with the stop
   std::string end_reason_;          // by whose wish
   std::optional<Phase> suspended_;  // what the vessel is to rest in, with its mission kept
-  Cause replan_for_ = Cause::kOther;
+  Cause cause_ = Cause::kOther;
   double weather_asked_s_ = 0.0;
-  int replans_ = 0;
+  Replans replans_;
   PlanRequests plans_;
   RetryBudget retries_;
   std::optional<encounter::NearFuture> near_;  // other vessels now

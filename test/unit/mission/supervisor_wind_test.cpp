@@ -287,7 +287,8 @@ TEST(SupervisorInWind, LooksForMoreRoomOnceItKnowsHowFarItWanders) {
   const std::optional<PlanRequest> again = sailAside(mission, 6.0, kOffM);
   ASSERT_TRUE(again.has_value());
   EXPECT_TRUE(mission.answer(*again, way(*again, -3.0)).sail);
-  EXPECT_EQ(mission.supervisor->replans(), 1);
+  EXPECT_EQ(mission.supervisor->replans().all, 1);
+  EXPECT_EQ(mission.supervisor->replans().for_weather, 1);
 }
 
 TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
@@ -352,6 +353,40 @@ Orders asksForTheWeathersSake(ScriptedMission& mission) {
     orders = mission.update(0.1);
   }
   return orders;
+}
+
+// Two metres off; at first a plan from there, then, for there is none, one from rest.
+TEST(SupervisorInWind, CountsThePlansThatTheWeatherAskedFor) {
+  for (const bool stops : {false, true}) {
+    ScriptedMission mission;
+    mission.setOut(6.0);
+    std::optional<PlanRequest> request;
+    for (int k = 0; k < 100 && !request; ++k) {
+      mission.now_s += 0.1;
+      Situation aside = mission.situation();
+      aside.state.y() += 2.0;
+      aside.tracking_error_m = 2.0;
+      const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
+      mission.rest = aside.state;
+      if (stops && orders.stop) {
+        mission.rest.tail<3>().setZero();
+        break;
+      }
+      request = stops ? std::nullopt : orders.plan;
+    }
+    for (int k = 0; k < 100 && !request; ++k) {
+      request = mission.update(0.1).plan;
+    }
+    ASSERT_TRUE(request.has_value());
+    EXPECT_EQ(request->moving, !stops);
+    EXPECT_EQ(mission.supervisor->replans().all, 0);
+    const trajectory::Trajectory way =
+        test::eastward(request->query.start.flat.position, 20.0, stops ? 3.0 : 4.0);
+    (void)mission.answer(*request, way);
+    EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+    EXPECT_EQ(mission.supervisor->replans().all, 1);
+    EXPECT_EQ(mission.supervisor->replans().for_weather, 1);
+  }
 }
 
 // It stops meanwhile: from rest there is no plan to keep, and one for still water is tried.
