@@ -638,7 +638,7 @@ class Decider final : public Supervisor {
     constexpr double kSoonS = 30.0;  // what the weather will be later nobody knows
     const double left_s = sailed_.left(m.now_s);
     return mayReplanForWeather(m) && left_s > kLeftS &&
-           (left_s < kSoonS || !planned_in_known_weather_) &&
+           (left_s < kSoonS || !planned_in_known_weather_) && !staysOffGoalHeading() &&
            std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - planned_goal_psi_rad_)) >
                kWrongRad;
   }
@@ -861,12 +861,15 @@ class Decider final : public Supervisor {
     if (headingOff(m) <= options_.arrival_heading_rad) {
       return enter(Phase::kArrived);
     }
-    return enter(Phase::kArrived,
-                 text("%.2f m from the goal (%.2f m allowed), but %.2f rad off its heading: wind "
-                      "and current would set the vessel aside by %.2f m/s on it",
-                      (m.situation.state.head<2>() - goal_.position).norm(),
-                      options_.arrival_distance_m, headingOff(m),
-                      vessel::setAside(vessel_.manoeuvring, weather().mean(), goal_.psi_rad)));
+    const bool in_gusts = mayLoseItsHeading();
+    const vessel::Disturbance load = in_gusts ? weather().gust() : weather().mean();
+    return enter(
+        Phase::kArrived,
+        text("%.2f m from the goal (%.2f m allowed), but %.2f rad off its heading: wind "
+             "and current would set the vessel aside by %.2f m/s on it",
+             (m.situation.state.head<2>() - goal_.position).norm(), options_.arrival_distance_m,
+             headingOff(m), vessel::setAside(vessel_.manoeuvring, load, goal_.psi_rad)) +
+            (in_gusts ? " in gusts" : ""));
   }
   // The way that is sailed would lead on.
   Orders arriveEvading(const Moment& m) {
@@ -1228,7 +1231,16 @@ class Decider final : public Supervisor {
   bool goalHeadingYields() {
     constexpr double kSameRad = 1e-3;
     return weather().isKnown() &&
-           std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - goal_.psi_rad)) > kSameRad;
+           (std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - goal_.psi_rad)) > kSameRad ||
+            staysOffGoalHeading());
+  }
+  // The plan gave the goal's heading up, and its own can be held: in strong wind the hull is not
+  // turned round as soon as the wind slackens or veers. The next gust would take the heading again.
+  bool staysOffGoalHeading() {
+    return mayLoseItsHeading() &&
+           std::abs(wrapAngle(planned_goal_psi_rad_ - goal_.psi_rad)) >
+               options_.arrival_heading_rad &&
+           vessel::canLie(vessel_.manoeuvring, weather().mean(), planned_goal_psi_rad_);
   }
   // At once when the weather is known first, later not before the plan has been sailed a while.
   bool mayReplanForWeather(const Moment& m) {

@@ -916,6 +916,29 @@ TEST(SupervisorInWind, SailsTheSameWayLaterInStrongWind) {
   }
 }
 
+// The plan ended bow to the wind, for on the goal's heading the hull would have been set aside.
+// Then the wind veers, and astern it would be held there for a moment: that is no reason to turn
+// round.
+TEST(SupervisorInWind, DoesNotTurnRoundAtTheGoalWhereStrongWindVeers) {
+  for (const double wind_mps : {3.0, 8.0}) {
+    ScriptedMission mission = inWind(-wind_mps);
+    mission.rest.x() = 0.0;
+    const auto orders = mission.goTo({20.0, 0.0}, kPi - 0.5);
+    ASSERT_TRUE(orders && orders->plan);
+    if (wind_mps > 5.0) {
+      EXPECT_NEAR(orders->plan->query.goal.psi_rad, 0.0, 0.1);
+    }
+    ASSERT_TRUE(mission.answer(*orders->plan, test::eastward({0.0, 0.0}, 20.0, 0.8)).sail);
+    mission.disturbance.wind_mps = -wind_mps * Eigen::Vector2d(std::cos(0.4), -std::sin(0.4));
+    for (int k = 0; k < 450; ++k) {
+      (void)mission.update(0.1);
+    }
+    const bool arrived = mission.supervisor->phase() == Phase::kArrived;
+    EXPECT_EQ(arrived, wind_mps > 5.0) << mission.supervisor->reason();
+    EXPECT_EQ(mission.supervisor->reason().find("in gusts") != std::string::npos, arrived);
+  }
+}
+
 // With 2 m beside it, though all is free to leeward.
 TEST(SupervisorInWind, MakesMoreRoomInStrongWind) {
   for (const double wind_mps : {5.0, 8.0}) {
