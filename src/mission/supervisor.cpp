@@ -108,6 +108,8 @@ class Decider final : public Supervisor {
     suspended_.reset();
     replans_ = {};
     cause_ = Cause::kOther;
+    learns_gusts_ = false;
+    far_round_ = FarRound::kNotMet;
     nearest_left_m_ = std::numeric_limits<double>::infinity();
     pilot_.newGoal(m.now_s);
     lying_off_.newGoal();
@@ -235,6 +237,8 @@ class Decider final : public Supervisor {
   // It steers into waves that it doesn't know yet, and swings its corners by as much again as they
   // set it aside.
   bool learnsTheWaves(const Moment& m) { return waves_since_s_ && mayLearnTheWaves(m); }
+  // The plan that was found has less than the widest room, and what gusts do is a guess yet.
+  bool learnsTheGusts(const Moment& /*m*/) { return learns_gusts_ && weather().mayTurnOutStrong(); }
 
   // Or so near the edge that no plan starts there: it counts as occupied.
   bool isOverTheEdge(const Moment& m) { return knowsPlace(m) && inside(m) < safety().narrowest(); }
@@ -438,11 +442,7 @@ class Decider final : public Supervisor {
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
                lost_rad;
   }
-  // The mean wind turns the hull with much of the thrusters' moment.
-  bool mayLoseItsHeading() {
-    constexpr double kStrongShare = 0.4;
-    return weather().greatestMoment() > kStrongShare * vessel::greatestMoment(vessel_.thrusters);
-  }
+  bool mayLoseItsHeading() { return weather().isStrong(); }
   // Bow or stern to it, nearly: where its moment is small.
   bool isHeldInWind(double psi_rad) {
     constexpr double kHeldRad = 0.6;
@@ -805,12 +805,12 @@ class Decider final : public Supervisor {
     return planFromSailed(m);
   }
   Orders planFaster(const Moment& m) {
-    safety().tryLevel(planned_level_);
+    safety().tryLevel(planned_level_, planned_steps_wider_);
     return improve(m);
   }
   Orders planSlower(const Moment& m) {
     slower_asked_s_ = m.now_s;
-    safety().tryLevel(planned_level_);
+    safety().tryLevel(planned_level_, planned_steps_wider_);
     return improve(m, Gain::kThrust);
   }
   // The widest way first; then one like that being sailed, with more beside the hull.
@@ -1150,6 +1150,7 @@ class Decider final : public Supervisor {
       {kWaiting, &Decider::isDrivenAshore, &Decider::makeSeaRoom},
       {kWaiting, &Decider::liesAcrossTheLoad, &Decider::turnIntoTheLoad},
       {kWaiting, &Decider::liesOffALeeShore, &Decider::makeSeaRoom},
+      {kWaiting, &Decider::learnsTheGusts, &Decider::keepOn},
       {kWaiting, &Decider::waitsForLessWind, &Decider::keepThePlace},
       {kWaiting, &Decider::always, &Decider::planFromRest},
 
@@ -1652,6 +1653,7 @@ class Decider final : public Supervisor {
     is_last_resort_ =
         asked.slow || asked.left_m > 0.0 || stopping::restsBeforeItsEnd(sailed_.trajectory);
     planned_level_ = asked.level;
+    planned_steps_wider_ = asked.steps_wider;
     planned_pace_share_ = asked.pace_share;
     planned_in_unknown_water_ = asked.in_unknown_water;
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
@@ -1667,6 +1669,7 @@ class Decider final : public Supervisor {
     plan_time_s_ = sailed_since_s_ = m.now_s;
     holds_ = is_aside_ = makes_room_ = false;
     rooms_made_ = 0;
+    far_round_ = FarRound::kNotMet;
     safety().planTaken();
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
@@ -1726,7 +1729,36 @@ class Decider final : public Supervisor {
       enter(phase_, "learns the waves before it goes through narrow water");
       return holdHere();
     }
+    if (leadsFarRound(m, plan) && far_round_ != FarRound::kTaken && safety().timesRefused() == 0) {
+      far_round_ = FarRound::kPassedOver;
+      if (!takesWhatItPassedOver()) {
+        (void)safety().refused();
+      }
+      return {};  // asked for narrower, or once more
+    }
+    learns_gusts_ = asked.level > 0 && weather().mayTurnOutStrong();
+    if (learns_gusts_) {
+      enter(phase_, "learns what gusts do before it goes through narrow water");
+      return holdHere();
+    }
     return sail(m, {plan.trajectory, m.now_s}, asked);
+  }
+  // In strong wind, where plans are slow, by minutes: a narrower way comes before that.
+  [[nodiscard]] bool leadsFarRound(const Moment& m, const planner::Plan& plan) {
+    constexpr double kTimesStraight = 2.0;
+    constexpr double kMoreM = 50.0;
+    const double straight_m = (goal_.position - m.situation.state.head<2>()).norm();
+    return mayLoseItsHeading() &&
+           trajectory::length(plan.trajectory) > kTimesStraight * straight_m + kMoreM;
+  }
+  // Nothing was left to try but that: it is asked for again.
+  bool takesWhatItPassedOver() {
+    if (far_round_ != FarRound::kPassedOver || !safety().atNarrowest()) {
+      return false;
+    }
+    far_round_ = FarRound::kTaken;
+    safety().tryWidest();
+    return true;
   }
   [[nodiscard]] bool isForNarrowWater(const PlanRequests::Asked& asked) const {
     constexpr double kNarrowM = 0.3;  // beside the hull
@@ -1791,6 +1823,9 @@ class Decider final : public Supervisor {
   }
   Orders planFailed(const Moment& m, const std::string& why, const PlanRequests::Asked& asked) {
     if (asked.gain) {
+      return {};
+    }
+    if (asked.from == From::kRest && takesWhatItPassedOver()) {
       return {};
     }
     const bool more = safety().refused();
@@ -1865,6 +1900,7 @@ class Decider final : public Supervisor {
   double planned_left_m_ = 0.0;  // of the way, from the sailed trajectory's end to the goal
   double nearest_left_m_ = std::numeric_limits<double>::infinity();  // where a part of it ended
   std::size_t planned_level_ = 0;
+  int planned_steps_wider_ = 0;      // than that (ClearanceLevels)
   double planned_pace_share_ = 1.0;  // of the usual speed
   bool planned_in_unknown_water_ = false;
   double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
@@ -1919,7 +1955,10 @@ class Decider final : public Supervisor {
   double late_at_s_ = 0.0;
   double gusts_asked_s_ = -std::numeric_limits<double>::infinity();  // for a slower plan
   std::optional<double> waves_since_s_;                              // it learns them
-  double evaded_s_ = -std::numeric_limits<double>::infinity();       // when it was decided last
+  bool learns_gusts_ = false;
+  enum class FarRound { kNotMet, kPassedOver, kTaken };
+  FarRound far_round_ = FarRound::kNotMet;
+  double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
   double crowded_s_ = 0.0;  // while she evades: when others were many or near last
   double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found
   std::vector<Eigen::Vector2d> way_;              // that the last plan to the goal took
