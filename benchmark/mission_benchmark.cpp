@@ -110,6 +110,7 @@ scenario::MissionResult resultOf(const nlohmann::json& json) {
   result.tracking_error_mean_m = number("tracking_error_mean_m");
   result.tracking_error_max_m = number("tracking_error_max_m");
   result.replans = json.at("replans");
+  result.replans_for_weather = json.at("replans_for_weather");
   result.planning_ms_median = number("planning_ms_median");
   result.planning_ms_max = number("planning_ms_max");
   result.tracker_ms_p99 = number("tracker_ms_p99");

@@ -245,6 +245,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   asked_->catch_up_mps = std::max(catch_up_mps, request.query.limits.speed_max_mps);
   asked_->slow = safety.slowShare() < 1.0;
   asked_->level = safety.level();
+  asked_->steps_wider = safety.stepsWider();
   asked_->pace_share = paceShare(asked_->level);
   asked_->in_unknown_water = safety.isInUnknownWater();
   return request;

@@ -50,6 +50,7 @@ class PlanRequests {
     double catch_up_mps = 0.0;   // what a vessel that fell behind may go
     bool slow = false;           // asked for because there was none at the usual speed
     std::size_t level = 0;       // of the clearances
+    int steps_wider = 0;         // than that (ClearanceLevels)
     double pace_share = 1.0;     // of the usual speed, where it wanders too much for that
     bool in_unknown_water = false;
     double left_m = 0.0;  // what the answer leaves of the way to the goal

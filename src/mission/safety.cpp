@@ -83,15 +83,23 @@ stopping::StopLimits Safety::leastStop(const feasibility::SafetyLimits& planned)
 feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   while (!levels_.atNarrowest() &&
          centreClearance(vessel_.hull, options_.side_clearances_m[levels_.level()]) > room_m) {
-    levels_.narrower();
+    levels_.begin(levels_.level() + 1);
   }
-  const double clearance =
-      planClearance(options_, levels_.level(), weather_.gustReach(), vessel_.hull, room_m);
+  const double wider = levels_.stepsWider() / static_cast<double>(ClearanceLevels::kSteps);
+  const auto between = [&](const auto& of_level) {
+    const double at = of_level(levels_.level());
+    return wider > 0.0 ? at + wider * (of_level(levels_.level() - 1) - at) : at;
+  };
+  const double clearance = between([&](std::size_t level) {
+    return planClearance(options_, level, weather_.gustReach(), vessel_.hull, room_m);
+  });
   auto limits = feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
   limits.speed_max_mps = sailingSpeed(limits.speed_max_mps);
   constexpr double kLeeShares[] = {1.0, 0.5, 0.25, 0.1};  // by level
-  limits.drift_m =
-      kLeeShares[std::min(levels_.level(), std::size(kLeeShares) - 1)] * weather_.drift();
+  limits.drift_m = between([&](std::size_t level) {
+                     return kLeeShares[std::min(level, std::size(kLeeShares) - 1)];
+                   }) *
+                   weather_.drift();
   limits.disturbance = planDisturbance();
   if (timesRefused() < kRefusedMost) {
     limits.felt = leansInto();
@@ -271,7 +279,7 @@ bool Safety::refused() {
     levels_.widest();
     return true;
   }
-  const bool more = levels_.narrower();
+  const bool more = levels_.narrower(weather_.isKnown() && weather_.isStrong());
   if (!more) {
     ++times_refused_;
   }

@@ -36,24 +36,41 @@ namespace otter_nav::mission {
 // The most that the hull's corners swing at rest in a light wind and waves.
 constexpr double kSwingsM = 0.3;
 
-// The clearances of the list in turn, from the widest to the narrowest and round again.
+// The clearances of the list in turn, from the widest to the narrowest and round again; or in steps
+// between them, for in strong wind one level asks for metres less than the one before.
 class ClearanceLevels {
  public:
+  static constexpr int kSteps = 3;  // from one level to the next
+
   explicit ClearanceLevels(std::size_t count) : count_(count) {}
   [[nodiscard]] std::size_t level() const { return level_; }
-  [[nodiscard]] bool atNarrowest() const { return level_ + 1 >= count_; }
+  // So many steps wider than the level, towards the one before; less than `kSteps`.
+  [[nodiscard]] int stepsWider() const { return steps_wider_; }
+  [[nodiscard]] bool atNarrowest() const { return level_ + 1 >= count_ && steps_wider_ == 0; }
   // False where it begins again at the widest.
-  bool narrower() {
-    const bool last = atNarrowest();
-    level_ = last ? 0 : level_ + 1;
-    return !last;
+  bool narrower(bool in_steps) {
+    if (atNarrowest()) {
+      widest();
+      return false;
+    }
+    if (steps_wider_ > 0) {
+      --steps_wider_;
+    } else {
+      ++level_;
+      steps_wider_ = in_steps ? kSteps - 1 : 0;
+    }
+    return true;
   }
-  void widest() { level_ = 0; }
-  void begin(std::size_t level) { level_ = std::min(level, count_ - 1); }
+  void widest() { begin(0); }
+  void begin(std::size_t level, int steps_wider = 0) {
+    level_ = std::min(level, count_ - 1);
+    steps_wider_ = steps_wider;
+  }
 
  private:
   std::size_t count_;
   std::size_t level_ = 0;
+  int steps_wider_ = 0;
 };
 
 class Safety {
@@ -138,7 +155,9 @@ class Safety {
   void comeToRest();
   [[nodiscard]] std::size_t level() const { return levels_.level(); }
   [[nodiscard]] bool atNarrowest() const { return levels_.atNarrowest(); }
-  void tryLevel(std::size_t level) { levels_.begin(level); }
+  // Of `ClearanceLevels`.
+  [[nodiscard]] int stepsWider() const { return levels_.stepsWider(); }
+  void tryLevel(std::size_t level, int steps_wider = 0) { levels_.begin(level, steps_wider); }
 
  private:
   // At less a light load from abeam turns a hull that keeps to its path by more than a little.

@@ -58,6 +58,10 @@ constexpr double kEvadeAgainS = 0.25;  // from one decision about others to the 
 // What the thrusters lack for so much longer on one way than on another makes a difference.
 constexpr double kOvertaxedLongerS = 1.5;
 
+// Why a plan is given up, or the vessel stops: something in the way, or the weather's doing, by
+// which the vessel is off its way, wants for thrust on it, or can't hold the goal's heading.
+enum class Cause { kOther, kClearance, kOff, kLoad, kGoalHeading };
+
 // What a decision is made on.
 struct Moment {
   double now_s;
@@ -102,7 +106,10 @@ class Decider final : public Supervisor {
     rooms_made_ = 0;
     cancelled_ = false;
     suspended_.reset();
-    replans_ = 0;
+    replans_ = {};
+    cause_ = Cause::kOther;
+    learns_gusts_ = false;
+    far_round_ = FarRound::kNotMet;
     nearest_left_m_ = std::numeric_limits<double>::infinity();
     pilot_.newGoal(m.now_s);
     lying_off_.newGoal();
@@ -186,7 +193,7 @@ class Decider final : public Supervisor {
   [[nodiscard]] std::vector<encounter::Encounter> encounters() const override {
     return pilot_.encounters();
   }
-  [[nodiscard]] int replans() const override { return replans_; }
+  [[nodiscard]] Replans replans() const override { return replans_; }
   [[nodiscard]] int stops() const override { return retries_.stops(); }
 
  private:
@@ -230,6 +237,8 @@ class Decider final : public Supervisor {
   // It steers into waves that it doesn't know yet, and swings its corners by as much again as they
   // set it aside.
   bool learnsTheWaves(const Moment& m) { return waves_since_s_ && mayLearnTheWaves(m); }
+  // The plan that was found has less than the widest room, and what gusts do is a guess yet.
+  bool learnsTheGusts(const Moment& /*m*/) { return learns_gusts_ && weather().mayTurnOutStrong(); }
 
   // Or so near the edge that no plan starts there: it counts as occupied.
   bool isOverTheEdge(const Moment& m) { return knowsPlace(m) && inside(m) < safety().narrowest(); }
@@ -294,7 +303,7 @@ class Decider final : public Supervisor {
                 .found &&
            leewardRoom(m, sailed_, kAheadS) >= asked.drift_m.norm() - kStepM;
   }
-  bool isClearAgain(const Moment& m) { return replan_for_ == Cause::kClearance && !isNarrow(m); }
+  bool isClearAgain(const Moment& m) { return cause_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
   bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_, offSailed(m)); }
   // The hull does not pass on its way, no plan leads round that, and of the stops before it none
@@ -302,7 +311,7 @@ class Decider final : public Supervisor {
   // leads into the narrow place.
   bool endsNarrowerLater(const Moment& m) {
     constexpr double kStepS = 1.0;
-    if (replan_for_ != Cause::kClearance || !fallback_ || mayPlanRoundIt(m)) {
+    if (cause_ != Cause::kClearance || !fallback_ || mayPlanRoundIt(m)) {
       return false;
     }
     const double at = sailed_.elapsed(m.now_s);
@@ -433,11 +442,7 @@ class Decider final : public Supervisor {
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
                lost_rad;
   }
-  // The mean wind turns the hull with much of the thrusters' moment.
-  bool mayLoseItsHeading() {
-    constexpr double kStrongShare = 0.4;
-    return weather().greatestMoment() > kStrongShare * vessel::greatestMoment(vessel_.thrusters);
-  }
+  bool mayLoseItsHeading() { return weather().isStrong(); }
   // Bow or stern to it, nearly: where its moment is small.
   bool isHeldInWind(double psi_rad) {
     constexpr double kHeldRad = 0.6;
@@ -587,8 +592,7 @@ class Decider final : public Supervisor {
   // it was planned. Once the weather is known, then not for each change again.
   bool lacksThrust(const Moment& m) {
     constexpr double kAgainS = 5.0;
-    return mayReplanForWeather(m) &&
-           (replansForWeather() || m.now_s - weather_asked_s_ >= kAgainS) &&
+    return mayReplanForWeather(m) && (replansForLoad() || m.now_s - weather_asked_s_ >= kAgainS) &&
            overtaxed(m.now_s, sailed_, weather().mean()) > planned_overtaxed_s_ + kOvertaxedLongerS;
   }
   // At this speed gusts by now take the moment that holds the headings.
@@ -634,7 +638,7 @@ class Decider final : public Supervisor {
     constexpr double kSoonS = 30.0;  // what the weather will be later nobody knows
     const double left_s = sailed_.left(m.now_s);
     return mayReplanForWeather(m) && left_s > kLeftS &&
-           (left_s < kSoonS || !planned_in_known_weather_) &&
+           (left_s < kSoonS || !planned_in_known_weather_) && !staysOffGoalHeading() &&
            std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - planned_goal_psi_rad_)) >
                kWrongRad;
   }
@@ -736,7 +740,7 @@ class Decider final : public Supervisor {
         plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles, rests_by_s),
         {},
         false};
-    if (orders.plan && phase_ == Phase::kReplanning && replan_for_ == Cause::kClearance) {
+    if (orders.plan && phase_ == Phase::kReplanning && cause_ == Cause::kClearance) {
       const feasibility::SafetyLimits& asked = orders.plan->query.limits;
       const double listed_m = std::min(listedClearance(safety().level()), asked.clearance_m);
       const double enough_m = listed_m + kForGustsShare * (asked.clearance_m - listed_m);
@@ -757,7 +761,7 @@ class Decider final : public Supervisor {
               false};
     }
     plans_.drop();
-    ++replans_;
+    ++replans_.all;
     planned_left_m_ = 0.0;
     const double catch_up_mps = sailed_.speed_max_mps;
     sailed_ = stopping::splice(sailed_, m.now_s, path);
@@ -770,15 +774,14 @@ class Decider final : public Supervisor {
       safety().leftBehind();
     }
     late_m_ = 0.0;
-    return planFromVessel(m, "far off the trajectory");
+    return planFromVessel(m, "far off the trajectory", Cause::kOff);
   }
   Orders planForWeather(const Moment& m) {
     weather_asked_s_ = m.now_s;
-    return planFromVessel(m, "wind and current take thrust that the plan counts on",
-                          Cause::kWeather);
+    return planFromVessel(m, "wind and current take thrust that the plan counts on", Cause::kLoad);
   }
   Orders planForGoalHeading(const Moment& m) {
-    replan("the heading at the goal is another in this wind and current");
+    replan("the heading at the goal is another in this wind and current", Cause::kGoalHeading);
     Orders orders = planFromSailed(m);
     if (!orders.plan) {
       return enter(Phase::kSailing);
@@ -789,7 +792,7 @@ class Decider final : public Supervisor {
     gusts_asked_s_ = m.now_s;
     replan(text("gusts take the moment that holds headings at %.1f m/s",
                 planned_limits_.speed_max_mps),
-           Cause::kWeather);
+           Cause::kLoad);
     Orders orders = planFromSailed(m);
     return orders.plan ? orders : enter(Phase::kSailing);
   }
@@ -802,12 +805,12 @@ class Decider final : public Supervisor {
     return planFromSailed(m);
   }
   Orders planFaster(const Moment& m) {
-    safety().tryLevel(planned_level_);
+    safety().tryLevel(planned_level_, planned_steps_wider_);
     return improve(m);
   }
   Orders planSlower(const Moment& m) {
     slower_asked_s_ = m.now_s;
-    safety().tryLevel(planned_level_);
+    safety().tryLevel(planned_level_, planned_steps_wider_);
     return improve(m, Gain::kThrust);
   }
   // The widest way first; then one like that being sailed, with more beside the hull.
@@ -850,6 +853,7 @@ class Decider final : public Supervisor {
         text("not settled at the trajectory's end: %.2f m and %.2f rad from the goal, at %.2f m/s",
              (m.situation.state.head<2>() - goal_.position).norm(), headingOff(m),
              vessel::speedOf(m.situation.state));
+    cause_ = Cause::kOff;
     return rest(m, why, why);
   }
 
@@ -857,12 +861,15 @@ class Decider final : public Supervisor {
     if (headingOff(m) <= options_.arrival_heading_rad) {
       return enter(Phase::kArrived);
     }
-    return enter(Phase::kArrived,
-                 text("%.2f m from the goal (%.2f m allowed), but %.2f rad off its heading: wind "
-                      "and current would set the vessel aside by %.2f m/s on it",
-                      (m.situation.state.head<2>() - goal_.position).norm(),
-                      options_.arrival_distance_m, headingOff(m),
-                      vessel::setAside(vessel_.manoeuvring, weather().mean(), goal_.psi_rad)));
+    const bool in_gusts = mayLoseItsHeading();
+    const vessel::Disturbance load = in_gusts ? weather().gust() : weather().mean();
+    return enter(
+        Phase::kArrived,
+        text("%.2f m from the goal (%.2f m allowed), but %.2f rad off its heading: wind "
+             "and current would set the vessel aside by %.2f m/s on it",
+             (m.situation.state.head<2>() - goal_.position).norm(), options_.arrival_distance_m,
+             headingOff(m), vessel::setAside(vessel_.manoeuvring, load, goal_.psi_rad)) +
+            (in_gusts ? " in gusts" : ""));
   }
   // The way that is sailed would lead on.
   Orders arriveEvading(const Moment& m) {
@@ -879,26 +886,29 @@ class Decider final : public Supervisor {
   }
 
   Orders brakeAsItLies(const Moment& m) {
-    return brakeFor(m, "off its attitude, and about to touch something");
+    return brakeFor(m, "off its attitude, and about to touch something", Cause::kOff);
   }
   Orders brakeForSpeed(const Moment& m) {
     return brakeFor(m, text("no plan keeps to %.2f m/s from here", safety().speedMax()));
   }
   Orders takeLastStop(const Moment& m) {
-    return takeLastStop(m, phase_ == Phase::kReplanning && conflict_.found
-                               ? conflictText(conflict_)
-                               : "no later stop in water known to be free");
+    return takeLastStop(m,
+                        phase_ == Phase::kReplanning && conflict_.found
+                            ? conflictText(conflict_)
+                            : "no later stop in water known to be free",
+                        Cause::kClearance);
   }
   // The last one that was found; it may be under way already when this is decided late.
-  Orders takeLastStop(const Moment& m, std::string why) {
+  Orders takeLastStop(const Moment& m, std::string why, Cause cause) {
     constexpr double kApartM = 0.2;
     const auto place = [&](const TimedTrajectory& path) {
       return path.trajectory.flat(path.elapsed(m.now_s)).position;
     };
     if (!fallback_ || (place(*fallback_) - place(sailed_)).norm() > kApartM) {
-      return brakeFor(m, std::move(why));
+      return brakeFor(m, std::move(why), cause);
     }
     plans_.drop();
+    cause_ = cause;
     stop_time_s_ = m.now_s;
     enter(Phase::kStopping, std::move(why));
     sailed_ = *std::exchange(fallback_, std::nullopt);
@@ -934,7 +944,8 @@ class Decider final : public Supervisor {
   // The tracker turns the bow into it and keeps the place; a plan from rest comes next.
   Orders stopHeadingLost(const Moment& m) {
     return stopByItself(
-        m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m));
+        m, text("heading lost in a gust, %.1f m off the trajectory", m.situation.tracking_error_m),
+        Cause::kOff);
   }
   Orders turnIntoTheLoad(const Moment& /*m*/) { return holdHere(); }
   Orders keepThePlace(const Moment& /*m*/) {
@@ -945,7 +956,8 @@ class Decider final : public Supervisor {
   Orders makeSeaRoom(const Moment& m) {
     Orders orders = manoeuvre(m, Phase::kBackingOff, legAhead(m, sea_room_m_),
                               text("makes room, %.1f m %s", std::abs(sea_room_m_),
-                                   sea_room_m_ > 0.0 ? "ahead" : "astern"));
+                                   sea_room_m_ > 0.0 ? "ahead" : "astern"),
+                              Cause::kOff);
     makes_room_ = true;
     return orders;
   }
@@ -987,13 +999,14 @@ class Decider final : public Supervisor {
     }
     if (found.path.trajectory.empty()) {
       no_way_s_ = m.now_s;
-      return under_way ? takeLastStop(m, "no way among other vessels") : Orders{};
+      return under_way ? takeLastStop(m, "no way among other vessels", Cause::kOther) : Orders{};
     }
     plans_.drop();  // what is asked for begins on what was sailed
     if (!evades) {
       fallback_.reset();
       stop_time_s_ = m.now_s;
       is_aside_ = makes_room_ = holds_ = false;
+      cause_ = Cause::kOther;
       planned_clearance_m_ = 0.0;
       crowded_s_ = m.now_s;
     }
@@ -1014,11 +1027,11 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders stopSetAside(const Moment& m) {
-    return stopByItself(m,
-                        text("set aside, %.1f m off the trajectory", m.situation.tracking_error_m));
+    return stopByItself(
+        m, text("set aside, %.1f m off the trajectory", m.situation.tracking_error_m), Cause::kOff);
   }
   Orders stopBeyondThrust(const Moment& m) {
-    return stopByItself(m, "too much wind and current: " + safety().beyondThrust());
+    return stopByItself(m, "too much wind and current: " + safety().beyondThrust(), Cause::kOff);
   }
   // Bow to it, until it abates or for too long.
   Orders waitForCalm(const Moment& m) {
@@ -1033,7 +1046,7 @@ class Decider final : public Supervisor {
     return holdHere();
   }
   Orders stopOverTheEdge(const Moment& m) {
-    return stopByItself(m, "over the map's edge and far off the trajectory");
+    return stopByItself(m, "over the map's edge and far off the trajectory", Cause::kOff);
   }
   Orders stopBlocked(const Moment& m) {
     return stopByItself(m, std::string("something came up in the way while ") + name(phase_));
@@ -1072,7 +1085,8 @@ class Decider final : public Supervisor {
   Orders turnBack(const Moment& m) {
     if (std::optional<Trajectory> path =
             stopping::turnBack(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_)) {
-      return manoeuvre(m, Phase::kTurningBack, std::move(*path), "over the map's edge");
+      return manoeuvre(m, Phase::kTurningBack, std::move(*path), "over the map's edge",
+                       Cause::kOff);
     }
     if (inside(m) >= 0.0) {
       return planFromRest(m);
@@ -1136,6 +1150,7 @@ class Decider final : public Supervisor {
       {kWaiting, &Decider::isDrivenAshore, &Decider::makeSeaRoom},
       {kWaiting, &Decider::liesAcrossTheLoad, &Decider::turnIntoTheLoad},
       {kWaiting, &Decider::liesOffALeeShore, &Decider::makeSeaRoom},
+      {kWaiting, &Decider::learnsTheGusts, &Decider::keepOn},
       {kWaiting, &Decider::waitsForLessWind, &Decider::keepThePlace},
       {kWaiting, &Decider::always, &Decider::planFromRest},
 
@@ -1217,7 +1232,16 @@ class Decider final : public Supervisor {
   bool goalHeadingYields() {
     constexpr double kSameRad = 1e-3;
     return weather().isKnown() &&
-           std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - goal_.psi_rad)) > kSameRad;
+           (std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - goal_.psi_rad)) > kSameRad ||
+            staysOffGoalHeading());
+  }
+  // The plan gave the goal's heading up, and its own can be held: in strong wind the hull is not
+  // turned round as soon as the wind slackens or veers. The next gust would take the heading again.
+  bool staysOffGoalHeading() {
+    return mayLoseItsHeading() &&
+           std::abs(wrapAngle(planned_goal_psi_rad_ - goal_.psi_rad)) >
+               options_.arrival_heading_rad &&
+           vessel::canLie(vessel_.manoeuvring, weather().mean(), planned_goal_psi_rad_);
   }
   // At once when the weather is known first, later not before the plan has been sailed a while.
   bool mayReplanForWeather(const Moment& m) {
@@ -1585,14 +1609,23 @@ class Decider final : public Supervisor {
                kHorizonS;
   }
 
-  // What alone another plan is looked for under way.
-  enum class Cause { kOther, kClearance, kWeather };
   Orders replan(std::string why, Cause cause = Cause::kOther) {
-    replan_for_ = cause;
+    cause_ = cause;
     return enter(Phase::kReplanning, std::move(why));
   }
-  [[nodiscard]] bool replansForWeather() const {
-    return phase_ == Phase::kReplanning && replan_for_ == Cause::kWeather;
+  [[nodiscard]] bool replansForLoad() const {
+    return phase_ == Phase::kReplanning && cause_ == Cause::kLoad;
+  }
+  // What was asked for to gain time was not for the weather's sake; what takes the place of a plan
+  // that was given up, or follows a stop, was for that of its cause.
+  void countReplan(const PlanRequests::Asked& asked) {
+    if (asked.from == From::kRest && phase_ != Phase::kStopped) {
+      return;
+    }
+    const bool for_weather = asked.gain ? *asked.gain != Gain::kTime
+                                        : cause_ != Cause::kOther && cause_ != Cause::kClearance;
+    ++replans_.all;
+    replans_.for_weather += for_weather ? 1 : 0;
   }
   Orders enter(Phase phase, std::string reason = {}) {
     phase_ = phase;
@@ -1611,7 +1644,7 @@ class Decider final : public Supervisor {
         !findStop(m, plan, planned, from_sailed ? offSailed(m) : stopping::Off{})) {
       return asked.gain ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
     }
-    replans_ += asked.from != From::kRest || phase_ == Phase::kStopped ? 1 : 0;
+    countReplan(asked);
     sailed_ = std::move(plan);
     planned_left_m_ = asked.left_m;
     if (planned_left_m_ == 0.0) {
@@ -1620,6 +1653,7 @@ class Decider final : public Supervisor {
     is_last_resort_ =
         asked.slow || asked.left_m > 0.0 || stopping::restsBeforeItsEnd(sailed_.trajectory);
     planned_level_ = asked.level;
+    planned_steps_wider_ = asked.steps_wider;
     planned_pace_share_ = asked.pace_share;
     planned_in_unknown_water_ = asked.in_unknown_water;
     planned_clearance_m_ = asked.request.query.limits.clearance_m;
@@ -1635,13 +1669,16 @@ class Decider final : public Supervisor {
     plan_time_s_ = sailed_since_s_ = m.now_s;
     holds_ = is_aside_ = makes_room_ = false;
     rooms_made_ = 0;
+    far_round_ = FarRound::kNotMet;
     safety().planTaken();
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
   }
   // A way to rest, without a plan; an empty one is the tracker's to find.
-  Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason) {
+  Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason,
+                   Cause cause = Cause::kOther) {
     plans_.drop();
+    cause_ = cause;
     stop_time_s_ = m.now_s;
     is_aside_ = makes_room_ = false;
     planned_clearance_m_ = 0.0;
@@ -1655,11 +1692,11 @@ class Decider final : public Supervisor {
     sailed_ = {std::move(path), m.now_s};
     return {std::nullopt, sailed_, false};
   }
-  Orders stopByItself(const Moment& m, std::string reason) {
-    return manoeuvre(m, Phase::kStopping, {}, std::move(reason));
+  Orders stopByItself(const Moment& m, std::string reason, Cause cause = Cause::kOther) {
+    return manoeuvre(m, Phase::kStopping, {}, std::move(reason), cause);
   }
-  Orders brakeFor(const Moment& m, std::string reason) {
-    return manoeuvre(m, Phase::kStopping, stopNow(m).trajectory, std::move(reason));
+  Orders brakeFor(const Moment& m, std::string reason, Cause cause = Cause::kOther) {
+    return manoeuvre(m, Phase::kStopping, stopNow(m).trajectory, std::move(reason), cause);
   }
   // Plans from rest come next, unless there were too many stops.
   Orders rest(const Moment& m, const std::string& reason, const std::string& last) {
@@ -1676,7 +1713,7 @@ class Decider final : public Supervisor {
     return enter(Phase::kStopped, reason);
   }
 
-  Orders planFromVessel(const Moment& m, std::string why, Cause cause = Cause::kOther) {
+  Orders planFromVessel(const Moment& m, std::string why, Cause cause) {
     replan(std::move(why), cause);
     return {plans_.fromVessel(m.now_s, m.situation.state, goal_, m.obstacles), {}, false};
   }
@@ -1692,7 +1729,36 @@ class Decider final : public Supervisor {
       enter(phase_, "learns the waves before it goes through narrow water");
       return holdHere();
     }
+    if (leadsFarRound(m, plan) && far_round_ != FarRound::kTaken && safety().timesRefused() == 0) {
+      far_round_ = FarRound::kPassedOver;
+      if (!takesWhatItPassedOver()) {
+        (void)safety().refused();
+      }
+      return {};  // asked for narrower, or once more
+    }
+    learns_gusts_ = asked.level > 0 && weather().mayTurnOutStrong();
+    if (learns_gusts_) {
+      enter(phase_, "learns what gusts do before it goes through narrow water");
+      return holdHere();
+    }
     return sail(m, {plan.trajectory, m.now_s}, asked);
+  }
+  // In strong wind, where plans are slow, by minutes: a narrower way comes before that.
+  [[nodiscard]] bool leadsFarRound(const Moment& m, const planner::Plan& plan) {
+    constexpr double kTimesStraight = 2.0;
+    constexpr double kMoreM = 50.0;
+    const double straight_m = (goal_.position - m.situation.state.head<2>()).norm();
+    return mayLoseItsHeading() &&
+           trajectory::length(plan.trajectory) > kTimesStraight * straight_m + kMoreM;
+  }
+  // Nothing was left to try but that: it is asked for again.
+  bool takesWhatItPassedOver() {
+    if (far_round_ != FarRound::kPassedOver || !safety().atNarrowest()) {
+      return false;
+    }
+    far_round_ = FarRound::kTaken;
+    safety().tryWidest();
+    return true;
   }
   [[nodiscard]] bool isForNarrowWater(const PlanRequests::Asked& asked) const {
     constexpr double kNarrowM = 0.3;  // beside the hull
@@ -1759,11 +1825,14 @@ class Decider final : public Supervisor {
     if (asked.gain) {
       return {};
     }
+    if (asked.from == From::kRest && takesWhatItPassedOver()) {
+      return {};
+    }
     const bool more = safety().refused();
     // One that knows nothing of the weather is no better than the one being sailed; and looking on
     // and on for one, the vessel would see to nothing else.
     const bool in_vain = safety().plansWithWeather() ? safety().plansBlind() : !more;
-    if (replansForWeather() && in_vain) {
+    if (replansForLoad() && in_vain) {
       safety().planTaken();
       return keepThePlan(m);
     }
@@ -1778,7 +1847,8 @@ class Decider final : public Supervisor {
               stopping::backOff(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_,
                                 m.situation.disturbance.mean, safety().reach())) {
         noteDeadEnd(m);
-        return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why);
+        return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why,
+                         Cause::kClearance);
       }
     }
     if (mayPass(m)) {
@@ -1830,6 +1900,7 @@ class Decider final : public Supervisor {
   double planned_left_m_ = 0.0;  // of the way, from the sailed trajectory's end to the goal
   double nearest_left_m_ = std::numeric_limits<double>::infinity();  // where a part of it ended
   std::size_t planned_level_ = 0;
+  int planned_steps_wider_ = 0;      // than that (ClearanceLevels)
   double planned_pace_share_ = 1.0;  // of the usual speed
   bool planned_in_unknown_water_ = false;
   double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
@@ -1868,9 +1939,9 @@ class Decider final : public Supervisor {
   bool cancelled_ = false;          // the mission ends with the stop
   std::string end_reason_;          // by whose wish
   std::optional<Phase> suspended_;  // what the vessel is to rest in, with its mission kept
-  Cause replan_for_ = Cause::kOther;
+  Cause cause_ = Cause::kOther;
   double weather_asked_s_ = 0.0;
-  int replans_ = 0;
+  Replans replans_;
   PlanRequests plans_;
   RetryBudget retries_;
   std::optional<encounter::NearFuture> near_;  // other vessels now
@@ -1884,7 +1955,10 @@ class Decider final : public Supervisor {
   double late_at_s_ = 0.0;
   double gusts_asked_s_ = -std::numeric_limits<double>::infinity();  // for a slower plan
   std::optional<double> waves_since_s_;                              // it learns them
-  double evaded_s_ = -std::numeric_limits<double>::infinity();       // when it was decided last
+  bool learns_gusts_ = false;
+  enum class FarRound { kNotMet, kPassedOver, kTaken };
+  FarRound far_round_ = FarRound::kNotMet;
+  double evaded_s_ = -std::numeric_limits<double>::infinity();  // when it was decided last
   double crowded_s_ = 0.0;  // while she evades: when others were many or near last
   double no_way_s_ = -std::numeric_limits<double>::infinity();  // and nothing was found
   std::vector<Eigen::Vector2d> way_;              // that the last plan to the goal took

@@ -100,6 +100,11 @@ bool Weather::isKnown() const {
   return felt_s_ >= kKnownS;
 }
 
+bool Weather::mayTurnOutStrong() const {
+  constexpr double kPerhapsShare = 0.6;  // of what is strong: a fifth less wind
+  return felt_s_ < kMemoryS && turnsWith(kPerhapsShare * kStrongShare);
+}
+
 bool Weather::rises() const {
   constexpr double kRisesS = 3.0;
   constexpr double kLightShare = 0.05;  // of both thrusters' force
@@ -131,6 +136,10 @@ double Weather::greatestMoment() const {
     most = std::max(most, std::abs(vessel::outsideLoad(psi, vessel_.manoeuvring, mean_).yaw_nm));
   });
   return most;
+}
+
+bool Weather::turnsWith(double share) const {
+  return greatestMoment() > share * vessel::greatestMoment(vessel_.thrusters);
 }
 
 double Weather::meanShare() const {

@@ -21,6 +21,10 @@ class Weather {
   // The estimate of more than a light load still rises in the first seconds.
   [[nodiscard]] bool rises() const;
 
+  // Until it was felt for as long as the memory reaches gusts are guessed, and the mean of seconds
+  // is that of one of them: whether it may be strong.
+  [[nodiscard]] bool mayTurnOutStrong() const;
+
   // On the whole: means over the last half minute or so.
   [[nodiscard]] const vessel::Disturbance& mean() const { return mean_; }
   // The hardest gust to be expected: the mean with the wind (force, moment) of two standard
@@ -28,6 +32,8 @@ class Weather {
   // taken to gust by a fifth.
   [[nodiscard]] vessel::Disturbance gust() const;
 
+  // The mean wind turns the hull with much of the thrusters' moment: a gust may take its heading.
+  [[nodiscard]] bool isStrong() const { return turnsWith(kStrongShare); }
   // The mean wind's moment and what else turns the hull, on the worst heading, N m.
   [[nodiscard]] double greatestMoment() const;
   // Of all thrust ahead that the mean pushes with, on the worst heading.
@@ -52,6 +58,8 @@ class Weather {
   [[nodiscard]] Eigen::Vector2d drift() const;
 
  private:
+  static constexpr double kStrongShare = 0.4;  // of the thrusters' moment
+  [[nodiscard]] bool turnsWith(double share) const;
   // A quantity's mean and variance with a fading memory, and its largest size lately.
   struct Spread {
     double mean = 0.0;

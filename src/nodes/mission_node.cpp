@@ -424,6 +424,7 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
   progress_.finish();
   scenario::MissionResult result =
       recorder_.result(label_, outcome, reason, static_cast<int>(planner_.replans));
+  result.replans_for_weather = static_cast<int>(planner_.replans_for_weather);
   result.planning_ms_median = planner_.planning_ms_median;
   result.planning_ms_max = planner_.planning_ms_max;
   result.tracker_ms_p99 = tracker_.solver_ms_p99;

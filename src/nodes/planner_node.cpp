@@ -415,7 +415,8 @@ void PlannerNode::settle() {
   diagnostics_.setState(phase == Phase::kFailed ? Level::kError : Level::kOk,
                         std::string(mission::name(phase)) +
                             (supervisor_->reason().empty() ? "" : ": " + supervisor_->reason()));
-  diagnostics_.setValue("replans", supervisor_->replans());
+  diagnostics_.setValue("replans", supervisor_->replans().all);
+  diagnostics_.setValue("replans for the weather", supervisor_->replans().for_weather);
   diagnostics_.setValue("stops", supervisor_->stops());
   diagnostics_.setValue("speed limit, m/s", supervisor_->speedMax());
   diagnostics_.setValue("tracking error, m", situation().tracking_error_m);

@@ -85,7 +85,9 @@ void PlannerPublisher::publishStatus(const mission::Supervisor& supervisor, doub
   for (const encounter::Encounter& encounter : supervisor.encounters()) {
     status_.encounters.push_back(encounter::describe(encounter));
   }
-  status_.replans = static_cast<std::uint32_t>(supervisor.replans());
+  const mission::Replans replans = supervisor.replans();
+  status_.replans = static_cast<std::uint32_t>(replans.all);
+  status_.replans_for_weather = static_cast<std::uint32_t>(replans.for_weather);
   status_.trajectory_id = trajectory_id;
   status_publisher_.publish(status_);
 }

@@ -24,6 +24,7 @@ std::string toJson(const std::vector<MissionResult>& results) {
                                       {"tracking_error_mean_m", result.tracking_error_mean_m},
                                       {"tracking_error_max_m", result.tracking_error_max_m},
                                       {"replans", result.replans},
+                                      {"replans_for_weather", result.replans_for_weather},
                                       {"planning_ms_median", result.planning_ms_median},
                                       {"planning_ms_max", result.planning_ms_max},
                                       {"tracker_ms_p99", result.tracker_ms_p99},
@@ -112,11 +113,12 @@ std::string summaryText(const MissionResult& result) {
   return head +
          text(
              "  %.1f s, %.1f m sailed, hull never nearer than %.2f m to anything\n"
-             "  tracking error %.3f m mean, %.3f m at most; %d replans\n"
+             "  tracking error %.3f m mean, %.3f m at most; %d replans, %d for the weather\n"
              "  planning %.1f ms median, %.1f ms at most; tracker %.3f ms (99th percentile)\n",
              result.duration_s, result.distance_m, result.min_clearance_m,
              result.tracking_error_mean_m, result.tracking_error_max_m, result.replans,
-             result.planning_ms_median, result.planning_ms_max, result.tracker_ms_p99);
+             result.replans_for_weather, result.planning_ms_median, result.planning_ms_max,
+             result.tracker_ms_p99);
 }
 
 }  // namespace otter_nav::scenario

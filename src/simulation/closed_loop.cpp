@@ -234,8 +234,11 @@ scenario::Progress ClosedLoop::progress() const {
 }
 
 scenario::MissionResult ClosedLoop::result(const scenario::MissionLabel& label) const {
-  return recorder_.result(label, outcome_.value_or(scenario::Outcome::kTimeout), reason_,
-                          supervisor_->replans());
+  const mission::Replans replans = supervisor_->replans();
+  scenario::MissionResult result =
+      recorder_.result(label, outcome_.value_or(scenario::Outcome::kTimeout), reason_, replans.all);
+  result.replans_for_weather = replans.for_weather;
+  return result;
 }
 
 void ClosedLoop::finish(scenario::Outcome outcome, std::string reason) {

@@ -117,7 +117,8 @@ class Mission(unittest.TestCase):
 
         second, again, _ = self.sail("second", scenario=POND)
         for key in ("outcome", "duration_s", "distance_m", "min_clearance_m",
-                    "tracking_error_mean_m", "tracking_error_max_m", "replans"):
+                    "tracking_error_mean_m", "tracking_error_max_m", "replans",
+                    "replans_for_weather"):
             self.assertEqual(first[key], second[key], key)
         self.assertEqual(track, again)
 

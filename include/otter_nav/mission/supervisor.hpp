@@ -124,6 +124,15 @@ struct PlanRequest {
   double start_time_s = 0.0;
 };
 
+// Plans taken on the way to a goal, after the first.
+struct Replans {
+  int all = 0;
+  // Of these: since wind, waves or current had the vessel off its way, asked for more thrust or
+  // room than the plan left, or for another heading at the goal; not for the map, other vessels, or
+  // time.
+  int for_weather = 0;
+};
+
 struct Orders {
   std::optional<PlanRequest> plan;  // replaces a request still under way
   std::optional<trajectory::TimedTrajectory> sail;
@@ -187,8 +196,7 @@ class Supervisor {
   [[nodiscard]] virtual double plannedClearance() const = 0;
   // Other vessels with risk of collision, and which rule of the road applies to each.
   [[nodiscard]] virtual std::vector<encounter::Encounter> encounters() const = 0;
-  // Plans taken while under way, after the first.
-  [[nodiscard]] virtual int replans() const = 0;
+  [[nodiscard]] virtual Replans replans() const = 0;
   [[nodiscard]] virtual int stops() const = 0;
 };
 

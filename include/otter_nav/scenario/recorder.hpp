@@ -41,6 +41,7 @@ struct MissionResult {
   double tracking_error_mean_m = 0.0;
   double tracking_error_max_m = 0.0;
   int replans = 0;
+  int replans_for_weather = 0;  // of these
   double planning_ms_median = 0.0;
   double planning_ms_max = 0.0;
   double tracker_ms_p99 = 0.0;

@@ -13,9 +13,9 @@ namespace otter_nav::scenario {
 
 // {"missions": [{"scenario", "mission", "vessel", "disturbance", "seed", "outcome", "duration_s",
 // "distance_m", "min_clearance_m", "tracking_error_mean_m", "tracking_error_max_m", "replans",
-// "planning_ms_median", "planning_ms_max", "tracker_ms_p99", "track"}]}, and "reason" in those
-// that did not arrive, "vessels" where others sailed, and "monitor": {"steps", "violations",
-// "margin_m", "first"} where each step was checked.
+// "replans_for_weather", "planning_ms_median", "planning_ms_max", "tracker_ms_p99", "track"}]}, and
+// "reason" in those that did not arrive, "vessels" where others sailed, and "monitor": {"steps",
+// "violations", "margin_m", "first"} where each step was checked.
 [[nodiscard]] std::string toJson(const std::vector<MissionResult>& results);
 // The file is whole at any time: the old one stands until the new one is written.
 [[nodiscard]] Status saveJson(const std::string& path, const std::vector<MissionResult>& results);

@@ -92,6 +92,39 @@ TEST(Safety, BeginsWithAllTheRoomAgainWhereItComesToRest) {
   EXPECT_DOUBLE_EQ(safety.limits(1.0, 5.0).hull_margin_m, at_first_m);
 }
 
+// There one level asks for metres less than the one before: what lies between is tried first.
+TEST(Safety, InStrongWindTheNarrowerIsTriedInSteps) {
+  vessel::Parameters windy;
+  windy.manoeuvring.wind_surge_kgpm = 0.5;
+  windy.manoeuvring.wind_sway_kgpm = 0.5;
+  windy.manoeuvring.wind_yaw_kg = -0.66;
+  for (const double wind_mps : {3.0, 8.0}) {
+    Safety safety(SupervisorOptions{}, windy);
+    vessel::Disturbance wind;
+    for (int k = 0; k < 400; ++k) {
+      wind.wind_mps = {wind_mps * (1.0 + 0.2 * std::sin(0.1 * k)), 0.0};
+      safety.feel(0.1 * k, wind);
+    }
+    const bool is_strong = wind_mps > 6.0;
+    ASSERT_EQ(safety.weather().isStrong(), is_strong);
+    feasibility::SafetyLimits before = safety.limits(0.95, kWideWater);
+    int narrower = 0;
+    while (safety.refused()) {
+      const feasibility::SafetyLimits after = safety.limits(0.95, kWideWater);
+      EXPECT_LT(after.clearance_m, before.clearance_m);
+      EXPECT_LT(after.drift_m.norm(), before.drift_m.norm());
+      EXPECT_EQ(safety.atNarrowest(), ++narrower == (is_strong ? 9 : 3));
+      before = after;
+    }
+    EXPECT_EQ(narrower, is_strong ? 9 : 3);
+    EXPECT_EQ(safety.level(), 0U);
+    safety.tryLevel(2, 1);
+    const double between_m = safety.limits(0.95, kWideWater).clearance_m;
+    safety.tryLevel(2);
+    EXPECT_GT(between_m, safety.limits(0.95, kWideWater).clearance_m);
+  }
+}
+
 TEST(Safety, CrawlsInUnknownWaterWhereItWanders) {
   const vessel::Parameters vessel;
   Safety safety(SupervisorOptions{}, vessel);

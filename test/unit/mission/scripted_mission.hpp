@@ -1,6 +1,7 @@
 // A supervisor with a perfect vessel: wherever the sailed trajectory says, or at rest.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -77,8 +78,8 @@ class ScriptedMission {
     (void)update(after_s);
   }
   // The tracker has been running for a while.
-  void knowWeather() {
-    for (int k = 0; k < 15; ++k) {
+  void knowWeather(double for_s = 1.5) {
+    for (int k = 0; k < static_cast<int>(std::lround(10.0 * for_s)); ++k) {
       (void)update(0.1);
     }
   }

@@ -32,7 +32,7 @@ TEST(Supervisor, SailsAndArrives) {
     EXPECT_FALSE(orders.plan || orders.sail || orders.stop);
   }
   EXPECT_EQ(mission.supervisor->phase(), Phase::kArrived);
-  EXPECT_EQ(mission.supervisor->replans(), 0);
+  EXPECT_EQ(mission.supervisor->replans().all, 0);
 }
 
 TEST(Supervisor, KeepsThePlanWhileTheWayIsClear) {
@@ -66,7 +66,8 @@ TEST(Supervisor, ReplansInMotionWhenTheWayIsBlocked) {
   const Orders answered = mission.answer(request, aroundIt(request));
   ASSERT_TRUE(answered.sail);
   EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
-  EXPECT_EQ(mission.supervisor->replans(), 1);
+  EXPECT_EQ(mission.supervisor->replans().all, 1);
+  EXPECT_EQ(mission.supervisor->replans().for_weather, 0);
   // Up to the joint it is the old way, after it the new one, without a jump.
   const trajectory::TimedTrajectory& sail = *answered.sail;
   for (double t = mission.now_s; t < request.start_time_s; t += 0.01) {
@@ -125,6 +126,8 @@ TEST(Supervisor, StopsInTimeWithoutAPlanAndGoesOnFromRest) {
   const Orders sailing = mission.answer(*orders.plan, eastward(here, 20.0, 3.0));
   EXPECT_TRUE(sailing.sail);
   EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+  EXPECT_EQ(mission.supervisor->replans().all, 1);
+  EXPECT_EQ(mission.supervisor->replans().for_weather, 0);
 }
 
 TEST(Supervisor, GivesUpSafelyWhenTheGoalIsWalledOff) {
@@ -783,9 +786,9 @@ TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
     track.length_m = 6.0;
     track.beam_m = 2.0;
     mission.tracks = {track};
-    const int before = mission.supervisor->replans();
+    const int before = mission.supervisor->replans().all;
     (void)mission.update(0.1);
-    made += mission.supervisor->replans() - before;
+    made += mission.supervisor->replans().all - before;
     bound_s = vessel::speedOf(mission.situation().state) < kBeginsMps ? bound_s + 0.1 : 0.0;
     EXPECT_LT(bound_s, 3.0) << 0.1 * k;
   }

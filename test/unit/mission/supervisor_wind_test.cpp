@@ -287,7 +287,8 @@ TEST(SupervisorInWind, LooksForMoreRoomOnceItKnowsHowFarItWanders) {
   const std::optional<PlanRequest> again = sailAside(mission, 6.0, kOffM);
   ASSERT_TRUE(again.has_value());
   EXPECT_TRUE(mission.answer(*again, way(*again, -3.0)).sail);
-  EXPECT_EQ(mission.supervisor->replans(), 1);
+  EXPECT_EQ(mission.supervisor->replans().all, 1);
+  EXPECT_EQ(mission.supervisor->replans().for_weather, 1);
 }
 
 TEST(SupervisorInWind, PlansMoreGentlyAfterTheVesselCouldNotFollow) {
@@ -352,6 +353,40 @@ Orders asksForTheWeathersSake(ScriptedMission& mission) {
     orders = mission.update(0.1);
   }
   return orders;
+}
+
+// Two metres off; at first a plan from there, then, for there is none, one from rest.
+TEST(SupervisorInWind, CountsThePlansThatTheWeatherAskedFor) {
+  for (const bool stops : {false, true}) {
+    ScriptedMission mission;
+    mission.setOut(6.0);
+    std::optional<PlanRequest> request;
+    for (int k = 0; k < 100 && !request; ++k) {
+      mission.now_s += 0.1;
+      Situation aside = mission.situation();
+      aside.state.y() += 2.0;
+      aside.tracking_error_m = 2.0;
+      const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
+      mission.rest = aside.state;
+      if (stops && orders.stop) {
+        mission.rest.tail<3>().setZero();
+        break;
+      }
+      request = stops ? std::nullopt : orders.plan;
+    }
+    for (int k = 0; k < 100 && !request; ++k) {
+      request = mission.update(0.1).plan;
+    }
+    ASSERT_TRUE(request.has_value());
+    EXPECT_EQ(request->moving, !stops);
+    EXPECT_EQ(mission.supervisor->replans().all, 0);
+    const trajectory::Trajectory way =
+        test::eastward(request->query.start.flat.position, 20.0, stops ? 3.0 : 4.0);
+    (void)mission.answer(*request, way);
+    EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+    EXPECT_EQ(mission.supervisor->replans().all, 1);
+    EXPECT_EQ(mission.supervisor->replans().for_weather, 1);
+  }
 }
 
 // It stops meanwhile: from rest there is no plan to keep, and one for still water is tried.
@@ -881,6 +916,105 @@ TEST(SupervisorInWind, SailsTheSameWayLaterInStrongWind) {
   }
 }
 
+// A second of wind tells nothing of its gusts: by the first guess of them narrow water can be
+// passed.
+TEST(SupervisorInWind, LearnsWhatGustsDoBeforeItGoesThroughNarrowWater) {
+  struct Case {
+    double wind_mps;
+    bool is_narrow;
+    double waits_s;
+  };
+  for (const Case& c : {Case{8.0, false, 0.0}, Case{3.0, true, 0.0}, Case{8.0, true, 28.0}}) {
+    ScriptedMission mission = inWind(-c.wind_mps);
+    mission.rest.x() = 0.0;
+    std::optional<PlanRequest> asked = mission.goTo({20.0, 0.0})->plan;
+    ASSERT_TRUE(asked);
+    if (c.is_narrow) {
+      asked = mission.refuse(*asked, "too narrow").plan;
+      asked = asked ? asked : mission.update(0.1).plan;
+      ASSERT_TRUE(asked);
+    }
+    const double began_s = mission.now_s;
+    while (asked && mission.now_s < began_s + 60.0 &&
+           !mission.answer(*asked, test::eastward({0.0, 0.0}, 20.0, 0.6)).sail) {
+      EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning);
+      EXPECT_NE(mission.supervisor->reason().find("gusts"), std::string::npos);
+      asked.reset();
+      while (!asked && mission.now_s < began_s + 60.0) {
+        asked = mission.update(0.1).plan;
+      }
+    }
+    EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+    EXPECT_NEAR(mission.now_s - began_s, c.waits_s, 1.5) << c.wind_mps;
+  }
+}
+
+// Plans are slow there: a way that leads far round takes minutes, and is taken where there is none
+// else.
+TEST(SupervisorInWind, InStrongWindTakesANarrowerWayBeforeOneFarRound) {
+  vessel::FlatPoint start, far, end;
+  far.position = {0.0, 60.0};
+  end.position = {20.0, 0.0};
+  const trajectory::Trajectory far_round(
+      {trajectory::hermitePiece(start, far, 90.0), trajectory::hermitePiece(far, end, 90.0)});
+  for (const auto& [wind_mps, finds_narrower] :
+       {std::pair(3.0, true), std::pair(8.0, true), std::pair(8.0, false)}) {
+    ScriptedMission mission = inWind(-wind_mps);
+    mission.rest.x() = 0.0;
+    mission.knowWeather(30.0);
+    Orders orders = *mission.goTo({20.0, 0.0});
+    ASSERT_TRUE(orders.plan);
+    const double widest_m = orders.plan->query.limits.clearance_m;
+    const double first_mps = orders.plan->query.limits.speed_max_mps;
+    const bool is_strong = wind_mps > 6.0;
+    int not_taken = 0;
+    double next_m = widest_m;
+    feasibility::SafetyLimits asked;
+    const auto taken = [&, finds = finds_narrower] {
+      asked = orders.plan->query.limits;
+      orders = finds || orders.plan->query.limits.clearance_m == widest_m
+                   ? mission.answer(*orders.plan, far_round)
+                   : mission.refuse(*orders.plan, "no");
+      return orders.sail.has_value();
+    };
+    while (!taken() && not_taken < 20) {
+      ++not_taken;
+      while (!orders.plan) {
+        orders = mission.update(0.1);
+      }
+      next_m = not_taken == 1 ? orders.plan->query.limits.clearance_m : next_m;
+    }
+    EXPECT_EQ(not_taken, is_strong ? 10 : 0);
+    EXPECT_EQ(asked.clearance_m, widest_m);
+    EXPECT_EQ(asked.speed_max_mps, first_mps);
+    EXPECT_EQ(next_m < widest_m, is_strong);
+    EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+  }
+}
+
+// The plan ended bow to the wind, for on the goal's heading the hull would have been set aside.
+// Then the wind veers, and astern it would be held there for a moment: that is no reason to turn
+// round.
+TEST(SupervisorInWind, DoesNotTurnRoundAtTheGoalWhereStrongWindVeers) {
+  for (const double wind_mps : {3.0, 8.0}) {
+    ScriptedMission mission = inWind(-wind_mps);
+    mission.rest.x() = 0.0;
+    const auto orders = mission.goTo({20.0, 0.0}, kPi - 0.5);
+    ASSERT_TRUE(orders && orders->plan);
+    if (wind_mps > 5.0) {
+      EXPECT_NEAR(orders->plan->query.goal.psi_rad, 0.0, 0.1);
+    }
+    ASSERT_TRUE(mission.answer(*orders->plan, test::eastward({0.0, 0.0}, 20.0, 0.8)).sail);
+    mission.disturbance.wind_mps = -wind_mps * Eigen::Vector2d(std::cos(0.4), -std::sin(0.4));
+    for (int k = 0; k < 450; ++k) {
+      (void)mission.update(0.1);
+    }
+    const bool arrived = mission.supervisor->phase() == Phase::kArrived;
+    EXPECT_EQ(arrived, wind_mps > 5.0) << mission.supervisor->reason();
+    EXPECT_EQ(mission.supervisor->reason().find("in gusts") != std::string::npos, arrived);
+  }
+}
+
 // With 2 m beside it, though all is free to leeward.
 TEST(SupervisorInWind, MakesMoreRoomInStrongWind) {
   for (const double wind_mps : {5.0, 8.0}) {
@@ -970,14 +1104,17 @@ TEST(SupervisorInWind, LooksForMoreRoomToLeewardInStrongWind) {
   for (const double wind_mps : {5.0, 8.0}) {
     ScriptedMission mission = inWind(wind_mps);
     mission.disturbance.wind_mps = {0.0, wind_mps};
-    mission.knowWeather();
+    mission.knowWeather(30.0);
     mission.put({-20.0, 4.0}, {20.0, 6.0});
     mission.rest << -40.0, 0.0, -0.5 * kPi, 0.0, 0.0, 0.0;
     auto orders = mission.goTo({40.0, 0.0});
     ASSERT_TRUE(orders && orders->plan);
-    Orders narrower = mission.refuse(*orders->plan, "no");
-    while (!narrower.plan) {
-      narrower = mission.update(0.1);
+    Orders narrower = *orders;
+    const int steps = wind_mps > 6.0 ? ClearanceLevels::kSteps : 1;
+    for (int step = 0; step < steps; ++step) {
+      for (narrower = mission.refuse(*narrower.plan, "no"); !narrower.plan;) {
+        narrower = mission.update(0.1);
+      }
     }
     (void)mission.answer(*narrower.plan, test::eastward({-40.0, 0.0}, 80.0, 0.8));
     ASSERT_EQ(mission.supervisor->phase(), Phase::kSailing);

@@ -65,7 +65,8 @@ TEST(Json, HasTheKeysOthersRead) {
   for (const char* key :
        {"scenario", "mission", "vessel", "disturbance", "seed", "outcome", "duration_s",
         "distance_m", "min_clearance_m", "tracking_error_mean_m", "tracking_error_max_m", "replans",
-        "planning_ms_median", "planning_ms_max", "tracker_ms_p99", "track", "reason"}) {
+        "replans_for_weather", "planning_ms_median", "planning_ms_max", "tracker_ms_p99", "track",
+        "reason"}) {
     EXPECT_TRUE(mission.contains(key)) << key;
   }
   EXPECT_EQ(mission.at("outcome"), "stopped");
