@@ -1188,6 +1188,23 @@ TEST(SupervisorInWind, IsImpatientOffItsTrajectoryWithSomethingNear) {
   }
 }
 
+// Whatever heading it is turned to, and wherever gusts set it aside, wide water leaves room for it.
+TEST(SupervisorInWind, PrefersWideWaterWhereTheWindTurnsTheHull) {
+  for (const double moment_nm : {0.0, 5.0, 12.0, 20.0}) {
+    ScriptedMission mission(openWater(), forStillWater());
+    mission.disturbance.moment_nm = moment_nm;
+    blow(mission, 40.0, [](double) { return Vector2d(-30.0, 0.0); });
+    const auto orders = mission.goTo({20.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    const feasibility::SafetyLimits& limits = orders->plan->query.limits;
+    if (moment_nm > 10.0) {
+      EXPECT_GT(limits.preferred_clearance_m, limits.clearance_m + 0.5) << moment_nm;
+    } else {
+      EXPECT_EQ(limits.preferred_clearance_m, 0.0) << moment_nm;
+    }
+  }
+}
+
 // 2 m off, where strong wind may take the heading and wide water leaves room for that, it is not
 // planned anew: another plan would meet the same gusts. Nearer to something it is, or with
 // something beside its way, and in less wind.

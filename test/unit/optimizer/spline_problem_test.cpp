@@ -51,13 +51,14 @@ class SplineProblemTest : public ::testing::Test {
   SplineProblemTest() : problem(vessel::Parameters()) {
     problem.targets.obstacles = &obstacles;
     problem.targets.originals = &originals;
-    problem.targets.weights = {1.0, 0.1, 0.01, 20.0, 20.0, 0.3};
+    problem.targets.weights = {1.0, 0.1, 0.01, 20.0, 20.0, 0.3, 0.7};
     problem.targets.limits.thrust_ahead_n = 20.0;
     problem.targets.limits.thrust_astern_n = 10.0;
     problem.targets.limits.speed_mps = 2.0;
     problem.targets.limits.yaw_rate_radps = 0.05;
     problem.targets.limits.heading_force_n = 60.0;
     problem.targets.limits.clearance_m = 2.0;
+    problem.targets.limits.room_m = 4.0;
     problem.targets.limits.hull_offset_m = 0.667;
     problem.targets.limits.hull_clearance_m = 1.8;
   }
