@@ -126,7 +126,8 @@ double Safety::preferredClearance() const {
     return 0.0;
   }
   constexpr double kAnyRoomM = std::numeric_limits<double>::infinity();
-  return planClearance(options_, 0, weather_.gustReach(), vessel_.hull, kAnyRoomM) +
+  const double reach_m = std::min(weather_.gustReach(), vessel_.hull.length_m);
+  return planClearance(options_, 0, reach_m, vessel_.hull, kAnyRoomM) +
          vessel::circumscribedRadius(vessel_.hull) - 0.5 * vessel_.hull.beam_m;
 }
 

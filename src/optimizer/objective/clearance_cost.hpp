@@ -24,11 +24,11 @@ class ClearanceCost final : public Cost {
       return;
     }
     const Rows& z = point.path();
-    point.addHinge(targets.weights.clearance, limits.clearance_m - centre.distance_m, kKneeM, 0,
-                   [&]() -> Eigen::Vector2d { return -centre.gradient; });
     point.addHinge(targets.weights.room, limits.room_m - centre.distance_m, kKneeM, 0,
                    [&]() -> Eigen::Vector2d { return -centre.gradient; });
-    if (!hull) {
+    point.addHinge(targets.weights.clearance, limits.clearance_m - centre.distance_m, kKneeM, 0,
+                   [&]() -> Eigen::Vector2d { return -centre.gradient; });
+    if (!hull || centre.distance_m > limits.near_m()) {
       return;
     }
     const Eigen::Vector2d w = point.dynamics.headingForce(z.col(1), z.col(2));

@@ -46,10 +46,10 @@ struct SplineLimits {
   double yaw_rate_radps = 0.0;
   double heading_force_n = 0.0;  // least |w|
 
-  // What lies farther from the hull's centre costs nothing.
-  [[nodiscard]] double reach_m() const {
-    return std::max(
-        {clearance_m, room_m, hull_offset_m > 0.0 ? hull_offset_m + hull_clearance_m : 0.0});
+  // What lies farther from the hull's centre costs nothing; and nothing but for room preferred.
+  [[nodiscard]] double reach_m() const { return std::max(room_m, near_m()); }
+  [[nodiscard]] double near_m() const {
+    return std::max(clearance_m, hull_offset_m > 0.0 ? hull_offset_m + hull_clearance_m : 0.0);
   }
 };
 

@@ -51,7 +51,7 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
                       const feasibility::SafetyLimits& safety, double cell_m) {
   SplineLimits limits;
   limits.clearance_m = safety.clearance_m + kClearanceMarginM + kSquareCells * cell_m;
-  if (safety.preferred_clearance_m > safety.clearance_m) {
+  if (safety.preferred_clearance_m > safety.clearance_m && !care.careful) {
     limits.room_m = safety.preferred_clearance_m + kClearanceMarginM + kSquareCells * cell_m;
   }
   const feasibility::HullCover hull(safety.hull, safety.hull_margin_m);

@@ -58,7 +58,6 @@ class SplineProblemTest : public ::testing::Test {
     problem.targets.limits.yaw_rate_radps = 0.05;
     problem.targets.limits.heading_force_n = 60.0;
     problem.targets.limits.clearance_m = 2.0;
-    problem.targets.limits.room_m = 4.0;
     problem.targets.limits.hull_offset_m = 0.667;
     problem.targets.limits.hull_clearance_m = 1.8;
   }
@@ -86,6 +85,7 @@ class SplineProblemTest : public ::testing::Test {
 };
 
 TEST_F(SplineProblemTest, GradientIsThatOfTheCost) {
+  problem.targets.limits.room_m = 4.0;
   Random random(7);
   const Spline spline = bentSpline(random);
   System system;
