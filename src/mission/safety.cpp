@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/vessel/crawl.hpp"
+#include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
@@ -94,6 +96,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
     return planClearance(options_, level, weather_.gustReach(), vessel_.hull, room_m);
   });
   auto limits = feasibility::SafetyLimits::of(vessel_, clearance, thrust_share);
+  limits.preferred_clearance_m = preferredClearance();
   limits.speed_max_mps = sailingSpeed(limits.speed_max_mps);
   constexpr double kLeeShares[] = {1.0, 0.5, 0.25, 0.1};  // by level
   limits.drift_m = between([&](std::size_t level) {
@@ -114,6 +117,18 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
   limits.speed_max_mps = paceAt(levels_.level(), limits.speed_max_mps * slowShare());
   is_slow_ = wandersMuch(levels_.level());
   return limits;
+}
+
+// Where the wind takes much of the moment that holds headings, the hull may lie in any, and be set
+// aside by what gusts do: wide water is used where there is some.
+double Safety::preferredClearance() const {
+  if (!weather_.isKnown() || !weather_.isNearlyStrong()) {
+    return 0.0;
+  }
+  constexpr double kAnyRoomM = std::numeric_limits<double>::infinity();
+  const double reach_m = std::min(weather_.gustReach(), vessel_.hull.length_m);
+  return planClearance(options_, 0, reach_m, vessel_.hull, kAnyRoomM) +
+         vessel::circumscribedRadius(vessel_.hull) - 0.5 * vessel_.hull.beam_m;
 }
 
 double Safety::wandersAt(std::size_t level) const {

@@ -169,6 +169,8 @@ class Safety {
   [[nodiscard]] vessel::Disturbance lightLoad() const;
   // Of the thrust, what waves take from plans on this level.
   [[nodiscard]] double waveShare() const;
+  // Of the hull's centre where it costs little, m.
+  [[nodiscard]] double preferredClearance() const;
   // What room that takes, m.
   [[nodiscard]] double wandersAt(std::size_t level) const;
   [[nodiscard]] bool wandersMuch(std::size_t level) const;

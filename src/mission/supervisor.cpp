@@ -383,7 +383,26 @@ class Decider final : public Supervisor {
     const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position;
     return std::min(m.situation.tracking_error_m, (m.situation.state.head<2>() - there).norm());
   }
-  bool isFarOff(const Moment& m) { return errorOf(m) > options_.tracking_error_max_m; }
+  bool isFarOff(const Moment& m) { return errorOf(m) > mayBeOff(m); }
+  // In strong wind another plan would meet the same gusts, and the hull comes back by itself: the
+  // farther off it may be, the more is clear of what a lost heading takes, here and on its way.
+  double mayBeOff(const Moment& m) {
+    constexpr double kMostLengths = 1.25;  // where all of that is
+    constexpr double kAheadS = 10.0;
+    constexpr double kStepS = 1.0;
+    const double least_m = options_.tracking_error_max_m;
+    const double drift_m = weather().drift().norm();
+    if (!mayLoseItsHeading() || sailed_.trajectory.empty()) {
+      return least_m;
+    }
+    double clear_m = std::min(drift_m, m.obstacles.clearance(m.situation.state.head<2>(), m.now_s));
+    for (double later = 0.0; later <= kAheadS; later += kStepS) {
+      const double then_s = m.now_s + later;
+      const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(then_s)).position;
+      clear_m = std::min(clear_m, m.obstacles.clearance(there, then_s));
+    }
+    return std::max(least_m, clear_m / drift_m * kMostLengths * vessel_.hull.length_m);
+  }
   double listedClearance(std::size_t level) const {
     const std::vector<double>& levels = options_.side_clearances_m;
     return centreClearance(vessel_.hull, levels[std::min(level, levels.size() - 1)]);
@@ -420,7 +439,7 @@ class Decider final : public Supervisor {
   bool isLeftBehind(const Moment& m) {
     constexpr double kShareWithWeather = 0.7;
     const double share = safety().plansWithWeather() ? kShareWithWeather : 1.0;
-    return std::max(errorOf(m), lateBy(m.now_s)) > share * options_.tracking_error_max_m;
+    return std::max(errorOf(m), lateBy(m.now_s)) > share * mayBeOff(m);
   }
   // By how much what is sailed was put off, of late: as if the vessel had made good 0.1 m/s of it.
   [[nodiscard]] double lateBy(double now_s) const {
@@ -438,7 +457,7 @@ class Decider final : public Supervisor {
     const bool firm =
         spins ? vessel::canLie(vessel_.manoeuvring, weather().mean(), wanted.state[vessel::kPsi])
               : wanted.heading_force_n > kFirmShare * 2.0 * vessel_.thrusters.ahead_max_n;
-    return weather().isKnown() && firm && errorOf(m) > 0.5 * options_.tracking_error_max_m &&
+    return weather().isKnown() && firm && errorOf(m) > 0.5 * mayBeOff(m) &&
            std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
                lost_rad;
   }
@@ -478,7 +497,7 @@ class Decider final : public Supervisor {
     if (hurries && (off + kSoonS * goes_off).norm() > options_.tracking_error_max_m) {
       return true;
     }
-    if (errorOf(m) < 0.5 * options_.tracking_error_max_m) {
+    if (errorOf(m) < 0.5 * mayBeOff(m)) {
       return false;
     }
     if (isFarOff(m) && m.now_s - off_since_s_ >= kPatienceS) {

@@ -101,8 +101,7 @@ bool Weather::isKnown() const {
 }
 
 bool Weather::mayTurnOutStrong() const {
-  constexpr double kPerhapsShare = 0.6;  // of what is strong: a fifth less wind
-  return felt_s_ < kMemoryS && turnsWith(kPerhapsShare * kStrongShare);
+  return felt_s_ < kMemoryS && isNearlyStrong();
 }
 
 bool Weather::rises() const {

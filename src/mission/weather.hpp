@@ -34,6 +34,8 @@ class Weather {
 
   // The mean wind turns the hull with much of the thrusters' moment: a gust may take its heading.
   [[nodiscard]] bool isStrong() const { return turnsWith(kStrongShare); }
+  // Or would with a fifth more wind.
+  [[nodiscard]] bool isNearlyStrong() const { return turnsWith(kNearlyShare * kStrongShare); }
   // The mean wind's moment and what else turns the hull, on the worst heading, N m.
   [[nodiscard]] double greatestMoment() const;
   // Of all thrust ahead that the mean pushes with, on the worst heading.
@@ -59,6 +61,7 @@ class Weather {
 
  private:
   static constexpr double kStrongShare = 0.4;  // of the thrusters' moment
+  static constexpr double kNearlyShare = 0.6;  // of that
   [[nodiscard]] bool turnsWith(double share) const;
   // A quantity's mean and variance with a fading memory, and its largest size lately.
   struct Spread {

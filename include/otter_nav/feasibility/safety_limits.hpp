@@ -32,6 +32,8 @@ struct SafetyLimits {
   // `hull_margin_m` besides.
   double clearance_m = 0.0;
   double hull_margin_m = 0.0;
+  // Kept by the hull's centre where it costs little; 0: no more than `clearance_m`.
+  double preferred_clearance_m = 0.0;
   vessel::Hull hull;
   // Of each thruster's limits; the rest is for control, wind and current.
   double thrust_share = 0.0;

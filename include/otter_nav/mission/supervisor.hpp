@@ -81,8 +81,10 @@ struct SupervisorOptions {
     fields("rounds_from_rest", o.rounds_from_rest, {1, 1000},
            "of attempts, each with all clearances; then the mission gives up");
     fields("stops_max", o.stops_max, {0, 1000}, "on the way; then the mission gives up");
-    fields("tracking_error_max_m", o.tracking_error_max_m, {0.1, 100.0},
-           "further off the trajectory, the plan starts at the vessel again");
+    fields(
+        "tracking_error_max_m", o.tracking_error_max_m, {0.1, 100.0},
+        "further off the trajectory, the plan starts at the vessel again; in strong wind with room "
+        "up to 1.25 times the hull's length");
     fields("odometry_timeout_s", o.odometry_timeout_s, {0.05, 60.0},
            "older odometry stops the vessel");
     fields("arrival_distance_m", o.arrival_distance_m, {0.01, 100.0},

@@ -1,5 +1,6 @@
 // lc max(0, clearance wanted - distance)^2 (the paper's f_c), of the hull's centre and of two
-// circles ahead and astern of it, at the time the spline is there.
+// circles ahead and astern of it, at the time the spline is there; and the same of the centre for
+// room that is preferred, much cheaper.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +24,11 @@ class ClearanceCost final : public Cost {
       return;
     }
     const Rows& z = point.path();
+    point.addHinge(targets.weights.room, limits.room_m - centre.distance_m, kKneeM, 0,
+                   [&]() -> Eigen::Vector2d { return -centre.gradient; });
     point.addHinge(targets.weights.clearance, limits.clearance_m - centre.distance_m, kKneeM, 0,
                    [&]() -> Eigen::Vector2d { return -centre.gradient; });
-    if (!hull) {
+    if (!hull || centre.distance_m > limits.near_m()) {
       return;
     }
     const Eigen::Vector2d w = point.dynamics.headingForce(z.col(1), z.col(2));

@@ -29,11 +29,13 @@ struct SplineWeights {
   double clearance = 0.0;
   double dynamics = 0.0;
   double original = 0.0;
+  double room = 0.0;
 };
 
 // What the penalties leave unpunished.
 struct SplineLimits {
   double clearance_m = 0.0;          // by Obstacles::smooth, of the hull's centre
+  double room_m = 0.0;               // the same, preferred
   double hull_offset_m = 0.0;        // of two circles ahead and astern of it; 0: not watched
   double hull_clearance_m = 0.0;     // of those circles' centres
   double leaning_clearance_m = 0.0;  // the same of the hull as it leans
@@ -44,8 +46,9 @@ struct SplineLimits {
   double yaw_rate_radps = 0.0;
   double heading_force_n = 0.0;  // least |w|
 
-  // What lies farther from the hull's centre costs nothing.
-  [[nodiscard]] double reach_m() const {
+  // What lies farther from the hull's centre costs nothing; and nothing but for room preferred.
+  [[nodiscard]] double reach_m() const { return std::max(room_m, near_m()); }
+  [[nodiscard]] double near_m() const {
     return std::max(clearance_m, hull_offset_m > 0.0 ? hull_offset_m + hull_clearance_m : 0.0);
   }
 };

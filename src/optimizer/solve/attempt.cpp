@@ -19,6 +19,7 @@ constexpr double kPieceLengthM = 17.0;
 constexpr double kPieceLengthInLoadM = 24.0;
 constexpr double kSlowestInLoadMps = 0.3;
 constexpr double kWeightClearance = 20.0;   // of squared metres too near
+constexpr double kWeightRoom = 0.1;         // the same, nearer than is preferred
 constexpr double kWeightDynamics = 5.0;     // of squared shares of a thruster too much
 constexpr double kArrivalSpeedShare = 0.6;  // of the speed wanted, when the brake begins
 constexpr double kGentleBrakeS = 2.0;
@@ -50,6 +51,9 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
                       const feasibility::SafetyLimits& safety, double cell_m) {
   SplineLimits limits;
   limits.clearance_m = safety.clearance_m + kClearanceMarginM + kSquareCells * cell_m;
+  if (safety.preferred_clearance_m > safety.clearance_m && !care.careful) {
+    limits.room_m = safety.preferred_clearance_m + kClearanceMarginM + kSquareCells * cell_m;
+  }
   const feasibility::HullCover hull(safety.hull, safety.hull_margin_m);
   limits.hull_offset_m = hull.offset_m;
   limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
@@ -122,6 +126,7 @@ Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parame
   attempt.weights.length = options.weight_length;
   attempt.weights.smooth = options.weight_smooth;
   attempt.weights.clearance = kWeightClearance * care.weight_factor;
+  attempt.weights.room = kWeightRoom;
   attempt.weights.dynamics = kWeightDynamics * care.weight_factor;
   const bool firm = vessel::isFirmLoad(vessel, safety.disturbance);
   attempt.initial.piece_length_m =

@@ -1188,6 +1188,59 @@ TEST(SupervisorInWind, IsImpatientOffItsTrajectoryWithSomethingNear) {
   }
 }
 
+// Whatever heading it is turned to, and wherever gusts set it aside, wide water leaves room for it.
+TEST(SupervisorInWind, PrefersWideWaterWhereTheWindTurnsTheHull) {
+  for (const double moment_nm : {0.0, 5.0, 12.0, 20.0}) {
+    ScriptedMission mission(openWater(), forStillWater());
+    mission.disturbance.moment_nm = moment_nm;
+    blow(mission, 40.0, [](double) { return Vector2d(-30.0, 0.0); });
+    const auto orders = mission.goTo({20.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    const feasibility::SafetyLimits& limits = orders->plan->query.limits;
+    if (moment_nm > 10.0) {
+      EXPECT_GT(limits.preferred_clearance_m, limits.clearance_m + 0.5) << moment_nm;
+    } else {
+      EXPECT_EQ(limits.preferred_clearance_m, 0.0) << moment_nm;
+    }
+  }
+}
+
+// 2 m off, where strong wind may take the heading and wide water leaves room for that, it is not
+// planned anew: another plan would meet the same gusts. Nearer to something it is, or with
+// something beside its way, and in less wind.
+TEST(SupervisorInWind, KeepsItsPlanFartherOffWhereStrongWindHasRoom) {
+  enum class Something { kNowhere, kBesideIt, kBesideItsWay };
+  struct Case {
+    double moment_nm;
+    Something lies;
+    bool keeps;
+  };
+  for (const auto& [moment_nm, lies, keeps] :
+       {Case{20.0, Something::kNowhere, true}, Case{20.0, Something::kBesideIt, false},
+        Case{20.0, Something::kBesideItsWay, false}, Case{0.0, Something::kNowhere, false}}) {
+    ScriptedMission mission(openWater(), forStillWater());
+    mission.disturbance.moment_nm = moment_nm;
+    blow(mission, 5.0, [](double) { return Vector2d(-30.0, 0.0); });
+    mission.setOut(6.0);
+    const Vector2d there = mission.situation().state.head<2>();
+    if (lies == Something::kBesideIt) {
+      mission.put(there + Vector2d(-3.0, -6.5), there + Vector2d(9.0, -4.5));
+    } else if (lies == Something::kBesideItsWay) {
+      mission.put(there + Vector2d(15.0, 2.5), there + Vector2d(17.0, 4.5));
+    }
+    bool kept = true;
+    for (int k = 0; k < 30 && kept; ++k) {
+      mission.now_s += 0.1;
+      Situation aside = mission.situation();
+      aside.state.y() -= 2.0;
+      aside.tracking_error_m = 2.0;
+      const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
+      kept = !orders.stop && !orders.plan;
+    }
+    EXPECT_EQ(kept, keeps) << moment_nm << " " << static_cast<int>(lies);
+  }
+}
+
 // In such a wind what drives a hull off doesn't let go of it until it lies in the wind: it is not
 // waited for how far that takes it.
 TEST(SupervisorInWind, StopsBeforeItIsFarOffWithSomethingNear) {
@@ -1224,7 +1277,7 @@ double plansAgainAfter(ScriptedMission& mission) {
   for (bool stopped = false; !stopped;) {
     mission.now_s += 0.1;
     Situation aside = mission.situation();
-    aside.tracking_error_m = 2.0;
+    aside.tracking_error_m = 3.0;
     const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
     stopped = orders.stop;
     if (orders.plan) {
