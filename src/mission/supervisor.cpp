@@ -391,17 +391,18 @@ class Decider final : public Supervisor {
     constexpr double kAheadS = 10.0;
     constexpr double kStepS = 1.0;
     const double least_m = options_.tracking_error_max_m;
-    const double drift_m = weather().drift().norm();
     if (!mayLoseItsHeading() || sailed_.trajectory.empty()) {
       return least_m;
     }
-    double clear_m = std::min(drift_m, m.obstacles.clearance(m.situation.state.head<2>(), m.now_s));
+    double clear_m = m.obstacles.clearance(m.situation.state.head<2>(), m.now_s);
     for (double later = 0.0; later <= kAheadS; later += kStepS) {
       const double then_s = m.now_s + later;
       const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(then_s)).position;
       clear_m = std::min(clear_m, m.obstacles.clearance(there, then_s));
     }
-    return std::max(least_m, clear_m / drift_m * kMostLengths * vessel_.hull.length_m);
+    const double drift_m = weather().drift().norm();
+    const double share = clear_m < drift_m ? clear_m / drift_m : 1.0;
+    return std::max(least_m, share * kMostLengths * vessel_.hull.length_m);
   }
   double listedClearance(std::size_t level) const {
     const std::vector<double>& levels = options_.side_clearances_m;
