@@ -34,7 +34,7 @@ class Weather {
 
   // The mean wind turns the hull with much of the thrusters' moment: a gust may take its heading.
   [[nodiscard]] bool isStrong() const { return turnsWith(kStrongShare); }
-  // Or would with a fifth more wind.
+  // Or would be with three tenths more wind.
   [[nodiscard]] bool isNearlyStrong() const { return turnsWith(kNearlyShare * kStrongShare); }
   // The mean wind's moment and what else turns the hull, on the worst heading, N m.
   [[nodiscard]] double greatestMoment() const;
