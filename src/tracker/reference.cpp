@@ -66,10 +66,12 @@ void ReferenceSource::start(const trajectory::TimedTrajectory& sailed, double no
   waited_at_s_ = now_s;
   joins_ = false;
   rests_ = false;
-  // The heading in force goes on where the new trajectory's own is about the same.
+  // The heading in force goes on where the new trajectory's own is about the same, and where the
+  // wind says how the hull lies.
   const Course c = course(now_s);
-  const bool goes_on = started_ && (std::abs(wrapAngle(c.psi_rad - psi_rad_)) <= kSameHeadingRad ||
-                                    isAstern(c, psi_rad_));
+  const bool goes_on =
+      in_corridor_ || (started_ && (std::abs(wrapAngle(c.psi_rad - psi_rad_)) <= kSameHeadingRad ||
+                                    isAstern(c, psi_rad_)));
   if (!goes_on) {
     psi_rad_ = c.psi_rad;
     psi_time_s_ = now_s;
@@ -172,8 +174,13 @@ vessel::SwayHeading ReferenceSource::heading(const Course& c, double psi_rad, do
                           c.flat.acceleration) <= vessel::kRestMps + c.flat.velocity.norm();
   };
   if (!c.spins || !holds()) {
-    return vessel::swayHeading(vessel_, disturbance, c.flat.velocity, c.flat.acceleration, psi_rad,
-                               psi_path_rad, dt_s);
+    // Stern to the wind thrust astern holds it, as thrust ahead does on the reverse heading.
+    const double turned_rad = stern_to_wind_ ? kPi : 0.0;
+    vessel::SwayHeading held =
+        vessel::swayHeading(vessel_, disturbance, c.flat.velocity, c.flat.acceleration,
+                            psi_rad - turned_rad, psi_path_rad, dt_s);
+    held.psi_rad += turned_rad;
+    return held;
   }
   // Back from where it yielded it turns, and doesn't jump.
   const double most_rad = (std::abs(c.yaw_rate) + kTurnBackRadps) * dt_s;
@@ -249,6 +256,11 @@ void ReferenceSource::fill(double start_s, double step_s, int stages, double psi
   if (method_ == Method::kPlain) {
     fillPlain(start_s, step_s, stages, reference);
   } else {
+    in_corridor_ = std::isfinite(reference.corridor.half_width_rad);
+    if (stern_to_wind_ != reference.corridor.is_sterns) {
+      stern_to_wind_ = reference.corridor.is_sterns;
+      psi_rad_ = psi_near_rad;
+    }
     fillFlat(start_s, step_s, stages, disturbance, reference);
   }
   const double turns =

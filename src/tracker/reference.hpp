@@ -29,7 +29,8 @@ class ReferenceSource {
   // From now on, until the next start(): at rest there, on this heading.
   void rest(const Eigen::Vector2d& position, double psi_rad);
 
-  // Stages at `start_s` + k step_s; psi near `psi_near_rad`, continuous along the horizon.
+  // Stages at `start_s` + k step_s; psi near `psi_near_rad`, continuous along the horizon, and on
+  // the side of the wind that the reference's corridor is on.
   void fill(double start_s, double step_s, int stages, double psi_near_rad,
             const vessel::Disturbance& disturbance, OcpReference& reference);
   // One state, for comparison and display.
@@ -70,6 +71,8 @@ class ReferenceSource {
   // The heading's own state, at a time.
   double psi_rad_ = 0.0;
   double psi_time_s_ = 0.0;
+  bool in_corridor_ = false;
+  bool stern_to_wind_ = false;
   bool started_ = false;
 };
 

@@ -38,7 +38,8 @@ HeadingCorridor WindCorridor::about(double psi_rad) const {
   const double most_nm = 0.5 * yaw_kg_ * gust_mps * gust_mps;  // at 45 degrees
   if (kHeldShare * moment_nm_ < most_nm) {
     const double bow = angleOf(-wind_mps_);
-    corridor.psi_rad = std::cos(psi_rad - bow) < kSternCosine ? bow + kPi : bow;
+    corridor.is_sterns = std::cos(psi_rad - bow) < kSternCosine;
+    corridor.psi_rad = corridor.is_sterns ? bow + kPi : bow;
     corridor.half_width_rad = 0.5 * std::asin(kHeldShare * moment_nm_ / most_nm);
   }
   return corridor;

@@ -39,6 +39,7 @@ struct OcpOptions {
 struct HeadingCorridor {
   double psi_rad = 0.0;
   double half_width_rad = std::numeric_limits<double>::infinity();
+  bool is_sterns = false;  // they are those with the stern to the wind
 };
 
 // psi of all states is continuous along the horizon and near the measured one. `attitude` in [0, 1]

@@ -38,6 +38,7 @@ TEST(WindCorridor, IsWhereAGustLeavesMomentToHoldTheHeading) {
   for (const double mean : {9.0, 10.0}) {
     const HeadingCorridor corridor = after(feelingWind(), mean, mean, bow + 0.3);
     EXPECT_NEAR(wrapAngle(corridor.psi_rad - bow), 0.0, 1e-9);
+    EXPECT_FALSE(corridor.is_sterns);
     // At its edge a gust by 0.3 of the mean takes nine tenths.
     const double gust_nm = 0.33 * std::pow(1.3 * mean, 2) * std::sin(2.0 * corridor.half_width_rad);
     EXPECT_NEAR(gust_nm, 0.9 * 39.0, 1e-6);
@@ -65,6 +66,7 @@ TEST(WindCorridor, KnowsTheMeanOfTheFirstSecondsToo) {
 TEST(WindCorridor, SternToTheWindIsAsGood) {
   const HeadingCorridor corridor = after(feelingWind(), 9.0, 9.0, 0.8);
   EXPECT_NEAR(wrapAngle(corridor.psi_rad - 0.5), 0.0, 1e-9);
+  EXPECT_TRUE(corridor.is_sterns);
   EXPECT_LT(corridor.half_width_rad, 0.5);
 }
 
