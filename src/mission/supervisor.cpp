@@ -458,9 +458,12 @@ class Decider final : public Supervisor {
     const bool firm =
         spins ? vessel::canLie(vessel_.manoeuvring, weather().mean(), wanted.state[vessel::kPsi])
               : wanted.heading_force_n > kFirmShare * 2.0 * vessel_.thrusters.ahead_max_n;
-    return weather().isKnown() && firm && errorOf(m) > 0.5 * mayBeOff(m) &&
-           std::abs(wrapAngle(m.situation.state[vessel::kPsi] - wanted.state[vessel::kPsi])) >
-               lost_rad;
+    const double psi_rad = m.situation.state[vessel::kPsi];
+    // In strong wind it is sailed on headings near the wind's line, bow or stern to it, whatever
+    // the path's.
+    const bool lies_in_wind = mayLoseItsHeading() && isHeldInWind(psi_rad);
+    return weather().isKnown() && firm && !lies_in_wind && errorOf(m) > 0.5 * mayBeOff(m) &&
+           std::abs(wrapAngle(psi_rad - wanted.state[vessel::kPsi])) > lost_rad;
   }
   bool mayLoseItsHeading() { return weather().isStrong(); }
   // Bow or stern to it, nearly: where its moment is small.
@@ -484,7 +487,6 @@ class Decider final : public Supervisor {
     // rest, bow to it, there is a better. Unless the vessel is coming back. A gust lets go of it no
     // sooner than it lies so, and the sooner it turns the less way it has got: it is seen soon how
     // far off it will be.
-    constexpr double kNearShare = 0.5;  // of what a lost heading takes
     constexpr double kSoonS = 1.5;
     const vessel::State& x = m.situation.state;
     const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
@@ -492,9 +494,13 @@ class Decider final : public Supervisor {
         Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
     const vessel::FlatPoint wanted = sailed_.trajectory.flat(sailed_.elapsed(m.now_s));
     const Eigen::Vector2d off = x.head<2>() - wanted.position;
-    const Eigen::Vector2d goes_off = velocity - wanted.velocity;
-    const bool hurries = mayLoseItsHeading() && here < kNearShare * weather().drift().norm() &&
-                         off.dot(goes_off) >= 0.0;
+    // Late on its way it is where nothing lies: what is sailed waits for it.
+    const double speed = wanted.velocity.norm();
+    const Eigen::Vector2d along =
+        speed > 0.0 ? (wanted.velocity / speed).eval() : Eigen::Vector2d::Zero();
+    const double made_good_mps = std::clamp(velocity.dot(along), 0.0, speed);
+    const Eigen::Vector2d goes_off = velocity - made_good_mps * along;
+    const bool hurries = mayLoseItsHeading() && off.dot(goes_off) >= 0.0 && hasALeeShore(m);
     if (hurries && (off + kSoonS * goes_off).norm() > options_.tracking_error_max_m) {
       return true;
     }
@@ -507,6 +513,22 @@ class Decider final : public Supervisor {
     for (double later = kStepS; later <= kAheadS; later += kStepS) {
       const double there = m.obstacles.clearance(x.head<2>() + later * velocity, m.now_s + later);
       if (there < safety().critical() && there < here) {
+        return true;
+      }
+    }
+    return false;
+  }
+  // Nearer than a hull's length to where a heading that is lost would take the vessel, or half a
+  // length more to where it is: a current sets it across the wind.
+  bool hasALeeShore(const Moment& m) {
+    constexpr double kShare = 0.5;  // of the drift: it is seen before it is over
+    constexpr int kSteps = 8;
+    const Eigen::Vector2d here = m.situation.state.head<2>();
+    const Eigen::Vector2d drift = kShare * weather().drift();
+    for (int k = 0; k <= kSteps; ++k) {
+      const double share = static_cast<double>(k) / kSteps;
+      const double room_m = (1.5 - 0.5 * share) * vessel_.hull.length_m;
+      if (m.obstacles.clearance(here + share * drift, m.now_s) < room_m) {
         return true;
       }
     }
@@ -1373,6 +1395,9 @@ class Decider final : public Supervisor {
       return leewardRoom(m, position, far) +
              std::min(clear(position) - safety().narrowest(), round);
     };
+    // Where a gust sets it aside on the way it goes by nothing that is nearer than what it lies
+    // off.
+    const double least = mayLoseItsHeading() ? kRoundInStrongM : safety().narrowest();
     const double enough = far + round;
     const double here = clear(x.head<2>());
     double best = 0.0;
@@ -1381,7 +1406,7 @@ class Decider final : public Supervisor {
       double found = 0.0;
       for (double s = kStepM; s <= kFarthestM && most < enough; s += kStepM) {
         const Eigen::Vector2d there = x.head<2>() + side * s * bow;
-        if (clear(there) < std::min(here, safety().narrowest())) {
+        if (clear(there) < std::min(here, least)) {
           break;
         }
         if (room(there) >= most) {

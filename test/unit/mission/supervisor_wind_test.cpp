@@ -1073,7 +1073,7 @@ TEST(SupervisorInWind, MakesRoomBeforeItRestsInStrongWind) {
     mission.setOut(6.0);
     Situation driven = mission.situation();
     driven.tracking_error_m = 2.0;
-    driven.state[vessel::kPsi] = kPi;
+    driven.state[vessel::kPsi] = kPi + 0.7;  // lost
     driven.state.tail<3>() << -0.6, 0.0, 0.0;
     if (shore) {
       const Vector2d here = driven.state.head<2>();
@@ -1084,6 +1084,7 @@ TEST(SupervisorInWind, MakesRoomBeforeItRestsInStrongWind) {
       mission.now_s += 0.1;
       driven.odometry_stamp_s = mission.now_s;
       const Orders orders = mission.supervisor->update(mission.now_s, driven, mission.field);
+      driven.state[vessel::kPsi] = kPi;
       if (orders.plan) {
         (void)mission.refuse(*orders.plan, "no");
       }
@@ -1267,6 +1268,51 @@ TEST(SupervisorInWind, StopsBeforeItIsFarOffWithSomethingNear) {
     }
     const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
     EXPECT_EQ(orders.stop, stops) << moment_nm << " " << near << " " << away_mps;
+  }
+}
+
+// With the bow to a strong wind, or the stern, it is sailed wherever the path leads.
+TEST(SupervisorInWind, AHeadingInTheWindsLineIsNotLostInStrongWind) {
+  for (const double off_rad : {0.0, 0.3, 1.2}) {
+    ScriptedMission mission = inWind(8.0);
+    mission.setOut(6.0);
+    Situation held = mission.situation();
+    held.tracking_error_m = 1.5;
+    held.state.y() -= 1.5;
+    held.state[vessel::kPsi] = kPi + off_rad;
+    held.state.tail<3>().setZero();
+    const Orders orders = mission.supervisor->update(mission.now_s, held, mission.field);
+    EXPECT_EQ(orders.stop, off_rad > 1.0) << off_rad;
+  }
+}
+
+// Late on its way it lies where nothing is, and a shore to windward or abeam is none that a lost
+// heading is driven on.
+TEST(SupervisorInWind, NeitherBeingLateNorAWindwardShoreIsAHurry) {
+  struct Case {
+    Vector2d going;       // over ground, on a plan that leads east
+    Vector2d near_low_m;  // of something, from the vessel; the wind pushes west
+    bool stops;
+  };
+  const Vector2d lee(-5.5, -1.5);
+  const Vector2d windward(3.6, -1.5);
+  const Vector2d abeam(-2.0, -6.6);
+  for (const auto& [going, near_low_m, stops] :
+       {Case{{-0.5, -0.7}, lee, true}, Case{{0.1, 0.0}, lee, false}, Case{{-1.0, 0.0}, lee, true},
+        Case{{-0.5, -0.7}, windward, false}, Case{{-0.5, -0.7}, abeam, false}}) {
+    ScriptedMission mission;
+    mission.disturbance.moment_nm = 20.0;
+    blow(mission, 5.0, [](double) { return Vector2d(-30.0, 0.0); });
+    mission.setOut(6.0);
+    Situation aside = mission.situation();
+    aside.state.head<2>() -= Vector2d(0.2, 0.3);
+    aside.tracking_error_m = 0.36;
+    const double psi = aside.state[vessel::kPsi];
+    aside.state.segment<2>(vessel::kSurge) = Eigen::Rotation2D<double>(-psi) * going;
+    const Vector2d here = aside.state.head<2>();
+    mission.put(here + near_low_m, here + near_low_m + Vector2d(3.0, 3.0));
+    const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
+    EXPECT_EQ(orders.stop, stops) << going.transpose() << ", " << near_low_m.transpose();
   }
 }
 
