@@ -19,7 +19,8 @@ class ReferenceSource {
  public:
   ReferenceSource(const Options& options, const vessel::Parameters& vessel);
 
-  // A new trajectory, which stays where it is; the reference starts at psi of the trajectory.
+  // A new trajectory, which stays where it is; the reference starts at psi of the trajectory, and
+  // in wind that says how the hull lies at its own.
   void start(const trajectory::TimedTrajectory& sailed, double now_s);
   // From now on the reference is led from `offset` (position and velocity off the trajectory's,
   // earth frame) to the trajectory within `duration_s`.
