@@ -55,8 +55,7 @@ Foretold::Foretold(const std::vector<traffic::Track>& tracks, const Habits& habi
     mover.hits_m2 = 4.0 * (mover.half_length_m + mover.radius_m + discs_.radius_m) *
                     (mover.half_beam_m + mover.radius_m + discs_.radius_m);
     mover.reach_m = std::hypot(mover.half_length_m, mover.half_beam_m) + mover.radius_m;
-    const std::vector<Eigen::Vector2d> as_before =
-        habits.foretell(track, from_s, kStepS, steps_ + 1);
+    const std::vector<Way> as_before = habits.ways(track, from_s, kStepS, steps_ + 1);
     mover.may_turn = as_before.empty() ? kMayTurn : kMayTurnFromHabit;
     mover.probable = as_before.empty() ? 1.0 : kNotFromHabit;
     if (track.existence < kDoubted) {
@@ -80,16 +79,19 @@ Foretold::Foretold(const std::vector<traffic::Track>& tracks, const Habits& habi
     }
     // The same vessel, as she went before.
     mover.may_turn = 0.0;
-    mover.probable *= kFromHabit / kNotFromHabit;
-    for (int k = 0; k <= steps_; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      Place& there = mover.places[at];
-      const Eigen::Vector2d way = as_before[at + 1] - as_before[at];
-      there.middle = as_before[at];
-      there.ahead = way.norm() > 1e-3 ? way.normalized() : there.ahead;
-      there.deviation_m = std::hypot(kDeviationM, kHabitPerS * k * kStepS);
+    const double on_a_way = mover.probable * kFromHabit / kNotFromHabit;
+    for (const Way& way : as_before) {
+      mover.probable = on_a_way * way.share;
+      for (int k = 0; k <= steps_; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        Place& there = mover.places[at];
+        const Eigen::Vector2d step = way.places[at + 1] - way.places[at];
+        there.middle = way.places[at];
+        there.ahead = step.norm() > 1e-3 ? step.normalized() : there.ahead;
+        there.deviation_m = std::hypot(kDeviationM, kHabitPerS * k * kStepS);
+      }
+      movers_.push_back(mover);
     }
-    movers_.push_back(std::move(mover));
   }
 }
 

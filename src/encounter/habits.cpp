@@ -337,63 +337,51 @@ std::optional<double> Habits::steadyTurn(const traffic::Track& track) const {
 
 std::vector<Eigen::Vector2d> Habits::foretell(const traffic::Track& track, double from_s,
                                               double step_s, int steps) const {
+  std::vector<Way> all = ways(track, from_s, step_s, steps);
+  return all.empty() ? std::vector<Eigen::Vector2d>{} : std::move(all.front().places);
+}
+
+std::vector<Way> Habits::ways(const traffic::Track& track, double from_s, double step_s,
+                              int steps) const {
+  constexpr std::size_t kMost = 9;
+  constexpr double kFollowed = 2.0;  // times as likely: the one that she is on already
   if (!track.makesWay()) {
     return {};
   }
   const Seen now = seen(track, from_s);
-  Match found;
+  std::vector<Told> told;
+  const auto take = [&](const Match& at, double likely) {
+    Told next = tell(at, now, step_s, steps);
+    if (!next.places.empty()) {
+      next.likely = likely;
+      told.push_back(std::move(next));
+    }
+  };
+  Match followed;
   const auto known = known_.find(track.id);
   const Place place = known == known_.end() ? Place{} : known->second.place;
-  if (place.at.record >= 0 && moveAlong(found = place.at, from_s - place.stamp_s)) {
-    found.share = std::clamp(found.share, 0.0, 1.0);
-  } else {
-    found = match(now);
+  const bool follows =
+      place.at.record >= 0 && moveAlong(followed = place.at, from_s - place.stamp_s);
+  if (follows) {
+    followed.share = std::clamp(followed.share, 0.0, 1.0);
+    take(followed, kFollowed);
   }
-  std::vector<Eigen::Vector2d> places = tell(found, now, step_s, steps);
-  if (!places.empty()) {
-    takeTheMean(found, now, step_s, places);
-  }
-  return places;
-}
-
-void Habits::takeTheMean(const Match& found, const Seen& seen, double step_s,
-                         std::vector<Eigen::Vector2d>& places) const {
-  constexpr std::size_t kMost = 8;
-  constexpr double kAnotherWayM = 4.0;
-  constexpr double kLeastM2 = 0.04;
-  const std::vector<Eigen::Vector2d> first = places;
-  const double known = 1.0 / (kLeastM2 + varianceAhead(found));
-  std::vector<double> weights(places.size(), known);
-  for (Eigen::Vector2d& place : places) {
-    place *= known;
-  }
-  std::size_t taken = 0;
-  for (const Pass& pass : passesOf(seen)) {
+  const std::vector<Pass> passes = passesOf(now);
+  for (const Pass& pass : passes) {
     const Record& there = record(pass.at.record);
-    const bool same = there.id == record(found.record).id &&
-                      std::abs(there.time_s - record(found.record).time_s) < kAnotherPassS;
-    if (same) {
-      continue;
-    }
-    if (++taken > kMost) {
-      break;
-    }
-    const std::vector<Eigen::Vector2d> told =
-        tell(pass.at, seen, step_s, static_cast<int>(places.size()) - 1);
-    const double weight = 1.0 / (kLeastM2 + varianceAhead(pass.at));
-    for (std::size_t k = 0; k < told.size() && (told[k] - first[k]).norm() < kAnotherWayM; ++k) {
-      places[k] += weight * told[k];
-      weights[k] += weight;
+    const bool same = follows && there.id == record(followed.record).id &&
+                      std::abs(there.time_s - record(followed.record).time_s) < kAnotherPassS;
+    if (!same && told.size() < kMost) {
+      take(pass.at, std::exp(passes.front().unlikely - pass.unlikely));
     }
   }
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    places[k] /= weights[k];
-  }
+  return partingWays(std::move(told));
 }
 
-std::vector<Eigen::Vector2d> Habits::tell(Match found, Seen seen, double step_s, int steps) const {
+Told Habits::tell(Match found, Seen seen, double step_s, int steps) const {
   constexpr int kWaysMost = 4;
   constexpr double kAsideS = 1.5;
+  const Match first = found;
   std::vector<Eigen::Vector2d> places;
   double told_s = 0.0;
   for (int ways = 0; ways < kWaysMost && static_cast<int>(places.size()) <= steps; ++ways) {
@@ -444,11 +432,15 @@ std::vector<Eigen::Vector2d> Habits::tell(Match found, Seen seen, double step_s,
   if (told_s < kLeastToldS) {
     return {};
   }
+  Told told;
+  told.variance_m2 = varianceAhead(first);
+  told.known = places.size();
   while (static_cast<int>(places.size()) <= steps) {
     const double t = static_cast<double>(places.size()) * step_s;
     places.emplace_back(seen.position + (t - told_s) * seen.velocity);
   }
-  return places;
+  told.places = std::move(places);
+  return told;
 }
 
 }  // namespace otter_nav::encounter

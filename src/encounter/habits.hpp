@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "encounter/met_motion.hpp"
+#include "encounter/parting_ways.hpp"
 #include "otter_nav/traffic/track.hpp"
 
 namespace otter_nav::encounter {
@@ -21,6 +22,9 @@ class Habits {
   // was there on such a course before. Empty: nobody was, or nothing much came of it.
   [[nodiscard]] std::vector<Eigen::Vector2d> foretell(const traffic::Track& track, double from_s,
                                                       double step_s, int steps) const;
+  // All the ways that somebody went on from there; foretell() tells the first one.
+  [[nodiscard]] std::vector<Way> ways(const traffic::Track& track, double from_s, double step_s,
+                                      int steps) const;
   // Adds all places within `range_m` of one at which anybody has been.
   void placesWithin(const Eigen::Vector2d& of, double range_m,
                     std::vector<Eigen::Vector2d>& places) const;
@@ -78,12 +82,9 @@ class Habits {
   void follow(const traffic::Track& track);
   // Beside a way that the radar alone has met there may be one that is known well.
   void followBetterKnown(const traffic::Track& track, Place& place) const;
-  // Places from one on a way on; where that breaks off another may lead on.
-  [[nodiscard]] std::vector<Eigen::Vector2d> tell(Match found, Seen seen, double step_s,
-                                                  int steps) const;
-  // With what the other times tell that somebody went this way: each is off by itself.
-  void takeTheMean(const Match& found, const Seen& seen, double step_s,
-                   std::vector<Eigen::Vector2d>& places) const;
+  // Places from one on a way on; where that breaks off another may lead on, and where none does it
+  // is straight ahead. Empty: nothing much comes of it.
+  [[nodiscard]] Told tell(Match found, Seen seen, double step_s, int steps) const;
   // The likeliest first.
   [[nodiscard]] std::vector<Pass> passesOf(const Seen& seen) const;
   // `by_s` later on the way, negative: before; whether the way goes so far.

@@ -479,6 +479,36 @@ TEST(Habits, ChangesToAWayThatIsBetterKnown) {
   EXPECT_LT((told[20] - Eigen::Vector2d(34.0, 0.0)).norm(), 1.0);
 }
 
+// At a fork some went to the one side and some to the other, and nobody straight on.
+TEST(Foretold, ReckonsWithEachWayWhereTheyPart) {
+  constexpr double kNowS = 122.0;  // at x = 14 m
+  constexpr int kAt = 35;          // of the foretold's steps: 4 m past the fork
+  Habits habits;
+  remember(habits, 1, 0.0, kByLidarM2, {{0.0, 0.0}, {24.0, 0.0}, {24.0, 30.0}});
+  remember(habits, 2, 60.0, kByLidarM2, {{0.0, 0.0}, {24.0, 0.0}, {24.0, -30.0}});
+  const traffic::Track she = seenAt(3, kNowS, {14.0, 0.0}, {2.0, 0.0});
+  const Foretold foretold({she}, habits, kNowS, 8.0, {20.0, 0.0}, 2.0, vessel::Hull());
+  for (const double side : {1.0, -1.0}) {
+    const Eigen::Vector2d place(24.0, side * 4.0);
+    EXPECT_GT(foretold.at(place, {0.0, 1.0}, kAt, foretold.all()).danger, 0.2) << side;
+  }
+  const std::vector<Way> ways = habits.ways(she, kNowS, 0.2, 40);
+  ASSERT_EQ(ways.size(), 2U);
+  EXPECT_NEAR(ways[0].share + ways[1].share, 1.0, 1e-9);
+}
+
+// The lidar lost her right before the corner that the radar has seen her turn.
+TEST(Habits, TellsACornerFromWhoWasSeenToTurnItAndNotFromWhoWasLost) {
+  Habits habits;
+  remember(habits, 1, 0.0, kByRadarM2, {{0.0, 0.0}, {24.0, 0.0}, {24.0, 30.0}});
+  remember(habits, 2, 40.0, kByLidarM2, {{0.0, 0.0}, {22.0, 0.0}});
+  for (const double x : {10.0, 18.0, 20.0}) {
+    const auto told = habits.foretell(seenAt(3, 80.0, {x, 0.0}, {2.0, 0.0}), 80.0, 0.5, 16);
+    ASSERT_EQ(told.size(), 17U) << x;
+    EXPECT_LT((told[16] - Eigen::Vector2d(24.0, x - 8.0)).norm(), 2.0) << x;
+  }
+}
+
 // Each time a radar makes something else of the same way.
 TEST(Habits, TellsTheMeanOfSeveralPasses) {
   Habits habits;
