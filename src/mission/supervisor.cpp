@@ -13,6 +13,7 @@
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/encounter/evasion.hpp"
 #include "otter_nav/encounter/lying_off.hpp"
+#include "otter_nav/encounter/surprise.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
 #include "otter_nav/stopping/splice.hpp"
@@ -1013,12 +1014,17 @@ class Decider final : public Supervisor {
     constexpr double kWorthS = 0.4;  // another way: tracks wander
     constexpr double kWorthAPlanS = 4.0;
     constexpr double kLeastLeftS = 4.0;
+    constexpr double kLeastAgainS = 0.06;  // a scan of the lidar
     const bool evades = phase_ == Phase::kEvading;
     const bool under_way = (in(phase_)&kUnderWay) != 0;
-    if (evades && m.now_s - evaded_s_ < kEvadeAgainS) {
+    const double since_s = m.now_s - evaded_s_;
+    if (evades && since_s < kEvadeAgainS &&
+        (since_s < kLeastAgainS ||
+         !surprise_.isNear(m.situation.state.head<2>(), m.situation.tracks))) {
       return {};
     }
     evaded_s_ = m.now_s;
+    surprise_.decided(m.situation.tracks);
     encounter::Evasion::Task task = evasionFrom(m);
     // Not into water that nobody has seen, unless it lies in such.
     constexpr double kInKnownM = 0.5;
@@ -1994,6 +2000,7 @@ class Decider final : public Supervisor {
   encounter::Pilot pilot_;
   encounter::Evasion evasion_;
   encounter::LyingOff lying_off_;
+  encounter::Surprise surprise_;
   TimedTrajectory later_;  // what is sailed, for a vessel that is so far behind:
   double behind_m_ = 0.0;
   double late_m_ = 0.0;  // what was put off in all, less what counts as made good since

@@ -7,3 +7,4 @@ otter_nav_test(unit_encounter_evasion SOURCES ${encounter_tests}/evasion_test.cp
 otter_nav_test(unit_encounter_met_motion SOURCES ${encounter_tests}/met_motion_test.cpp ROOMS encounter)
 otter_nav_test(unit_encounter_lying_off SOURCES ${encounter_tests}/lying_off_test.cpp ROOMS encounter)
 otter_nav_test(unit_encounter_swing SOURCES ${encounter_tests}/swing_test.cpp ROOMS encounter)
+otter_nav_test(unit_encounter_surprise SOURCES ${encounter_tests}/surprise_test.cpp ROOMS encounter)

@@ -200,6 +200,23 @@ TEST(Evading, WaitsForNoPlan) {
   EXPECT_EQ(mission.supervisor->phase(), Phase::kEvading);
 }
 
+// One decision follows another after a quarter of a second, but at once where somebody near turns.
+TEST(Evading, DecidesAtOnceWhenSomebodyNearTurns) {
+  test::ScriptedMission mission;
+  (void)mission.goTo({-20.0, 0.0});
+  const auto come = [&](double towards_mps) {
+    putManyNear(mission);
+    mission.tracks.push_back(northward({-9.0, -6.0}, mission.now_s + 0.08));
+    mission.tracks.back().id = 9;
+    mission.tracks.back().velocity.x() = towards_mps;
+  };
+  come(0.0);
+  ASSERT_TRUE(mission.update(0.08).sail);
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kEvading);
+  come(2.5);
+  EXPECT_TRUE(mission.update(0.08).sail);
+}
+
 // Nobody's way is known yet: it lies off and looks on, but not for ever.
 TEST(Evading, LiesOffBeforeItGoesInAmongMany) {
   test::ScriptedMission mission;
