@@ -296,16 +296,19 @@ std::optional<double> Habits::steadyTurn(const traffic::Track& track) const {
   constexpr double kHalfS = 1.2;
   constexpr double kLeastRadps = 0.04;
   constexpr double kAlike = 0.5;
+  constexpr double kAtOnce = 0.4;
   const auto known = known_.find(track.id);
   if (known == known_.end() || known->second.last < 0) {
     return std::nullopt;
   }
-  // Over two stretches, one before the other: who has turned a corner has turned in one alone.
+  // Over two stretches, one before the other: who has turned a corner has turned in one alone, or
+  // most of it right between them.
   const Record* now = &record(known->second.last);
   const Record* at = now;
   double turned_rad = 0.0;
   double first_rad = 0.0;
   double first_s = 0.0;
+  double most_rad = 0.0;  // in one stretch
   while (at->before >= 0 && now->time_s - at->time_s < 2.0 * kHalfS) {
     if (std::max(at->covariance(2, 2), at->covariance(3, 3)) > kKnownMps * kKnownMps) {
       return std::nullopt;
@@ -314,7 +317,9 @@ std::optional<double> Habits::steadyTurn(const traffic::Track& track) const {
     // As tracked: smoothed, a corner looks like a round.
     const Eigen::Vector2d from = earlier->tracked.tail<2>();
     const Eigen::Vector2d to = at->tracked.tail<2>();
-    turned_rad += std::atan2(cross(from, to), from.dot(to));
+    const double turn_rad = std::atan2(cross(from, to), from.dot(to));
+    most_rad = std::max(most_rad, std::abs(turn_rad));
+    turned_rad += turn_rad;
     at = earlier;
     if (first_s == 0.0 && now->time_s - at->time_s >= kHalfS) {
       first_s = now->time_s - at->time_s;
@@ -328,8 +333,8 @@ std::optional<double> Habits::steadyTurn(const traffic::Track& track) const {
   const double late = first_rad / first_s;
   const double early = (turned_rad - first_rad) / (all_s - first_s);
   const double mean = turned_rad / all_s;
-  if (std::abs(mean) < kLeastRadps || late * early <= 0.0 ||
-      std::abs(late - early) > kAlike * (std::abs(late) + std::abs(early))) {
+  if (std::abs(mean) < kLeastRadps || most_rad > kAtOnce * std::abs(turned_rad) ||
+      late * early <= 0.0 || std::abs(late - early) > kAlike * (std::abs(late) + std::abs(early))) {
     return std::nullopt;
   }
   return mean;

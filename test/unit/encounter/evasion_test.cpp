@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -558,6 +559,20 @@ TEST(Habits, TellsARoundFromACorner) {
   ASSERT_TRUE(round.steadyTurn(she));
   EXPECT_NEAR(*round.steadyTurn(she), kTurnRadps, 0.02);
   EXPECT_FALSE(corner.steadyTurn(she));
+}
+
+// A track rounds the corner off, over half a second: that is no round either, at any time.
+TEST(Habits, TakesNoCornerForARoundWheneverItIs) {
+  for (double corner_s = 4.0; corner_s < 5.0; corner_s += 0.1) {
+    Habits habits;
+    for (double t = 0.0; t <= 9.0; t += 0.1) {
+      const double turned = std::clamp((t - corner_s) / 0.5, 0.0, 1.0);
+      traffic::Track she = square(1, {0.0, 0.0}, 2.0 * unitVector(1.3 * turned));
+      she.stamp_s = t;
+      habits.observe({she});
+      EXPECT_FALSE(habits.steadyTurn(she)) << corner_s << " at " << t;
+    }
+  }
 }
 
 }  // namespace
