@@ -22,8 +22,7 @@ bool Surprise::isNear(const Eigen::Vector2d& position,
     if (is_new ? !track.makesWay() : (track.velocity - before->second).norm() < kOtherwiseMps) {
       return false;
     }
-    const double speed =
-        std::max(track.velocity.norm(), is_new ? 0.0 : before->second.norm());
+    const double speed = std::max(track.velocity.norm(), is_new ? 0.0 : before->second.norm());
     return (track.position - position).norm() < kHullsM + kSoonS * speed;
   });
 }
