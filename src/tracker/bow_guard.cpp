@@ -22,6 +22,8 @@ constexpr double kSwingMemoryS = 5.0;
 constexpr double kTurns = 3.0;
 constexpr double kHardlyRad = 0.05;
 constexpr double kSlowRadps = 2.0;
+constexpr double kSwingMostRad = 0.5;  // a swing that ends beyond is none to rely on
+constexpr double kSwingRad = 0.45;
 // After a gap, or a step back in time, the rate isn't known.
 constexpr double kLongestStepS = 0.1;
 
@@ -59,9 +61,10 @@ void BowGuard::learnSwing(double now_rad, bool turns, double share) {
   rate_rad2ps2_ += share * (rate_radps_ * rate_radps_ - rate_rad2ps2_);
 }
 
-// As far as the bow goes on the way that `sign` says: straight on for a moment, or, if that is
-// less, to the end of a swing with the angle and the rate of now. Where that is high up the hull
-// has left the water at one end, and turns back later than from other swings.
+// As far as the bow goes on the way that `sign` says: straight on for a moment; or, if that is
+// less, to the end of a swing with the angle and the rate of now, but as far as a half is cut at
+// least, for a push ahead in each swing makes them higher. Where the end is high up the hull has
+// left the water at one end, and turns back later than from other swings.
 double BowGuard::soon(double sign) const {
   const double straight_rad = sign * (bow_up_rad_ + kLeadS * rate_radps_);
   if (turns_ < kTurns || sign * rate_radps_ <= 0.0) {
@@ -74,7 +77,8 @@ double BowGuard::soon(double sign) const {
   const double end_rad =
       sign * trim_rad_ +
       std::sqrt(swing_rad * swing_rad + rate_radps_ * rate_radps_ / frequency_rad2ps2);
-  return end_rad < kMostRad ? std::min(straight_rad, end_rad) : straight_rad;
+  return end_rad < kSwingMostRad ? std::min(straight_rad, std::max(end_rad, kSwingRad))
+                                 : straight_rad;
 }
 
 vessel::Thrusts BowGuard::cut(const vessel::Thrusts& wanted,
