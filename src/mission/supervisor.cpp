@@ -733,6 +733,11 @@ class Decider final : public Supervisor {
     const Obstacles obstacles = is_aside_ ? Obstacles(m.obstacles.field()) : alongSailed(m);
     return at < sailed_.trajectory.duration() && !clear(sailed_.trajectory, at, obstacles, vessel_);
   }
+  // A gust has it off the leg on which it makes room. The way back to that is not verified either.
+  bool isOffItsLeg(const Moment& m) {
+    return makes_room_ && mayLoseItsHeading() && hasMission() && !suspended_ && !cancelled_ &&
+           errorOf(m) > options_.tracking_error_max_m;
+  }
   bool isStillMoving(const Moment& m) {
     constexpr double kPatienceS = 15.0;
     const bool rests = knowsPlace(m) && atRest(m.situation.state);
@@ -1004,6 +1009,9 @@ class Decider final : public Supervisor {
     makes_room_ = true;
     return orders;
   }
+  Orders makeSeaRoomAnew(const Moment& m) {
+    return isDrivenAshore(m) ? makeSeaRoom(m) : stopSetAside(m);
+  }
   Orders standAside(const Moment& m) {
     Orders orders =
         manoeuvre(m, Phase::kBackingOff, std::move(*aside_), "out of another vessel's way");
@@ -1231,6 +1239,7 @@ class Decider final : public Supervisor {
       {kSailing, &Decider::mayImprove, &Decider::planToImprove},
 
       {kManoeuvring, &Decider::hasFault, &Decider::stopForFault},
+      {in(Phase::kBackingOff), &Decider::isOffItsLeg, &Decider::makeSeaRoomAnew},
       {kManoeuvring, &Decider::isBlocked, &Decider::stopBlocked},
       {in(Phase::kStopping), &Decider::hasMilderStop, &Decider::changeTheStop},
       {in(Phase::kStopping), &Decider::mayGoOn, &Decider::goOn},
