@@ -55,7 +55,8 @@ constexpr unsigned kWaiting = in(Phase::kPlanning) | in(Phase::kStopped);
 constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBack);
 constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
 constexpr unsigned kEvading = in(Phase::kEvading);
-constexpr double kEvadeAgainS = 0.25;  // from one decision about others to the next
+constexpr double kLegInStrongMps = 1.0;  // of room made in strong wind
+constexpr double kEvadeAgainS = 0.25;    // from one decision about others to the next
 // What the thrusters lack for so much longer on one way than on another makes a difference.
 constexpr double kOvertaxedLongerS = 1.5;
 
@@ -1343,14 +1344,28 @@ class Decider final : public Supervisor {
   // Bow to what pushes, or stern in strong wind.
   Trajectory legAhead(const Moment& m, double ahead_m) {
     constexpr double kSpeedMps = 0.5;
-    constexpr double kInStrongMps = 1.0;  // with way on it can make good what sets it aside
     constexpr double kLeastS = 4.0;
-    const double speed = mayLoseItsHeading() ? kInStrongMps : kSpeedMps;
-    return Trajectory({trajectory::straightLeg(m.situation.state.head<2>(), windward(m), ahead_m,
-                                               std::max(kLeastS, std::abs(ahead_m) / speed))});
+    const double speed = mayLoseItsHeading() ? kLegInStrongMps : kSpeedMps;
+    return Trajectory(
+        {trajectory::straightLeg(m.situation.state.head<2>(), legHeading(m, ahead_m), ahead_m,
+                                 std::max(kLeastS, std::abs(ahead_m) / speed))});
   }
   // The hull's heading, or in strong wind the one into it, bow or stern, as far as turning there
   // needs no room.
+  // Of the way over ground to windward, `ahead` or astern. In strong wind the bow is kept in it,
+  // and what a current does abeam is given way to.
+  double legHeading(const Moment& m, double ahead) {
+    constexpr double kMostRad = 0.6;
+    const double psi_rad = windward(m);
+    if (!mayLoseItsHeading()) {
+      return psi_rad;
+    }
+    vessel::Disturbance abeam = weather().mean();
+    abeam.wind_mps.setZero();
+    const double set_mps = vessel::driftAbeam(vessel_.manoeuvring, abeam, psi_rad);
+    const double set_rad = std::clamp(std::atan(set_mps / kLegInStrongMps), -kMostRad, kMostRad);
+    return psi_rad + std::copysign(1.0, ahead) * set_rad;
+  }
   double windward(const Moment& m) {
     constexpr double kTurnMostRad = 0.35;
     const double psi = m.situation.state[vessel::kPsi];
@@ -1420,7 +1435,7 @@ class Decider final : public Supervisor {
     for (const double side : {1.0, -1.0}) {
       double found = 0.0;
       for (double s = kStepM; s <= kFarthestM && most < enough; s += kStepM) {
-        const Eigen::Vector2d there = x.head<2>() + side * s * bow;
+        const Eigen::Vector2d there = x.head<2>() + side * s * unitVector(legHeading(m, side));
         if (clear(there) < std::min(here, least)) {
           break;
         }

@@ -1050,6 +1050,29 @@ TEST(SupervisorInWind, MakesRoomSternToTheWindToo) {
   }
 }
 
+// What a current does abeam is given way to, for the bow is kept in the wind: ahead and astern.
+TEST(SupervisorInWind, MakesRoomWithTheCurrentThatSetsItAbeam) {
+  for (const double psi : {kPi, 0.0}) {
+    for (const double push_n : {8.0, -8.0}) {
+      ScriptedMission mission = inWind(8.0);
+      mission.disturbance.force_n = {0.0, push_n};
+      mission.knowWeather(60.0);
+      mission.put({2.0, -5.0}, {5.0, 5.0});
+      mission.rest[vessel::kPsi] = psi;
+      const auto orders = mission.goTo({-20.0, 0.0});
+      ASSERT_TRUE(orders && orders->plan);
+      (void)mission.refuse(*orders->plan, "no");
+      const Orders next = mission.update(0.1);
+      ASSERT_TRUE(next.sail);
+      const trajectory::Trajectory& path = next.sail->trajectory;
+      const Vector2d end = path.flat(path.duration()).position;
+      EXPECT_LT(end.x(), -1.5);
+      EXPECT_GT(std::copysign(1.0, push_n) * end.y(), 0.1 * path.duration()) << psi;
+      EXPECT_LT(std::abs(end.y()), 0.7 * path.duration()) << psi;
+    }
+  }
+}
+
 // A gust has it off the leg on which it makes room: another leads on from where it is.
 TEST(SupervisorInWind, MakesRoomAnewWhereItIsSetAsideMeanwhile) {
   for (const double aside_m : {0.5, 2.0}) {
