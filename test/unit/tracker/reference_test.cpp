@@ -12,8 +12,8 @@
 namespace otter_nav::tracker {
 namespace {
 
-constexpr int kStages = 20;
-constexpr double kStepS = 0.1;
+constexpr int kHorizonStages = 20;
+constexpr double kHorizonStepS = 0.1;
 
 vessel::Parameters otterGazebo() {
   return *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) +
@@ -44,7 +44,7 @@ OcpReference across(double psi_rad, bool stern_to_wind) {
   OcpReference reference;
   reference.corridor.is_sterns = stern_to_wind;
   for (int k = 0; k < 100; ++k) {
-    source.fill(10.0 + 0.01 * k, kStepS, kStages, psi_rad, wind, reference);
+    source.fill(10.0 + 0.01 * k, kHorizonStepS, kHorizonStages, psi_rad, wind, reference);
   }
   return reference;
 }
@@ -54,7 +54,7 @@ OcpReference across(double psi_rad, bool stern_to_wind) {
 TEST(Reference, SternToTheWindIsTheReverseOfBowToIt) {
   const OcpReference bow = across(kPi - 0.3, false);
   const OcpReference stern = across(-0.3, true);
-  for (int k = 0; k < kStages; ++k) {
+  for (int k = 0; k < kHorizonStages; ++k) {
     const auto i = static_cast<std::size_t>(k);
     EXPECT_LT(std::abs(wrapAngle(bow.states[i][vessel::kPsi] - kPi)), 0.6) << k;
     EXPECT_NEAR(wrapAngle(stern.states[i][vessel::kPsi] - bow.states[i][vessel::kPsi] - kPi), 0.0,
@@ -75,11 +75,11 @@ TEST(Reference, ANewTrajectoryDoesNotTurnItInStrongWind) {
   reference.corridor = {0.0, 0.4, true};
   source.rest({0.0, 0.0}, -0.1);
   for (int k = 0; k < 100; ++k) {
-    source.fill(0.01 * k, kStepS, kStages, -0.1, eastwardWind(), reference);
+    source.fill(0.01 * k, kHorizonStepS, kHorizonStages, -0.1, eastwardWind(), reference);
   }
   source.start(sailed, 1.0);
-  source.fill(1.0, kStepS, kStages, -0.1, eastwardWind(), reference);
-  for (int k = 0; k <= kStages; ++k) {
+  source.fill(1.0, kHorizonStepS, kHorizonStages, -0.1, eastwardWind(), reference);
+  for (int k = 0; k <= kHorizonStages; ++k) {
     EXPECT_NEAR(wrapAngle(reference.states[static_cast<std::size_t>(k)][vessel::kPsi]), 0.0, 0.6)
         << k;
   }
