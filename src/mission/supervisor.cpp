@@ -1350,8 +1350,6 @@ class Decider final : public Supervisor {
         {trajectory::straightLeg(m.situation.state.head<2>(), legHeading(m, ahead_m), ahead_m,
                                  std::max(kLeastS, std::abs(ahead_m) / speed))});
   }
-  // The hull's heading, or in strong wind the one into it, bow or stern, as far as turning there
-  // needs no room.
   // Of the way over ground to windward, `ahead` or astern. In strong wind the bow is kept in it,
   // and what a current does abeam is given way to.
   double legHeading(const Moment& m, double ahead) {
@@ -1366,6 +1364,8 @@ class Decider final : public Supervisor {
     const double set_rad = std::clamp(std::atan(set_mps / kLegInStrongMps), -kMostRad, kMostRad);
     return psi_rad + std::copysign(1.0, ahead) * set_rad;
   }
+  // The hull's heading, or in strong wind the one into it, bow or stern, as far as turning there
+  // needs no room.
   double windward(const Moment& m) {
     constexpr double kTurnMostRad = 0.35;
     const double psi = m.situation.state[vessel::kPsi];
