@@ -55,8 +55,7 @@ constexpr unsigned kWaiting = in(Phase::kPlanning) | in(Phase::kStopped);
 constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBack);
 constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
 constexpr unsigned kEvading = in(Phase::kEvading);
-constexpr double kLegInStrongMps = 1.0;  // of room made in strong wind
-constexpr double kEvadeAgainS = 0.25;    // from one decision about others to the next
+constexpr double kEvadeAgainS = 0.25;  // from one decision about others to the next
 // What the thrusters lack for so much longer on one way than on another makes a difference.
 constexpr double kOvertaxedLongerS = 1.5;
 
@@ -734,11 +733,6 @@ class Decider final : public Supervisor {
     const Obstacles obstacles = is_aside_ ? Obstacles(m.obstacles.field()) : alongSailed(m);
     return at < sailed_.trajectory.duration() && !clear(sailed_.trajectory, at, obstacles, vessel_);
   }
-  // A gust has it off the leg on which it makes room. The way back to that is not verified either.
-  bool isOffItsLeg(const Moment& m) {
-    return makes_room_ && mayLoseItsHeading() && hasMission() && !suspended_ && !cancelled_ &&
-           errorOf(m) > options_.tracking_error_max_m;
-  }
   bool isStillMoving(const Moment& m) {
     constexpr double kPatienceS = 15.0;
     const bool rests = knowsPlace(m) && atRest(m.situation.state);
@@ -1010,9 +1004,6 @@ class Decider final : public Supervisor {
     makes_room_ = true;
     return orders;
   }
-  Orders makeSeaRoomAnew(const Moment& m) {
-    return isDrivenAshore(m) ? makeSeaRoom(m) : stopSetAside(m);
-  }
   Orders standAside(const Moment& m) {
     Orders orders =
         manoeuvre(m, Phase::kBackingOff, std::move(*aside_), "out of another vessel's way");
@@ -1240,7 +1231,6 @@ class Decider final : public Supervisor {
       {kSailing, &Decider::mayImprove, &Decider::planToImprove},
 
       {kManoeuvring, &Decider::hasFault, &Decider::stopForFault},
-      {in(Phase::kBackingOff), &Decider::isOffItsLeg, &Decider::makeSeaRoomAnew},
       {kManoeuvring, &Decider::isBlocked, &Decider::stopBlocked},
       {in(Phase::kStopping), &Decider::hasMilderStop, &Decider::changeTheStop},
       {in(Phase::kStopping), &Decider::mayGoOn, &Decider::goOn},
@@ -1344,25 +1334,11 @@ class Decider final : public Supervisor {
   // Bow to what pushes, or stern in strong wind.
   Trajectory legAhead(const Moment& m, double ahead_m) {
     constexpr double kSpeedMps = 0.5;
+    constexpr double kInStrongMps = 1.0;  // with way on it can make good what sets it aside
     constexpr double kLeastS = 4.0;
-    const double speed = mayLoseItsHeading() ? kLegInStrongMps : kSpeedMps;
-    return Trajectory(
-        {trajectory::straightLeg(m.situation.state.head<2>(), legHeading(m, ahead_m), ahead_m,
-                                 std::max(kLeastS, std::abs(ahead_m) / speed))});
-  }
-  // Of the way over ground to windward, `ahead` or astern. In strong wind the bow is kept in it,
-  // and what a current does abeam is given way to.
-  double legHeading(const Moment& m, double ahead) {
-    constexpr double kMostRad = 0.6;
-    const double psi_rad = windward(m);
-    if (!mayLoseItsHeading()) {
-      return psi_rad;
-    }
-    vessel::Disturbance abeam = weather().mean();
-    abeam.wind_mps.setZero();
-    const double set_mps = vessel::driftAbeam(vessel_.manoeuvring, abeam, psi_rad);
-    const double set_rad = std::clamp(std::atan(set_mps / kLegInStrongMps), -kMostRad, kMostRad);
-    return psi_rad + std::copysign(1.0, ahead) * set_rad;
+    const double speed = mayLoseItsHeading() ? kInStrongMps : kSpeedMps;
+    return Trajectory({trajectory::straightLeg(m.situation.state.head<2>(), windward(m), ahead_m,
+                                               std::max(kLeastS, std::abs(ahead_m) / speed))});
   }
   // The hull's heading, or in strong wind the one into it, bow or stern, as far as turning there
   // needs no room.
@@ -1435,7 +1411,7 @@ class Decider final : public Supervisor {
     for (const double side : {1.0, -1.0}) {
       double found = 0.0;
       for (double s = kStepM; s <= kFarthestM && most < enough; s += kStepM) {
-        const Eigen::Vector2d there = x.head<2>() + side * s * unitVector(legHeading(m, side));
+        const Eigen::Vector2d there = x.head<2>() + side * s * bow;
         if (clear(there) < std::min(here, least)) {
           break;
         }

@@ -16,17 +16,9 @@ class BowGuard {
                                     const vessel::Thrusters& thrusters) const;
 
  private:
-  void learnSwing(double now_rad, bool turns, double share);
-  [[nodiscard]] double soon(double sign) const;
-
   double stamp_s_ = 0.0;
   double bow_up_rad_ = 0.0;
   double rate_radps_ = 0.0;
-  // Of the last seconds: how often it turned, the mean, and mean squares of the swing about it.
-  double turns_ = 0.0;
-  double trim_rad_ = 0.0;
-  double swing_rad2_ = 0.0;
-  double rate_rad2ps2_ = 0.0;
 };
 
 }  // namespace otter_nav::tracker

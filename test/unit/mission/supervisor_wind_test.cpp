@@ -1050,54 +1050,6 @@ TEST(SupervisorInWind, MakesRoomSternToTheWindToo) {
   }
 }
 
-// What a current does abeam is given way to, for the bow is kept in the wind: ahead and astern.
-TEST(SupervisorInWind, MakesRoomWithTheCurrentThatSetsItAbeam) {
-  for (const double psi : {kPi, 0.0}) {
-    for (const double push_n : {8.0, -8.0}) {
-      ScriptedMission mission = inWind(8.0);
-      mission.disturbance.force_n = {0.0, push_n};
-      mission.knowWeather(60.0);
-      mission.put({2.0, -5.0}, {5.0, 5.0});
-      mission.rest[vessel::kPsi] = psi;
-      const auto orders = mission.goTo({-20.0, 0.0});
-      ASSERT_TRUE(orders && orders->plan);
-      (void)mission.refuse(*orders->plan, "no");
-      const Orders next = mission.update(0.1);
-      ASSERT_TRUE(next.sail);
-      const trajectory::Trajectory& path = next.sail->trajectory;
-      const Vector2d end = path.flat(path.duration()).position;
-      EXPECT_LT(end.x(), -1.5);
-      EXPECT_GT(std::copysign(1.0, push_n) * end.y(), 0.1 * path.duration()) << psi;
-      EXPECT_LT(std::abs(end.y()), 0.7 * path.duration()) << psi;
-    }
-  }
-}
-
-// A gust has it off the leg on which it makes room: another leads on from where it is.
-TEST(SupervisorInWind, MakesRoomAnewWhereItIsSetAsideMeanwhile) {
-  for (const double aside_m : {0.5, 2.0}) {
-    ScriptedMission mission = inWind(8.0);
-    mission.put({2.0, -5.0}, {5.0, 5.0});
-    mission.rest[vessel::kPsi] = kPi;
-    const auto orders = mission.goTo({-20.0, 0.0});
-    ASSERT_TRUE(orders && orders->plan);
-    (void)mission.refuse(*orders->plan, "no");
-    (void)mission.update(0.1);
-    ASSERT_EQ(mission.supervisor->phase(), Phase::kBackingOff);
-    mission.now_s += 0.5;
-    Situation aside = mission.situation();
-    aside.state.y() += aside_m;
-    aside.tracking_error_m = aside_m;
-    const Orders next = mission.supervisor->update(mission.now_s, aside, mission.field);
-    EXPECT_EQ(mission.supervisor->phase(), Phase::kBackingOff);
-    ASSERT_EQ(next.sail.has_value(), aside_m > 1.0);
-    if (next.sail) {
-      const trajectory::Sample begins = next.sail->trajectory.sample(0.0, vessel::Parameters{});
-      EXPECT_NEAR((begins.state - aside.state).head<2>().norm(), 0.0, 1e-6);
-    }
-  }
-}
-
 // Off the line of what drives it, for as far as it turns on the leg.
 TEST(SupervisorInWind, MakesRoomOffTheWindsLine) {
   for (const double psi : {0.9, 1.4}) {

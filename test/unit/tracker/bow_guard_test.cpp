@@ -67,30 +67,6 @@ TEST(BowGuard, SeesWhereTheBowWillBe) {
   EXPECT_EQ(risen(0.45, -1.0).cut(kWanted, thrusters()), kWanted);
 }
 
-// Level and on its way up, after a time of swinging by `swing_rad`.
-BowGuard swinging(double swing_rad) {
-  constexpr double kFrequencyRadps = 4.5;
-  constexpr double kSwings = 6.0;
-  BowGuard guard;
-  const int steps = static_cast<int>(std::lround(kSwings * 2.0 * M_PI / kFrequencyRadps / kStepS));
-  for (int i = 0; i <= steps; ++i) {
-    guard.add(kStepS * i, swing_rad * std::sin(kFrequencyRadps * kStepS * i));
-  }
-  return guard;
-}
-
-// Straight on the bow would come up by 0.34 and 0.55 rad. Full astern, at each swing, for a bow
-// that turns back by itself throws a light hull a metre a second off its way.
-TEST(BowGuard, KnowsThatABowThatSwingsTurnsBack) {
-  EXPECT_EQ(swinging(0.25).cut(kWanted, thrusters()), kWanted);
-  const double most_n = swinging(0.41).cut(kWanted, thrusters()).sum();
-  EXPECT_GT(most_n, 70.0);
-  EXPECT_LT(most_n, 150.0);
-  // Of a swing that ends high up that is not relied on.
-  EXPECT_LT(swinging(0.65).cut(kWanted, thrusters()).sum(), 10.0);
-  EXPECT_LT(risen(0.0, 0.41 * 4.5).cut(kWanted, thrusters()).sum(), 40.0);
-}
-
 TEST(BowGuard, StandsGapsStepsBackAndWhatIsNotANumber) {
   BowGuard guard = risen(0.0, 0.0, 50.0);
   guard.add(57.0, 0.45);  // a rate over the gap would be next to nothing, one over a step a jump
