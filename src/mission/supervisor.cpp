@@ -16,6 +16,7 @@
 #include "otter_nav/encounter/surprise.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
+#include "otter_nav/stopping/escape.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/stopping/stand_aside.hpp"
 #include "otter_nav/stopping/watch.hpp"
@@ -213,7 +214,7 @@ class Decider final : public Supervisor {
     if (orders.plan && near_) {
       orders.plan->others = *near_;
     }
-    if (orders.sail) {
+    if (orders.sail || orders.stop) {
       given_s_ = m.now_s;
     }
     return orders;
@@ -563,6 +564,36 @@ class Decider final : public Supervisor {
     }
     return aside_.has_value();
   }
+  // Something, by wind and current, in the seconds that the tracker foresees, while its thrust is
+  // spent on turning the hull; and there are thrusts by which it passes. On a plan there may be
+  // little room.
+  bool isDrivenOnto(const Moment& m) {
+    constexpr double kWithinS = 5.0;
+    constexpr double kNearM = 1.0;
+    constexpr double kNearOnItsWayM = 0.1;
+    constexpr double kNearerM = 0.5;  // than it lies
+    constexpr double kWorthM = 0.7;
+    constexpr double kAgainS = 0.2;
+    const vessel::Foreseen& foreseen = m.situation.foreseen;
+    if (!weather().isNearlyStrong() || !knowsPlace(m) || foreseen.start_s < given_s_ ||
+        m.now_s - escaped_s_ < kAgainS) {
+      return false;
+    }
+    const vessel::State& x = m.situation.state;
+    const vessel::Foreseen here{m.now_s, 0.0, {{x.head<2>(), x[vessel::kPsi]}}};
+    const auto least = [&](const vessel::Foreseen& motion) {
+      return stopping::leastClearance(motion, m.now_s, m.now_s + kWithinS, m.obstacles,
+                                      vessel_.hull);
+    };
+    const double near_m = (in(phase_)&kUnderWay) != 0 ? kNearOnItsWayM : kNearM;
+    const double comes_m = least(foreseen);
+    if (comes_m > std::min(near_m, least(here) - kNearerM)) {
+      return false;
+    }
+    escape_ =
+        stopping::escape(x, m.obstacles.startingAt(m.now_s), vessel_, m.situation.disturbance.mean);
+    return escape_.clearance_m > comes_m + kWorthM;
+  }
   // Many others near, or one about to come too near: no time for plans to the goal.
   bool mustEvade(const Moment& m) {
     constexpr int kMany = 4;
@@ -729,9 +760,10 @@ class Decider final : public Supervisor {
     const double at = sailed_.elapsed(m.now_s);
     const auto clear =
         phase_ == Phase::kBackingOff ? stopping::backOffIsClear : stopping::turnBackIsClear;
-    // Halfway out of another's way is the worst place to stop.
+    // Halfway out of another's way is the worst place to stop, and an escape is found anew.
     const Obstacles obstacles = is_aside_ ? Obstacles(m.obstacles.field()) : alongSailed(m);
-    return at < sailed_.trajectory.duration() && !clear(sailed_.trajectory, at, obstacles, vessel_);
+    return !escapes_ && at < sailed_.trajectory.duration() &&
+           !clear(sailed_.trajectory, at, obstacles, vessel_);
   }
   bool isStillMoving(const Moment& m) {
     constexpr double kPatienceS = 15.0;
@@ -1004,6 +1036,14 @@ class Decider final : public Supervisor {
     makes_room_ = true;
     return orders;
   }
+  Orders escape(const Moment& m) {
+    escaped_s_ = m.now_s;
+    (void)manoeuvre(m, Phase::kBackingOff, std::move(escape_.path),
+                    "out of what wind and current drive it onto", Cause::kOff);
+    escapes_ = true;
+    sailed_.rolled_out = true;
+    return {std::nullopt, sailed_, false};
+  }
   Orders standAside(const Moment& m) {
     Orders orders =
         manoeuvre(m, Phase::kBackingOff, std::move(*aside_), "out of another vessel's way");
@@ -1053,7 +1093,7 @@ class Decider final : public Supervisor {
     if (!evades) {
       fallback_.reset();
       stop_time_s_ = m.now_s;
-      is_aside_ = makes_room_ = holds_ = false;
+      is_aside_ = makes_room_ = escapes_ = holds_ = false;
       cause_ = Cause::kOther;
       planned_clearance_m_ = 0.0;
       crowded_s_ = m.now_s;
@@ -1116,7 +1156,7 @@ class Decider final : public Supervisor {
   }
   Orders restBeforeTheGoal(const Moment& m) {
     constexpr int kRoomsMost = 3;  // before another plan is sailed; then it leads nowhere
-    const bool backed_off = phase_ == Phase::kBackingOff && !is_aside_ && !makes_room_;
+    const bool backed_off = phase_ == Phase::kBackingOff && !is_aside_ && !makes_room_ && !escapes_;
     // No stop that counts: the one before it did.
     if (is_aside_ || ((makes_room_ || backed_off) && ++rooms_made_ <= kRoomsMost)) {
       safety().tryWidest();
@@ -1188,6 +1228,7 @@ class Decider final : public Supervisor {
 
       {kUnderWay | kWaiting | in(Phase::kStopping) | in(Phase::kBackingOff), &Decider::mustEvade,
        &Decider::evade},
+      {kUnderWay | kWaiting | kComingToRest, &Decider::isDrivenOnto, &Decider::escape},
       {kWaiting | in(Phase::kStopping), &Decider::isRunDown, &Decider::standAside},
       {kWaiting, &Decider::mustWait, &Decider::keepOn},
       {kWaiting, &Decider::hasFault, &Decider::loseRound},
@@ -1718,7 +1759,7 @@ class Decider final : public Supervisor {
     planned_in_known_weather_ = weather().isKnown();
     planned_overtaxed_s_ = overtaxed(m.now_s, sailed_, planned_disturbance_);
     plan_time_s_ = sailed_since_s_ = m.now_s;
-    holds_ = is_aside_ = makes_room_ = false;
+    holds_ = is_aside_ = makes_room_ = escapes_ = false;
     rooms_made_ = 0;
     far_round_ = FarRound::kNotMet;
     safety().planTaken();
@@ -1731,7 +1772,7 @@ class Decider final : public Supervisor {
     plans_.drop();
     cause_ = cause;
     stop_time_s_ = m.now_s;
-    is_aside_ = makes_room_ = false;
+    is_aside_ = makes_room_ = escapes_ = false;
     planned_clearance_m_ = 0.0;
     fallback_.reset();
     enter(phase, std::move(reason));
@@ -1971,6 +2012,9 @@ class Decider final : public Supervisor {
   std::optional<Trajectory> aside_;  // out of another vessel's way, if that is asked for
   bool is_aside_ = false;            // and is being sailed
   bool makes_room_ = false;          // so, before it plans
+  stopping::Escape escape_;          // that was found
+  bool escapes_ = false;             // and is being sailed
+  double escaped_s_ = -std::numeric_limits<double>::infinity();
   int rooms_made_ = 0;               // since a plan was sailed
   double calmer_by_s_ = 0.0;         // until then it waits for less wind
   std::optional<double> calm_by_s_;  // or the mission fails
@@ -1978,7 +2022,7 @@ class Decider final : public Supervisor {
   double too_fast_since_s_ = 0.0;
   stopping::Conflict conflict_;  // what the last condition found on the way
   double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
-  // When the tracker was given what is sailed.
+  // When the tracker was given what is sailed, or to stop.
   double given_s_ = -std::numeric_limits<double>::infinity();
   // When a plan was asked for that leaves the waves what they take.
   double slower_asked_s_ = -std::numeric_limits<double>::infinity();

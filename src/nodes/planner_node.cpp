@@ -73,7 +73,10 @@ trajectory::TimedTrajectory beginningAt(double now_s, const trajectory::TimedTra
   if (elapsed_s <= 0.0 || elapsed_s >= order.trajectory.duration()) {
     return order;
   }
-  return {stopping::remainder(order.trajectory, elapsed_s), now_s};
+  trajectory::TimedTrajectory next = order;
+  next.trajectory = stopping::remainder(order.trajectory, elapsed_s);
+  next.start_time_s = now_s;
+  return next;
 }
 
 }  // namespace
@@ -474,6 +477,7 @@ mission::Situation PlannerNode::situation() const {
   situation.disturbance = tracker_.estimate();
   situation.tracker_fault = tracker_.gaveUp();
   situation.tracker_reason = tracker_.reason();
+  situation.foreseen = tracker_.foreseen();
   constexpr double kTracksS = 5.0;  // older ones tell nothing of where others are
   if (now_s_ - tracks_stamp_s_ < kTracksS) {
     situation.tracks = tracks_;

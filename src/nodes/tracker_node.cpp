@@ -109,6 +109,7 @@ class TrackerNode {
   mutable std::mutex mutex_;
   tracker::Command last_command_;
   double told_s_ = -1.0;  // its time
+  tracker::Prediction last_prediction_;
   ThrusterCommand command_message_;
   TrackerCycle cycle_message_;
   std::uint32_t in_force_id_ = 0;
@@ -302,6 +303,7 @@ void TrackerNode::publish(const ControlOutput& output) {
   command_publisher_.publish(command_message_);
   publishCycle(output.command);
   if (output.has_prediction) {
+    last_prediction_ = output.prediction;
     publishPrediction(output.prediction);
   }
 }
@@ -395,6 +397,7 @@ TrackerStatus TrackerNode::status() const {
   message.disturbance = {command.outside_force_n.x(), command.outside_force_n.y(),
                          command.outside_moment_nm};
   message.estimate = ros_bridge::toMessage(command.disturbance);
+  message.foreseen = ros_bridge::toMessage(last_prediction_.foreseen());
   return message;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <utility>
 
 #include "otter_nav/ros/conversions.hpp"
 
@@ -57,6 +58,8 @@ class TrackerWatch {
   }
   // The wind, current and force it estimates; the last that were finite.
   [[nodiscard]] const vessel::DisturbanceEstimate& estimate() const { return estimate_; }
+  // Where it expects the vessel, by the last status that told it.
+  [[nodiscard]] const vessel::Foreseen& foreseen() const { return foreseen_; }
 
  private:
   void count(const TrackerStatus& status) {
@@ -68,6 +71,9 @@ class TrackerWatch {
     if (const auto estimate = ros_bridge::disturbanceEstimate(status.estimate)) {
       estimate_ = *estimate;
     }
+    if (auto foreseen = ros_bridge::toForeseen(status.foreseen)) {
+      foreseen_ = std::move(*foreseen);
+    }
   }
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -78,6 +84,7 @@ class TrackerWatch {
   std::uint32_t sailing_id_ = kNone;
   int faults_ = 0;
   vessel::DisturbanceEstimate estimate_;
+  vessel::Foreseen foreseen_;
   double latest_s_ = 0.0;              // stamp of the last status
   std::deque<TrackerStatus> waiting_;  // to count, in the order they came
   std::string reason_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "otter_nav/base/attitude.hpp"
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/ros/frames.hpp"
 
 namespace otter_nav::ros_bridge {
@@ -180,6 +181,37 @@ Result<vessel::DisturbanceEstimate> disturbanceEstimate(const DisturbanceEstimat
     }
   }
   return estimate;
+}
+
+Foreseen toMessage(const vessel::Foreseen& foreseen) {
+  Foreseen message;
+  message.start = toRosTime(foreseen.start_s);
+  message.step = foreseen.step_s;
+  for (const vessel::Pose& pose : foreseen.poses) {
+    message.x.push_back(pose.position.x());
+    message.y.push_back(pose.position.y());
+    message.heading.push_back(pose.psi_rad);
+  }
+  return message;
+}
+
+Result<vessel::Foreseen> toForeseen(const Foreseen& message) {
+  if (message.x.size() != message.y.size() || message.x.size() != message.heading.size()) {
+    return failure(text("foreseen: x, y and heading hold %zu, %zu and %zu", message.x.size(),
+                        message.y.size(), message.heading.size()));
+  }
+  vessel::Foreseen foreseen{message.start.toSec(), message.step, {}};
+  if (!std::isfinite(foreseen.step_s) || foreseen.step_s < 0.0) {
+    return failure(text("foreseen: step is %g s", foreseen.step_s));
+  }
+  for (std::size_t k = 0; k < message.x.size(); ++k) {
+    const vessel::Pose pose{{message.x[k], message.y[k]}, message.heading[k]};
+    if (!pose.position.allFinite() || !std::isfinite(pose.psi_rad)) {
+      return failure(text("foreseen: place %zu is not finite", k));
+    }
+    foreseen.poses.push_back(pose);
+  }
+  return foreseen;
 }
 
 }  // namespace otter_nav::ros_bridge

@@ -60,6 +60,7 @@ Trajectory toMessage(const trajectory::TimedTrajectory& timed, std::uint32_t id,
   message.header.stamp = toRosTime(timed.start_time_s);
   message.id = id;
   message.speed_max = std::isfinite(timed.speed_max_mps) ? timed.speed_max_mps : 0.0;
+  message.rolled_out = static_cast<std::uint8_t>(timed.rolled_out);
   message.goal = toPose(goal);
   if (!trajectory.empty()) {
     const vessel::State start = trajectory.sample(0.0, vessel).state;
@@ -105,6 +106,7 @@ Result<trajectory::TimedTrajectory> toTrajectory(const Trajectory& message,
   if (message.speed_max > 0.0) {
     timed.speed_max_mps = message.speed_max;
   }
+  timed.rolled_out = message.rolled_out != 0;
   return timed;
 }
 

@@ -196,6 +196,7 @@ mission::Situation ClosedLoop::situation() const {
   situation.tracker_fault = command_.mode == Mode::kFault || (braking && !stop_ordered_);
   situation.tracks = sensing_->tracks();
   situation.tracker_reason = std::string(command_.reason);
+  situation.foreseen = tracker_->prediction().foreseen();
   return situation;
 }
 

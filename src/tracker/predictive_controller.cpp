@@ -108,7 +108,8 @@ void PredictiveController::prepareFor(double start_s, double psi_rad, const vess
   solver_.setWater(water);
   solver_.limitRates(last, thrust_rate_nps_);
   corridor_.feel(start_s, navigator.disturbance().wind_mps);
-  reference_.corridor = flatness_ ? corridor_.about(psi_rad) : HeadingCorridor{};
+  reference_.corridor =
+      flatness_ && !source.isRolledOut() ? corridor_.about(psi_rad) : HeadingCorridor{};
   source.fill(start_s, prediction_.step_s, stages_, psi_rad, navigator.disturbance(), reference_);
   if (plan_valid_) {
     solver_.shift((start_s - solved_for_s_) / prediction_.step_s);

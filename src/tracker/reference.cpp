@@ -62,6 +62,7 @@ void ReferenceSource::start(const trajectory::TimedTrajectory& sailed, double no
   trajectory_ = &sailed.trajectory;
   start_s_ = sailed.start_time_s;
   speed_max_mps_ = sailed.speed_max_mps;
+  rolled_out_ = sailed.rolled_out;
   lag_s_ = 0.0;
   waited_at_s_ = now_s;
   joins_ = false;
@@ -70,8 +71,9 @@ void ReferenceSource::start(const trajectory::TimedTrajectory& sailed, double no
   // wind says how the hull lies.
   const Course c = course(now_s);
   const bool goes_on =
-      in_corridor_ || (started_ && (std::abs(wrapAngle(c.psi_rad - psi_rad_)) <= kSameHeadingRad ||
-                                    isAstern(c, psi_rad_)));
+      !rolled_out_ &&
+      (in_corridor_ || (started_ && (std::abs(wrapAngle(c.psi_rad - psi_rad_)) <= kSameHeadingRad ||
+                                     isAstern(c, psi_rad_))));
   if (!goes_on) {
     psi_rad_ = c.psi_rad;
     psi_time_s_ = now_s;
@@ -173,7 +175,7 @@ vessel::SwayHeading ReferenceSource::heading(const Course& c, double psi_rad, do
     return vessel::setOff(vessel_.manoeuvring, disturbance, c.psi_rad, c.yaw_rate, c.flat.velocity,
                           c.flat.acceleration) <= vessel::kRestMps + c.flat.velocity.norm();
   };
-  if (!c.spins || !holds()) {
+  if (!c.spins || !(rolled_out_ || holds())) {
     // Stern to the wind thrust astern holds it, as thrust ahead does on the reverse heading.
     const double turned_rad = stern_to_wind_ ? kPi : 0.0;
     vessel::SwayHeading held =

@@ -40,6 +40,8 @@ class ReferenceSource {
   [[nodiscard]] double end() const;
   // Lets the reference wait for a vessel at `position`, or catch up; call once a control step.
   void wait(double now_s, const Eigen::Vector2d& position);
+  // Its headings are meant, whatever the wind.
+  [[nodiscard]] bool isRolledOut() const { return rolled_out_ && !rests_; }
   // How far the reference is behind the trajectory's own time, s.
   [[nodiscard]] double lag() const { return lag_s_; }
 
@@ -65,6 +67,7 @@ class ReferenceSource {
   double waited_at_s_ = 0.0;
   trajectory::Piece joining_;
   double joining_start_s_ = 0.0;
+  bool rolled_out_ = false;
   bool joins_ = false;
   bool rests_ = false;
   Eigen::Vector2d rest_position_ = Eigen::Vector2d::Zero();

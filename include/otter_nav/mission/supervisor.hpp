@@ -110,6 +110,7 @@ struct Situation {
   vessel::DisturbanceEstimate disturbance;  // wind, current and force as the tracker has them
   bool tracker_fault = false;               // the tracker can't follow and brakes by itself
   std::string tracker_reason;
+  vessel::Foreseen foreseen;           // where the tracker expects the vessel, on the same clock
   std::vector<traffic::Track> tracks;  // of other vessels, on the clock of `now_s`
 };
 

@@ -5,6 +5,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <otter_nav/DisturbanceEstimate.h>
+#include <otter_nav/Foreseen.h>
 #include <ros/time.h>
 #include <std_msgs/ColorRGBA.h>
 
@@ -57,5 +58,9 @@ struct OdometrySample {
 // An error names the field that is not finite.
 [[nodiscard]] Result<vessel::DisturbanceEstimate> disturbanceEstimate(
     const DisturbanceEstimate& message);
+
+[[nodiscard]] Foreseen toMessage(const vessel::Foreseen& foreseen);
+// An error names the field that is not finite, or as long as the others.
+[[nodiscard]] Result<vessel::Foreseen> toForeseen(const Foreseen& message);
 
 }  // namespace otter_nav::ros_bridge

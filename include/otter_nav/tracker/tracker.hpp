@@ -17,6 +17,7 @@
 #include "otter_nav/trajectory/timed_trajectory.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/pose.hpp"
 
 namespace otter_nav::tracker {
 
@@ -61,6 +62,15 @@ struct Prediction {
   double step_s = 0.0;
   int size = 0;  // of `states` in use
   std::array<vessel::State, kMaxStages + 1> states;
+
+  [[nodiscard]] vessel::Foreseen foreseen() const {
+    vessel::Foreseen there{start_s, step_s, {}};
+    for (int k = 0; k < size; ++k) {
+      const vessel::State& x = states[static_cast<std::size_t>(k)];
+      there.poses.push_back({x.head<2>(), x[vessel::kPsi]});
+    }
+    return there;
+  }
 };
 
 class Tracker {

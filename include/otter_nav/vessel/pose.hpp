@@ -12,6 +12,13 @@ struct Pose {
   double psi_rad = 0.0;
 };
 
+// Where a vessel is expected to be, `step_s` apart; without poses nothing is known.
+struct Foreseen {
+  double start_s = 0.0;
+  double step_s = 0.0;
+  std::vector<Pose> poses;
+};
+
 // Points told from the pose, m ahead and to port, as places of the map.
 [[nodiscard]] inline std::vector<Eigen::Vector2d> toMap(const Pose& pose,
                                                         std::vector<Eigen::Vector2d> points) {

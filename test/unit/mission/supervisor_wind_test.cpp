@@ -1286,6 +1286,67 @@ TEST(SupervisorInWind, AHeadingInTheWindsLineIsNotLostInStrongWind) {
   }
 }
 
+// Where the tracker expects the vessel, half a second apart, from its place at this velocity.
+vessel::Foreseen foreseenFrom(double start_s, const vessel::State& state,
+                              const Vector2d& velocity) {
+  vessel::Foreseen foreseen{start_s, 0.5, {}};
+  for (int k = 0; k <= 12; ++k) {
+    foreseen.poses.push_back({state.head<2>() + 0.5 * k * velocity, state[vessel::kPsi]});
+  }
+  return foreseen;
+}
+
+// Its heading is lost, and it stops; what it drifts onto then there are thrusts to pass. So in wind
+// that turns the hull, if the tracker foresees it since it was told to stop.
+TEST(SupervisorInWind, EscapesFromWhatTheTrackerForeseesItDriftsOnto) {
+  struct Case {
+    double wind_mps;
+    bool shore, since_the_stop;
+    double drifts_mps;
+    bool escapes;
+  };
+  for (const auto& c : {Case{8.0, true, true, 1.0, true}, Case{8.0, false, true, 1.0, false},
+                        Case{8.0, true, false, 1.0, false}, Case{8.0, true, true, 0.1, false},
+                        Case{3.0, true, true, 1.0, false}}) {
+    ScriptedMission mission = inWind(c.wind_mps);
+    mission.setOut(6.0);
+    Situation driven = mission.situation();
+    driven.tracking_error_m = 3.0;
+    driven.state[vessel::kPsi] = kPi + 1.2;
+    driven.state.tail<3>().setZero();
+    const Vector2d here = driven.state.head<2>();
+    if (c.shore) {
+      mission.put(here + Vector2d(4.5, -1.0), here + Vector2d(6.5, 1.0));
+    }
+    const double before_s = mission.now_s;
+    Orders orders;
+    for (int k = 0; k < 40 && !orders.stop; ++k) {
+      mission.now_s += 0.1;
+      driven.odometry_stamp_s = mission.now_s;
+      orders = mission.supervisor->update(mission.now_s, driven, mission.field);
+      if (orders.plan) {
+        (void)mission.refuse(*orders.plan, "no");
+      }
+    }
+    ASSERT_TRUE(orders.stop);
+    mission.now_s += 0.1;
+    driven.odometry_stamp_s = mission.now_s;
+    driven.foreseen = foreseenFrom(c.since_the_stop ? mission.now_s : before_s, driven.state,
+                                   {c.drifts_mps, 0.0});
+    orders = mission.supervisor->update(mission.now_s, driven, mission.field);
+    EXPECT_EQ(orders.sail && orders.sail->rolled_out, c.escapes)
+        << c.wind_mps << " " << c.shore << " " << c.since_the_stop << " " << c.drifts_mps;
+    if (c.escapes && orders.sail) {
+      EXPECT_EQ(mission.supervisor->phase(), Phase::kBackingOff);
+      EXPECT_LT((orders.sail->trajectory.flat(0.0).position - here).norm(), 1e-6);
+      const map::DistanceField& field = mission.field;
+      for (double t = 0.0; t < orders.sail->trajectory.duration(); t += 0.1) {
+        EXPECT_GT(field.clearance(orders.sail->trajectory.flat(t).position), 0.54) << t;
+      }
+    }
+  }
+}
+
 // Late on its way it lies where nothing is, and a shore to windward or abeam is none that a lost
 // heading is driven on.
 TEST(SupervisorInWind, NeitherBeingLateNorAWindwardShoreIsAHurry) {

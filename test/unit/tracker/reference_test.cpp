@@ -85,5 +85,30 @@ TEST(Reference, ANewTrajectoryDoesNotTurnItInStrongWind) {
   }
 }
 
+// A hull that turns on the spot abeam of a wind that would set it aside: where it is so by the
+// model's own motion the heading is meant.
+TEST(Reference, HeadingsOfARolledOutMotionAreMeant) {
+  trajectory::TimedTrajectory sailed;
+  sailed.trajectory = trajectory::Trajectory(
+      {trajectory::spinPiece(Eigen::Vector2d::Zero(), 0.5 * kPi - 0.2, 0.5 * kPi + 0.2, 8.0)});
+  for (const bool rolled_out : {false, true}) {
+    sailed.rolled_out = rolled_out;
+    ReferenceSource source(Options{}, otterGazebo());
+    OcpReference reference;
+    reference.corridor.half_width_rad = rolled_out ? reference.corridor.half_width_rad : 0.4;
+    source.rest({0.0, 0.0}, kPi);
+    source.fill(-0.1, kHorizonStepS, kHorizonStages, kPi, eastwardWind(), reference);
+    source.start(sailed, 0.0);
+    EXPECT_EQ(source.isRolledOut(), rolled_out);
+    source.fill(0.0, kHorizonStepS, kHorizonStages, kPi, eastwardWind(), reference);
+    const double off_rad =
+        std::abs(wrapAngle(reference.states[0][vessel::kPsi] -
+                           sailed.trajectory.sample(0.0, otterGazebo()).state[vessel::kPsi]));
+    EXPECT_EQ(off_rad < 0.05, rolled_out) << off_rad;
+    source.rest({0.0, 0.0}, kPi);
+    EXPECT_FALSE(source.isRolledOut());
+  }
+}
+
 }  // namespace
 }  // namespace otter_nav::tracker
