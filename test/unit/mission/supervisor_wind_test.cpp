@@ -1307,7 +1307,7 @@ TEST(SupervisorInWind, EscapesFromWhatTheTrackerForeseesItDriftsOnto) {
   };
   for (const auto& c : {Case{8.0, true, true, 1.0, true}, Case{8.0, false, true, 1.0, false},
                         Case{8.0, true, false, 1.0, false}, Case{8.0, true, true, 0.1, false},
-                        Case{3.0, true, true, 1.0, false}}) {
+                        Case{8.0, true, true, 0.4, false}, Case{3.0, true, true, 1.0, false}}) {
     ScriptedMission mission = inWind(c.wind_mps);
     mission.setOut(6.0);
     Situation driven = mission.situation();

@@ -85,25 +85,35 @@ TEST(Reference, ANewTrajectoryDoesNotTurnItInStrongWind) {
   }
 }
 
-// A hull that turns on the spot abeam of a wind that would set it aside: where it is so by the
-// model's own motion the heading is meant.
+// Abeam of a wind that sets the hull aside: where it is so by the model's own motion the headings
+// are meant, from the first on, though the hull lay bow to the wind.
 TEST(Reference, HeadingsOfARolledOutMotionAreMeant) {
+  const double begins_rad = 0.5 * kPi - 0.2;
   trajectory::TimedTrajectory sailed;
-  sailed.trajectory = trajectory::Trajectory(
-      {trajectory::spinPiece(Eigen::Vector2d::Zero(), 0.5 * kPi - 0.2, 0.5 * kPi + 0.2, 8.0)});
+  trajectory::Piece carried =
+      trajectory::spinPiece(Eigen::Vector2d::Zero(), begins_rad, 0.5 * kPi + 0.2, 8.0);
+  carried.position.col(1) = Eigen::Vector2d(0.3, 0.6);
+  sailed.trajectory = trajectory::Trajectory({carried});
   for (const bool rolled_out : {false, true}) {
     sailed.rolled_out = rolled_out;
     ReferenceSource source(Options{}, otterGazebo());
     OcpReference reference;
-    reference.corridor.half_width_rad = rolled_out ? reference.corridor.half_width_rad : 0.4;
+    reference.corridor = {kPi, 0.4, false};
     source.rest({0.0, 0.0}, kPi);
     source.fill(-0.1, kHorizonStepS, kHorizonStages, kPi, eastwardWind(), reference);
     source.start(sailed, 0.0);
     EXPECT_EQ(source.isRolledOut(), rolled_out);
+    if (rolled_out) {
+      reference.corridor = {};
+    }
     source.fill(0.0, kHorizonStepS, kHorizonStages, kPi, eastwardWind(), reference);
-    const double off_rad =
-        std::abs(wrapAngle(reference.states[0][vessel::kPsi] -
-                           sailed.trajectory.sample(0.0, otterGazebo()).state[vessel::kPsi]));
+    double off_rad = 0.0;
+    for (int k = 0; k <= kHorizonStages; ++k) {
+      const double meant =
+          sailed.trajectory.sample(k * kHorizonStepS, otterGazebo()).state[vessel::kPsi];
+      const double psi = reference.states[static_cast<std::size_t>(k)][vessel::kPsi];
+      off_rad = std::max(off_rad, std::abs(wrapAngle(psi - meant)));
+    }
     EXPECT_EQ(off_rad < 0.05, rolled_out) << off_rad;
     source.rest({0.0, 0.0}, kPi);
     EXPECT_FALSE(source.isRolledOut());
