@@ -119,7 +119,12 @@ void PredictiveController::prepareFor(double start_s, double psi_rad, const vess
   solved_for_s_ = start_s;
   prepared_for_s_ = start_s;
   prepared_ = true;
-  solver_.prepare(reference_);
+  // Where the heading that a path asks for jumps, the reference turns so fast that steps of the
+  // model explode about it.
+  if (solver_.prepare(reference_) == SolverStatus::kIndefinite && !plan_valid_) {
+    solver_.initializeAtRest(reference_);
+    solver_.prepare(reference_);
+  }
 }
 
 void PredictiveController::prepare(double next_s, const vessel::Thrusts& last,

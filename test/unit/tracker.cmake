@@ -8,6 +8,7 @@ otter_nav_test(unit_tracker
     ${CMAKE_CURRENT_LIST_DIR}/tracker/navigator_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/options_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/orbital_motion_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracker/predictive_controller_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/reference_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/station_keeper_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/tracker_test.cpp

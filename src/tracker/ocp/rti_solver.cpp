@@ -42,6 +42,13 @@ void RtiSolver::initialize(const OcpReference& reference) {
   prepared_ = SolverStatus::kNotFinite;
 }
 
+void RtiSolver::initializeAtRest(const OcpReference& reference) {
+  initialize(reference);
+  for (int k = 0; k <= qp_.stages(); ++k) {
+    plan_.states[k].tail<3>().setZero();
+  }
+}
+
 void RtiSolver::shift(double fraction) {
   const int n = qp_.stages();
   const double f = std::clamp(fraction, 0.0, 1.0);

@@ -40,6 +40,8 @@ class RtiSolver {
   void limitRates(const vessel::Thrusts& acting, double rate_nps);  // see ControlProblem
   // Start from the reference (clamped to the bounds).
   void initialize(const OcpReference& reference);
+  // Start from a hull at rest all along the reference, about which there always is a linearisation.
+  void initializeAtRest(const OcpReference& reference);
   // Moves the plan on by `fraction` of a stage.
   void shift(double fraction);
 

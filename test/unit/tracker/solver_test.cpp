@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 #include "otter_nav/base/rk4.hpp"
 #include "problem.hpp"
@@ -224,6 +225,23 @@ TEST(RtiSolver, SaysWhenIterationsRunOutAndKeepsWithinTheBounds) {
     EXPECT_LE(solver.thrusts()[k].maxCoeff(), p.options.upper_n[0]);
     EXPECT_GE(solver.thrusts()[k].minCoeff(), p.options.lower_n[0]);
   }
+}
+
+// Steps of the model explode about yaw rates that no hull has.
+TEST(RtiSolver, BeginsAtRestWhereThereIsNoLinearisationAboutTheReference) {
+  Problem p = circle(40, 0.0);
+  p.vessel =
+      *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+  p.options.step_s = 0.15;
+  for (int k = 10; k <= 40; k += 3) {
+    p.reference->states[static_cast<std::size_t>(k)][vessel::kYawRate] = k % 2 == 0 ? 40.0 : -40.0;
+  }
+  RtiSolver solver(p.options, p.rti, p.vessel.manoeuvring, p.vessel.thrusters);
+  solver.initialize(*p.reference);
+  EXPECT_EQ(solver.prepare(*p.reference), SolverStatus::kIndefinite);
+  solver.initializeAtRest(*p.reference);
+  EXPECT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
+  EXPECT_TRUE(usable(solver.feedback(p.measured)));
 }
 
 TEST(RtiSolver, RefusesWhatIsNotFinite) {
