@@ -12,6 +12,9 @@ namespace {
 constexpr double kJumpM = 1.0;
 constexpr double kJumpRad = 0.5;
 constexpr double kBelieveJumpAfterS = 0.3;
+// The water that waves carry to and fro looks like a current at first: what the first seconds tell
+// of one is steered by in proportion to how much of this has been felt.
+constexpr double kCurrentComesS = 5.0;
 // Under way, until the waves are told from the current; and how soon that is out of date at
 // crawling pace, where a hull is left to swing with them.
 constexpr double kSeawayAfterS = 8.0;
@@ -99,8 +102,10 @@ void Navigator::reset(const vessel::State& measured) {
   jumping_ = false;
 }
 
-void Navigator::weighSeaway(double since_s) {
+void Navigator::weighCurrents(double since_s) {
   disturbance_ = estimator_.disturbance();
+  felt_s_ = std::min(felt_s_ + since_s, kCurrentComesS);
+  disturbance_.current_mps *= felt_s_ / kCurrentComesS;
   if (!foresees_waves_) {
     return;
   }
@@ -152,7 +157,7 @@ void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
     reason_ = "odometry jumps";
     return;
   }
-  weighSeaway(since);
+  weighCurrents(since);
   reason_ = {};
 }
 

@@ -53,8 +53,8 @@ class Navigator {
   void forEachPiece(double until_s, vessel::Thrusts& acting, Step step) const;
   [[nodiscard]] bool believable(double stamp_s, const vessel::State& state);
   void reset(const vessel::State& measured);
-  // After `since_s` under what was felt last.
-  void weighSeaway(double since_s);
+  // What is steered by, after `since_s` under what was felt last.
+  void weighCurrents(double since_s);
 
   OdometryOptions options_;
   double period_s_;
@@ -64,6 +64,7 @@ class Navigator {
   // from the current.
   Estimator seaway_;
   bool foresees_waves_;
+  double felt_s_ = 0.0;
   double under_way_s_ = 0.0;
   double seaway_share_ = 0.0;
   vessel::Disturbance disturbance_;

@@ -67,6 +67,17 @@ TEST_F(InWaves, AreForgottenInAGap) {
   EXPECT_EQ(foreseenMps(), 0.0);
 }
 
+// The water that the waves move is told as a current at first.
+TEST_F(InWaves, ACurrentIsSteeredByOnceItWasFelt) {
+  for (const double felt_s : {0.5, 1.0, 2.0, 4.0}) {
+    sail(felt_s - now_s, 0.0);
+    const Eigen::Vector2d told = navigator.disturbanceEstimate().mean.current_mps;
+    const Eigen::Vector2d steered_by = navigator.disturbance().current_mps;
+    EXPECT_GT(told.norm(), 0.02) << felt_s;
+    EXPECT_NEAR((steered_by - 0.2 * felt_s * told).norm(), 0.0, 0.01 * told.norm()) << felt_s;
+  }
+}
+
 // As its estimate of the disturbance is then the one that it always had.
 TEST_F(InWaves, TellTheMissionWhatTheFirstFilterFinds) {
   sail(6.0, 60.0);
