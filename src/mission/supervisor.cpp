@@ -575,7 +575,8 @@ class Decider final : public Supervisor {
     constexpr double kWorthM = 0.7;
     constexpr double kAgainS = 0.2;
     const vessel::Foreseen& foreseen = m.situation.foreseen;
-    if (!weather().isNearlyStrong() || !knowsPlace(m) || foreseen.start_s < given_s_ ||
+    const bool may_be_driven = weather().isNearlyStrong() || safety().plansWithWeather();
+    if (!may_be_driven || !knowsPlace(m) || foreseen.start_s < given_s_ ||
         m.now_s - escaped_s_ < kAgainS) {
       return false;
     }

@@ -1347,6 +1347,37 @@ TEST(SupervisorInWind, EscapesFromWhatTheTrackerForeseesItDriftsOnto) {
   }
 }
 
+// So in a load that plans are made with.
+TEST(SupervisorInWind, EscapesInAFirmLoadThatPlansKnow) {
+  struct Case {
+    double load_n;
+    bool known;
+    bool escapes;
+  };
+  for (const auto& c : {Case{60.0, true, true}, Case{6.0, true, false}, Case{60.0, false, false}}) {
+    ScriptedMission mission(openWater(), c.known ? knowing() : forStillWater());
+    mission.supervisor = Supervisor::create(
+        mission.options,
+        *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml"),
+        1);
+    blow(mission, 10.0, [&](double) { return Vector2d(-c.load_n, 0.0); });
+    mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    const auto asked = mission.goTo({40.0, 0.0});
+    ASSERT_TRUE(asked && asked->plan);
+    (void)mission.answer(*asked->plan, test::eastward({-40.0, 0.0}, 80.0, 1.0));
+    blow(mission, 6.0, [&](double) { return Vector2d(-c.load_n, 0.0); });
+    mission.now_s += 0.1;
+    Situation driven = mission.situation();
+    driven.state[vessel::kPsi] = 0.5 * kPi;
+    driven.state.tail<3>().setZero();
+    const Vector2d here = driven.state.head<2>();
+    mission.put(here + Vector2d(-6.5, -1.0), here + Vector2d(-4.5, 1.0));
+    driven.foreseen = foreseenFrom(mission.now_s, driven.state, {-1.0, 0.0});
+    const Orders orders = mission.supervisor->update(mission.now_s, driven, mission.field);
+    EXPECT_EQ(orders.sail && orders.sail->rolled_out, c.escapes) << c.load_n << " " << c.known;
+  }
+}
+
 // Late on its way it lies where nothing is, and a shore to windward or abeam is none that a lost
 // heading is driven on.
 TEST(SupervisorInWind, NeitherBeingLateNorAWindwardShoreIsAHurry) {
