@@ -40,6 +40,35 @@ TEST(DisturbanceEstimateMessage, TellsWhetherTheWavesAreKnown) {
   }
 }
 
+// What the tracker foresees comes through, and no part of a message that is wrong anywhere.
+TEST(ForeseenMessage, ComesWholeOrNotAtAll) {
+  vessel::Foreseen foreseen{12.0, 0.5, {{{1.0, 2.0}, 0.3}, {{1.5, 2.5}, 0.4}}};
+  const Foreseen message = ros_bridge::toMessage(foreseen);
+  const auto told = ros_bridge::toForeseen(message);
+  ASSERT_TRUE(told);
+  ASSERT_EQ(told->poses.size(), 2U);
+  EXPECT_DOUBLE_EQ(told->start_s, 12.0);
+  EXPECT_DOUBLE_EQ(told->step_s, 0.5);
+  EXPECT_EQ(told->poses[1].position, foreseen.poses[1].position);
+  EXPECT_DOUBLE_EQ(told->poses[1].psi_rad, 0.4);
+
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refusal = [&](auto spoil) {
+    Foreseen spoilt = message;
+    spoil(spoilt);
+    const auto read = ros_bridge::toForeseen(spoilt);
+    return read ? std::string("taken") : read.error().message;
+  };
+  EXPECT_EQ(refusal([](Foreseen& m) { m.y.pop_back(); }),
+            "foreseen: x, y and heading hold 2, 1 and 2");
+  EXPECT_EQ(refusal([](Foreseen& m) { m.heading.push_back(0.0); }),
+            "foreseen: x, y and heading hold 2, 2 and 3");
+  EXPECT_EQ(refusal([](Foreseen& m) { m.step = -0.5; }), "foreseen: step is -0.5 s");
+  EXPECT_NE(refusal([&](Foreseen& m) { m.step = nan; }), "taken");
+  EXPECT_EQ(refusal([&](Foreseen& m) { m.x[1] = nan; }), "foreseen: place 1 is not finite");
+  EXPECT_EQ(refusal([&](Foreseen& m) { m.heading[0] = -nan; }), "foreseen: place 0 is not finite");
+}
+
 // The message's constants are the names that the tracker gives its modes.
 TEST(TrackerStatusMessage, NamesTheModes) {
   using tracker::Mode;
