@@ -566,7 +566,7 @@ class Decider final : public Supervisor {
   }
   // Something, by wind and current, in the seconds that the tracker foresees, while its thrust is
   // spent on turning the hull; and there are thrusts by which it passes. On a plan there may be
-  // little room.
+  // little room, and a load that turns no hull lets it keep its place with little.
   bool isDrivenOnto(const Moment& m) {
     constexpr double kWithinS = 5.0;
     constexpr double kNearM = 1.0;
@@ -575,7 +575,8 @@ class Decider final : public Supervisor {
     constexpr double kWorthM = 0.7;
     constexpr double kAgainS = 0.2;
     const vessel::Foreseen& foreseen = m.situation.foreseen;
-    const bool may_be_driven = weather().isNearlyStrong() || safety().plansWithWeather();
+    const bool may_lose_heading = weather().isNearlyStrong();
+    const bool may_be_driven = may_lose_heading || safety().plansWithWeather();
     if (!may_be_driven || !knowsPlace(m) || foreseen.start_s < given_s_ ||
         m.now_s - escaped_s_ < kAgainS) {
       return false;
@@ -586,7 +587,8 @@ class Decider final : public Supervisor {
       return stopping::leastClearance(motion, m.now_s, m.now_s + kWithinS, m.obstacles,
                                       vessel_.hull);
     };
-    const double near_m = (in(phase_)&kUnderWay) != 0 ? kNearOnItsWayM : kNearM;
+    const bool is_on_its_way = (in(phase_)&kUnderWay) != 0;
+    const double near_m = may_lose_heading && !is_on_its_way ? kNearM : kNearOnItsWayM;
     const double comes_m = least(foreseen);
     if (comes_m > std::min(near_m, least(here) - kNearerM)) {
       return false;
