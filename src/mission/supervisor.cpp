@@ -566,7 +566,8 @@ class Decider final : public Supervisor {
   }
   // Something, by wind and current, in the seconds that the tracker foresees, while its thrust is
   // spent on turning the hull; and there are thrusts by which it passes. On a plan there may be
-  // little room, and a load that turns no hull lets it keep its place with little.
+  // little room, and a load that turns no hull lets it keep its place with little; what is foreseen
+  // soon after an escape from there is the same again.
   bool isDrivenOnto(const Moment& m) {
     constexpr double kWithinS = 5.0;
     constexpr double kNearM = 1.0;
@@ -574,11 +575,13 @@ class Decider final : public Supervisor {
     constexpr double kNearerM = 0.5;  // than it lies
     constexpr double kWorthM = 0.7;
     constexpr double kAgainS = 0.2;
+    constexpr double kAnotherS = 60.0;
     const vessel::Foreseen& foreseen = m.situation.foreseen;
     const bool may_lose_heading = weather().isNearlyStrong();
+    const bool is_escaping = escapes_ && phase_ == Phase::kBackingOff;
     const bool may_be_driven = may_lose_heading || safety().plansWithWeather();
     if (!may_be_driven || !knowsPlace(m) || foreseen.start_s < given_s_ ||
-        m.now_s - escaped_s_ < kAgainS) {
+        m.now_s - escaped_s_ < (may_lose_heading || is_escaping ? kAgainS : kAnotherS)) {
       return false;
     }
     const vessel::State& x = m.situation.state;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../feasibility/moving_disc.hpp"
@@ -1382,6 +1383,17 @@ TEST(SupervisorInWind, EscapesInAFirmLoadThatPlansKnow) {
     const Orders orders = mission.supervisor->update(mission.now_s, driven, mission.field);
     EXPECT_EQ(orders.sail && orders.sail->rolled_out, c.escapes)
         << c.load_n << " " << c.known << " " << c.waits << " " << c.drifts_mps;
+    if (!c.escapes) {
+      continue;
+    }
+    // What is foreseen soon after is the same again.
+    for (const auto& [after_s, again] : {std::pair(20.0, false), std::pair(50.0, true)}) {
+      blow(mission, after_s, [&](double) { return Vector2d(-c.load_n, 0.0); });
+      driven.odometry_stamp_s = mission.now_s += 0.1;
+      driven.foreseen = foreseenFrom(mission.now_s, driven.state, {-1.0, 0.0});
+      const Orders then = mission.supervisor->update(mission.now_s, driven, mission.field);
+      EXPECT_EQ(then.sail && then.sail->rolled_out, again) << c.waits << " " << after_s;
+    }
   }
 }
 
