@@ -75,10 +75,14 @@ set +u
 . "$top/install/setup.bash"
 set -u
 
-# The usual port if it is free, so that rosnode and rviz find the mission; else any free one.
-port=$(/usr/bin/python3 - <<'PY'
-import socket
-for port in (11311, 0):
+# The usual port if it is free, so that rosnode and rviz find the mission; else any free one. Until a
+# mission's master listens its port looks free to the next, so the lock says who has the usual one.
+usual=11311
+exec 9>>"${TMPDIR:-/tmp}/otter_nav_mission_$(id -u).lock"
+flock -n 9 || usual=0
+port=$(/usr/bin/python3 - "$usual" <<'PY'
+import socket, sys
+for port in (int(sys.argv[1]), 0):
     with socket.socket() as s:
         s.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
