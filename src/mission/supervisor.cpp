@@ -57,6 +57,7 @@ constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBac
 constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
 constexpr unsigned kEvading = in(Phase::kEvading);
 constexpr double kEvadeAgainS = 0.25;  // from one decision about others to the next
+constexpr double kSettleS = 10.0;      // at a trajectory's end
 // What the thrusters lack for so much longer on one way than on another makes a difference.
 constexpr double kOvertaxedLongerS = 1.5;
 
@@ -248,17 +249,27 @@ class Decider final : public Supervisor {
   bool isLostOverTheEdge(const Moment& m) { return isFarOff(m) && inside(m) < 0.0; }
 
   bool isAtTheEnd(const Moment& m) { return sailed_.left(m.now_s) <= 0.0; }
-  // By whatever way.
-  bool isThere(const Moment& m) {
+  bool liesAtTheGoal(const Moment& m) {
     const vessel::State& x = m.situation.state;
     return (x.head<2>() - goal_.position).norm() <= options_.arrival_distance_m &&
-           (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields()) &&
            vessel::speedOf(x) <= vessel::kRestMps;
   }
-  bool hasArrived(const Moment& m) { return isAtTheEnd(m) && isThere(m); }
+  // By whatever way.
+  bool isThere(const Moment& m) {
+    return liesAtTheGoal(m) &&
+           (headingOff(m) <= options_.arrival_heading_rad || goalHeadingYields());
+  }
+  bool hasArrived(const Moment& m) {
+    return isAtTheEnd(m) && (isThere(m) || (liesAtTheGoal(m) && doesNotComeRound(m)));
+  }
+  // Its way is over, and it lies in the wind with the goal's heading beyond abeam of it, where
+  // strong wind takes the moment that the next try would need as well.
+  bool doesNotComeRound(const Moment& m) {
+    return mayLoseItsHeading() && sailed_.left(m.now_s) <= -kSettleS && headingOff(m) > 0.5 * kPi &&
+           isHeldInWind(m.situation.state[vessel::kPsi]);
+  }
   // A trajectory that ends elsewhere belongs to a goal that was replaced: nothing to wait for.
   bool settlesNoMore(const Moment& m) {
-    constexpr double kSettleS = 10.0;
     constexpr double kElsewhereM = 0.5;
     if (!isAtTheEnd(m)) {
       return false;
@@ -942,15 +953,23 @@ class Decider final : public Supervisor {
     if (headingOff(m) <= options_.arrival_heading_rad) {
       return enter(Phase::kArrived);
     }
+    const std::string off =
+        text("%.2f m from the goal (%.2f m allowed), but %.2f rad off its heading: ",
+             (m.situation.state.head<2>() - goal_.position).norm(), options_.arrival_distance_m,
+             headingOff(m));
+    if (!goalHeadingYields()) {
+      return enter(Phase::kArrived, off + text("the wind turns the hull with %.0f N m, of the "
+                                               "%.0f N m that would turn it round",
+                                               weather().greatestMoment(),
+                                               vessel::greatestMoment(vessel_.thrusters)));
+    }
     const bool in_gusts = mayLoseItsHeading();
     const vessel::Disturbance load = in_gusts ? weather().gust() : weather().mean();
-    return enter(
-        Phase::kArrived,
-        text("%.2f m from the goal (%.2f m allowed), but %.2f rad off its heading: wind "
-             "and current would set the vessel aside by %.2f m/s on it",
-             (m.situation.state.head<2>() - goal_.position).norm(), options_.arrival_distance_m,
-             headingOff(m), vessel::setAside(vessel_.manoeuvring, load, goal_.psi_rad)) +
-            (in_gusts ? " in gusts" : ""));
+    return enter(Phase::kArrived,
+                 off +
+                     text("wind and current would set the vessel aside by %.2f m/s on it",
+                          vessel::setAside(vessel_.manoeuvring, load, goal_.psi_rad)) +
+                     (in_gusts ? " in gusts" : ""));
   }
   // The way that is sailed would lead on.
   Orders arriveEvading(const Moment& m) {

@@ -1016,6 +1016,48 @@ TEST(SupervisorInWind, DoesNotTurnRoundAtTheGoalWhereStrongWindVeers) {
   }
 }
 
+// The goal's heading can be held, stern to the wind, but the hull lies bow to it when its way is
+// over: strong wind won't let it turn past abeam the next time either.
+TEST(SupervisorInWind, DoesNotTryAgainToTurnRoundAtTheGoalInStrongWind) {
+  struct Case {
+    double wind_mps, goal_rad, lies_rad;
+    bool arrives;
+  };
+  for (const auto [wind_mps, goal_rad, lies_rad, arrives] : {
+           Case{8.0, kPi, 0.0, true},
+           Case{8.0, kPi, 0.4, true},
+           Case{8.0, kPi, 0.9, false},        // not held there
+           Case{8.0, kPi, kPi - 0.5, false},  // comes round
+           Case{3.0, kPi, 0.0, false},
+       }) {
+    ScriptedMission mission = inWind(-wind_mps);
+    mission.rest.x() = 0.0;
+    const auto orders = mission.goTo({20.0, 0.0}, goal_rad);
+    ASSERT_TRUE(orders && orders->plan);
+    EXPECT_NEAR(std::abs(orders->plan->query.goal.psi_rad), goal_rad, 1e-6);
+    ASSERT_TRUE(mission.answer(*orders->plan, test::eastward({0.0, 0.0}, 20.0, 0.8)).sail);
+    const double end_s = mission.supervisor->sailed().start_time_s +
+                         mission.supervisor->sailed().trajectory.duration();
+    while (mission.now_s < end_s) {
+      (void)mission.update(0.1);
+    }
+    const auto lie = [&](double until_s) {
+      while (mission.now_s < until_s) {
+        mission.now_s += 0.1;
+        Situation there = mission.situation();
+        there.state[vessel::kPsi] = lies_rad;
+        (void)mission.supervisor->update(mission.now_s, there, mission.obstacles());
+      }
+    };
+    lie(end_s + 9.5);
+    EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing) << mission.supervisor->reason();
+    lie(end_s + 10.5);
+    EXPECT_EQ(mission.supervisor->phase() == Phase::kArrived, arrives)
+        << mission.supervisor->reason();
+    EXPECT_EQ(mission.supervisor->reason().find("turn it round") != std::string::npos, arrives);
+  }
+}
+
 // With 2 m beside it, though all is free to leeward.
 TEST(SupervisorInWind, MakesMoreRoomInStrongWind) {
   for (const double wind_mps : {5.0, 8.0}) {
