@@ -958,8 +958,8 @@ class Decider final : public Supervisor {
              (m.situation.state.head<2>() - goal_.position).norm(), options_.arrival_distance_m,
              headingOff(m));
     if (!goalHeadingYields()) {
-      return enter(Phase::kArrived, off + text("the wind turns the hull with %.0f N m, of the "
-                                               "%.0f N m that would turn it round",
+      return enter(Phase::kArrived, off + text("the wind takes %.0f N m of the %.0f N m "
+                                               "that turn the hull round",
                                                weather().greatestMoment(),
                                                vessel::greatestMoment(vessel_.thrusters)));
     }
