@@ -76,10 +76,9 @@ set +u
 set -u
 
 # The usual port if it is free, so that rosnode and rviz find the mission; else any free one. Until a
-# mission's master listens its port looks free to the next, so the lock says who has the usual one.
+# mission's master listens its port looks free to the next, so a lock says who has the usual one.
 usual=11311
-exec 9>>"${TMPDIR:-/tmp}/otter_nav_mission_$(id -u).lock"
-flock -n 9 || usual=0
+if { exec 9>>"/tmp/otter_nav_mission_$(id -u).lock"; } 2>/dev/null && ! flock -n 9; then usual=0; fi
 port=$(/usr/bin/python3 - "$usual" <<'PY'
 import socket, sys
 for port in (int(sys.argv[1]), 0):
