@@ -1023,7 +1023,7 @@ TEST(SupervisorInWind, DoesNotTryAgainToTurnRoundAtTheGoalInStrongWind) {
     double wind_mps, lies_rad, off_m, speed_mps;
     bool arrives;
   };
-  for (const auto [wind_mps, lies_rad, off_m, speed_mps, arrives] : {
+  for (const Case& at : {
            Case{8.0, 0.0, 0.0, 0.0, true},
            Case{8.0, 0.4, 0.0, 0.0, true},
            Case{8.0, 0.9, 0.0, 0.0, false},        // not held there
@@ -1032,7 +1032,7 @@ TEST(SupervisorInWind, DoesNotTryAgainToTurnRoundAtTheGoalInStrongWind) {
            Case{8.0, 0.0, 0.0, 0.4, false},        // not at rest
            Case{3.0, 0.0, 0.0, 0.0, false},
        }) {
-    ScriptedMission mission = inWind(-wind_mps);
+    ScriptedMission mission = inWind(-at.wind_mps);
     mission.rest.x() = 0.0;
     const auto orders = mission.goTo({20.0, 0.0}, kPi);
     ASSERT_TRUE(orders && orders->plan);
@@ -1047,19 +1047,19 @@ TEST(SupervisorInWind, DoesNotTryAgainToTurnRoundAtTheGoalInStrongWind) {
       while (mission.now_s < until_s) {
         mission.now_s += 0.1;
         Situation there = mission.situation();
-        there.state.y() += off_m;
-        there.state[vessel::kPsi] = lies_rad;
-        there.state[vessel::kSurge] = speed_mps;
+        there.state.y() += at.off_m;
+        there.state[vessel::kPsi] = at.lies_rad;
+        there.state[vessel::kSurge] = at.speed_mps;
         (void)mission.supervisor->update(mission.now_s, there, mission.obstacles());
       }
     };
     lie(end_s + 9.5);
     EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing) << mission.supervisor->reason();
     lie(end_s + 10.5);
-    EXPECT_EQ(mission.supervisor->phase() == Phase::kArrived, arrives)
+    EXPECT_EQ(mission.supervisor->phase() == Phase::kArrived, at.arrives)
         << mission.supervisor->reason();
     EXPECT_EQ(mission.supervisor->reason().find("turn the hull round") != std::string::npos,
-              arrives);
+              at.arrives);
   }
 }
 
