@@ -80,4 +80,29 @@ void walkBeam(const GridGeometry& grid, const Layers& layers, const Eigen::Vecto
   }
 }
 
+// Calls visit(cell, how far off `along` it begins, m) for each cell that the ray enters within
+// `error` of `along`, in order.
+template <typename Visit>
+void enteredWithin(const GridGeometry& grid, const Eigen::Vector3d& origin,
+                   const Eigen::Vector3d& direction, double along, double error,
+                   const Visit& visit) {
+  constexpr double kNever = 1e30;
+  const Eigen::Vector2d start =
+      ((origin + (along - error) * direction).head<2>() - grid.origin) / grid.resolution_m;
+  Eigen::Vector2i cell = start.array().floor().cast<int>();
+  Eigen::Vector2d next, stride;  // where the ray crosses each axis' next face, m from the start
+  for (int axis = 0; axis < 2; ++axis) {
+    const double d = direction[axis];
+    stride[axis] = d != 0.0 ? grid.resolution_m / std::abs(d) : kNever;
+    const double part = start[axis] - cell[axis];
+    next[axis] = d != 0.0 ? stride[axis] * (d > 0.0 ? 1.0 - part : part) : kNever;
+  }
+  while (next.minCoeff() < 2.0 * error) {
+    const int axis = next.x() < next.y() ? 0 : 1;
+    cell[axis] += direction[axis] > 0.0 ? 1 : -1;
+    visit(cell, std::abs(next[axis] - error));
+    next[axis] += stride[axis];
+  }
+}
+
 }  // namespace otter_nav::map

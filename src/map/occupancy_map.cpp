@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "otter_nav/vessel/hull.hpp"
 #include "sensed_layers.hpp"
 
 namespace otter_nav::map {
 namespace {
+
+constexpr double kRangeErrorM = 0.03;  // three standard deviations of a usual lidar
 
 // Why the scan cannot be used, or nothing.
 std::string whyRefused(const GridGeometry& grid, const SensorPose& sensor, const Scan& scan) {
@@ -69,6 +72,9 @@ struct OccupancyMap::Sensed {
   void clearOwnHull(const vessel::Pose& own, CellRectangle& changed);
   void insert(const SensorPose& sensor, const vessel::Pose& own, const Scan& scan,
               CellRectangle& changed);
+  // An echo of which it isn't clear by itself what cell's face it comes from.
+  void insertUnclear(const Eigen::Vector3d& sensor, const Eigen::Vector3d& direction,
+                     double range_m, int layer, CellRectangle& changed);
 
   vessel::Hull hull;
   double hull_margin_m;
@@ -76,6 +82,11 @@ struct OccupancyMap::Sensed {
   bool trust_chart;
   OccupancyGrid projection;
   SensedLayers layers;
+  struct Unclear {
+    std::size_t beam;
+    int layer;
+  };
+  std::vector<Unclear> unclear;
 };
 
 void OccupancyMap::Sensed::project(std::size_t index, CellRectangle& changed) {
@@ -111,16 +122,16 @@ void OccupancyMap::Sensed::clearOwnHull(const vessel::Pose& own, CellRectangle& 
 // Hits first, so that a beam passing close by an obstacle does not take from what another met. An
 // echo comes from a thing's near face, and often that is where two cells meet: a little further on
 // is the thing, whatever the range's noise. Without, things grow by a cell on the sides that are
-// seen.
+// seen. Where a beam crosses more faces than one within that much, as at a corner that it clips,
+// the echo waits for what the others tell.
 void OccupancyMap::Sensed::insert(const SensorPose& sensor, const vessel::Pose& own,
                                   const Scan& scan, CellRectangle& changed) {
-  constexpr double kBehindItsFaceM = 0.03;  // three standard deviations of a usual lidar
   const GridGeometry& g = chart.geometry;
   const Eigen::Matrix3d rotation = sensor.rotation();
   layers.beginScan();
-  const auto endOf = [&](std::size_t i) {
-    return Eigen::Vector3d(sensor.position +
-                           (scan.ranges_m[i] + kBehindItsFaceM) * (rotation * scan.direction(i)));
+  unclear.clear();
+  const auto alongBeam = [&](std::size_t i, double range_m) {
+    return Eigen::Vector3d(sensor.position + range_m * (rotation * scan.direction(i)));
   };
   const auto isOwn = [&](const Eigen::Vector3d& end) {
     return vessel::covers(hull, own, end.head<2>(), hull_margin_m);
@@ -129,12 +140,18 @@ void OccupancyMap::Sensed::insert(const SensorPose& sensor, const vessel::Pose& 
     if (!scan.metSomething(i)) {
       continue;
     }
-    const Eigen::Vector3d end = endOf(i);
+    const Eigen::Vector3d end = alongBeam(i, scan.ranges_m[i] + kRangeErrorM);
     const int layer = layers.layers().at(end.z());
     if (layer < 0 || !g.contains(end.head<2>()) || isOwn(end)) {
       continue;
     }
     const Eigen::Vector2i cell = g.cellAt(end.head<2>());
+    const Eigen::Vector2i before =
+        g.cellAt(alongBeam(i, scan.ranges_m[i] - kRangeErrorM).head<2>());
+    if ((cell - before).lpNorm<1>() > 1) {
+      unclear.push_back({i, layer});
+      continue;
+    }
     const std::size_t index = g.index(cell.x(), cell.y());
     if (chart.cells[index] != Cell::kOccupied && layers.hit(index, layer)) {
       project(index, changed);
@@ -143,17 +160,52 @@ void OccupancyMap::Sensed::insert(const SensorPose& sensor, const vessel::Pose& 
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     // An echo beside the hull may be a thing's, and no hit of it keeps its cell: such a beam tells
     // nothing.
-    if (!scan.metNothing(i) && (!scan.metSomething(i) || isOwn(endOf(i)))) {
+    if (!scan.metNothing(i) &&
+        (!scan.metSomething(i) || isOwn(alongBeam(i, scan.ranges_m[i] + kRangeErrorM)))) {
       continue;
     }
     walkBeam(g, layers.layers(), sensor.position, rotation * scan.direction(i),
-             scan.metNothing(i) ? scan.range_max_m : scan.ranges_m[i],
+             scan.metNothing(i) ? scan.range_max_m : scan.ranges_m[i] - kRangeErrorM,
              [&](std::size_t index, int layer) {
                if (!layers.freeForCertain(index, layer) && chart.cells[index] != Cell::kOccupied &&
                    layers.miss(index, layer)) {
                  project(index, changed);
                }
              });
+  }
+  for (const auto& [i, layer] : unclear) {
+    insertUnclear(sensor.position, rotation * scan.direction(i), scan.ranges_m[i], layer, changed);
+  }
+}
+
+// The face is the nearest one before a cell that no other beam has passed, if there is any. One of
+// an obstacle known already counts as nearer by a standard deviation.
+void OccupancyMap::Sensed::insertUnclear(const Eigen::Vector3d& sensor,
+                                         const Eigen::Vector3d& direction, double range_m,
+                                         int layer, CellRectangle& changed) {
+  const GridGeometry& g = chart.geometry;
+  std::size_t met = 0;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  bool met_passed = true;
+  enteredWithin(g, sensor, direction, range_m, kRangeErrorM,
+                [&](const Eigen::Vector2i& cell, double off_m) {
+                  if (!g.containsCell(cell.x(), cell.y())) {
+                    return;
+                  }
+                  const std::size_t index = g.index(cell.x(), cell.y());
+                  const bool charted = chart.cells[index] == Cell::kOccupied;
+                  const bool passed = !charted && layers.missed(index, layer);
+                  const bool known = charted || layers.occupied(index, layer);
+                  const double counts_m = known ? off_m - kRangeErrorM / 3.0 : off_m;
+                  if (passed < met_passed || (passed == met_passed && counts_m < nearest_m)) {
+                    met = index;
+                    nearest_m = counts_m;
+                    met_passed = passed;
+                  }
+                });
+  if (std::isfinite(nearest_m) && chart.cells[met] != Cell::kOccupied &&
+      layers.hitAfterAll(met, layer)) {
+    project(met, changed);
   }
 }
 

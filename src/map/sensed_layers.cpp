@@ -54,6 +54,7 @@ bool SensedLayers::claim(Column& column, std::uint32_t bit) {
   if (column.scan != scan_) {
     column.scan = scan_;
     column.touched = 0;
+    column.missed = 0;
   }
   const bool first = (column.touched & bit) == 0;
   column.touched |= bit;
@@ -97,7 +98,27 @@ bool SensedLayers::hit(std::size_t index, int layer) {
 
 bool SensedLayers::miss(std::size_t index, int layer) {
   const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
-  return claim(columns_[index], bit) && judge(index, bit, add(index, layer, miss_log_odds_));
+  if (!claim(columns_[index], bit)) {
+    return false;
+  }
+  columns_[index].missed |= bit;
+  return judge(index, bit, add(index, layer, miss_log_odds_));
+}
+
+bool SensedLayers::missed(std::size_t index, int layer) const {
+  const Column& column = columns_[index];
+  return freeForCertain(index, layer) ||
+         (column.scan == scan_ && (column.missed >> static_cast<unsigned>(layer) & 1U) != 0);
+}
+
+bool SensedLayers::hitAfterAll(std::size_t index, int layer) {
+  const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
+  Column& column = columns_[index];
+  if (!claim(column, bit) && (column.missed & bit) == 0) {
+    return false;
+  }
+  column.missed &= ~bit;
+  return judge(index, bit, add(index, layer, hit_log_odds_));
 }
 
 bool SensedLayers::clear(std::size_t index) {

@@ -20,6 +20,9 @@ class SensedLayers {
 
   [[nodiscard]] const Layers& layers() const { return layers_; }
   [[nodiscard]] bool occupied(std::size_t column) const { return columns_[column].occupied != 0; }
+  [[nodiscard]] bool occupied(std::size_t column, int layer) const {
+    return (columns_[column].occupied >> static_cast<unsigned>(layer) & 1U) != 0;
+  }
   [[nodiscard]] bool seen(std::size_t column) const { return columns_[column].seen != 0; }
 
   // One scan: all its hits first, then its misses; a voxel counts once, a hit before a miss.
@@ -27,6 +30,10 @@ class SensedLayers {
   void beginScan();
   bool hit(std::size_t column, int layer);
   bool miss(std::size_t column, int layer);
+  // A hit on a voxel that this scan may have missed before.
+  bool hitAfterAll(std::size_t column, int layer);
+  // Whether this scan found it free, or needed no more to do so.
+  [[nodiscard]] bool missed(std::size_t column, int layer) const;
   // Another miss would change nothing.
   [[nodiscard]] bool freeForCertain(std::size_t column, int layer) const {
     return (certainly_free_[column] >> static_cast<unsigned>(layer) & 1U) != 0;
@@ -42,6 +49,7 @@ class SensedLayers {
   struct Column {
     std::uint32_t scan = 0;     // the last one that touched it, for which `touched` holds
     std::uint32_t touched = 0;  // layers, a bit each, as below
+    std::uint32_t missed = 0;   // of these, what it found free
     std::uint32_t occupied = 0;
     std::uint32_t seen = 0;
   };

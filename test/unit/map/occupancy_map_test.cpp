@@ -204,15 +204,24 @@ TEST(OccupancyMap, MalformedScansAreRefusedWithAReason) {
   EXPECT_EQ(map.projection().cells, coast().cells);
 }
 
-// Columns that a level beam crosses: one for each stretch between two lines of the grid.
-std::set<std::pair<int, int>> crossed(const GridGeometry& grid, const Eigen::Vector2d& from,
-                                      const Eigen::Vector2d& along, double length) {
-  std::vector<double> lines = {0.0, length};
+// Where a level beam crosses lines of the grid, along it, in order.
+std::vector<double> linesCrossed(const GridGeometry& grid, const Eigen::Vector2d& from,
+                                 const Eigen::Vector2d& along) {
+  std::vector<double> lines;
   for (int axis = 0; axis < 2; ++axis) {
     for (int k = 0; k <= grid.width; ++k) {
       lines.push_back((grid.origin[axis] + k * grid.resolution_m - from[axis]) / along[axis]);
     }
   }
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+// Columns that a level beam crosses: one for each stretch between two lines of the grid.
+std::set<std::pair<int, int>> crossed(const GridGeometry& grid, const Eigen::Vector2d& from,
+                                      const Eigen::Vector2d& along, double length) {
+  std::vector<double> lines = linesCrossed(grid, from, along);
+  lines.insert(lines.end(), {0.0, length});
   std::sort(lines.begin(), lines.end());
   std::set<std::pair<int, int>> cells;
   for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -225,7 +234,20 @@ std::set<std::pair<int, int>> crossed(const GridGeometry& grid, const Eigen::Vec
   return cells;
 }
 
-// Scan by scan what a plain OctoMap holds that is told of each voxel once, hits before misses.
+constexpr double kRangeErrorM = 0.03;
+
+// How many lines of the grid a beam crosses near its echo.
+int facesWithin(const GridGeometry& grid, const SensorPose& sensor, const Scan& scan, std::size_t i,
+                double error_m) {
+  const Eigen::Vector2d along = (sensor.rotation() * scan.direction(i)).head<2>();
+  const std::vector<double> lines = linesCrossed(grid, sensor.position.head<2>(), along);
+  return static_cast<int>(std::count_if(lines.begin(), lines.end(), [&](double at) {
+    return std::abs(at - scan.ranges_m[i]) < error_m;
+  }));
+}
+
+// Scan by scan what a plain OctoMap holds that is told of each voxel once, hits before misses,
+// where no echo lies at more than one face.
 TEST(OccupancyMap, BelievesWhatAnOctoMapWould) {
   Random random(5);
   OccupancyGrid chart = coast();
@@ -245,8 +267,11 @@ TEST(OccupancyMap, BelievesWhatAnOctoMapWould) {
     const SensorPose sensor =
         sensorAt(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
     Scan scan = openWater(90);
-    for (float& range : scan.ranges_m) {
-      range = random.uniform() < 0.4 ? kInf : static_cast<float>(random.uniform(0.5, 12.0));
+    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+      float& range = scan.ranges_m[i];
+      do {
+        range = random.uniform() < 0.4 ? kInf : static_cast<float>(random.uniform(0.5, 12.0));
+      } while (scan.metSomething(i) && facesWithin(grid, sensor, scan, i, kRangeErrorM) > 1);
     }
     ASSERT_TRUE(map.insertScan(sensor, {{-18.0, -18.0}, 0.0}, scan));
     std::set<std::pair<int, int>> hits, misses;
@@ -255,10 +280,11 @@ TEST(OccupancyMap, BelievesWhatAnOctoMapWould) {
       const Eigen::Vector2d from = sensor.position.head<2>();
       const bool met = scan.metSomething(i);
       if (met) {
-        const Eigen::Vector2i cell = grid.cellAt(from + (scan.ranges_m[i] + 0.03) * along);
+        const Eigen::Vector2i cell = grid.cellAt(from + (scan.ranges_m[i] + kRangeErrorM) * along);
         hits.emplace(cell.x(), cell.y());
       }
-      misses.merge(crossed(grid, from, along, met ? scan.ranges_m[i] : scan.range_max_m));
+      misses.merge(
+          crossed(grid, from, along, met ? scan.ranges_m[i] - kRangeErrorM : scan.range_max_m));
     }
     for (const auto& cell : hits) {
       tree.updateNode(keyOf(cell), octomap::logodds(options.hit_probability));
@@ -294,6 +320,120 @@ TEST(OccupancyMap, BelievesWhatAnOctoMapWould) {
     }
   }
   EXPECT_GT(seen, 8000);
+}
+
+// 20 m by 20 m in cells of 0.1 m.
+OccupancyGrid pond() {
+  OccupancyGrid grid;
+  grid.geometry = {200, 200, 0.1, {-10.0, -10.0}};
+  grid.cells.assign(200UL * 200UL, Cell::kUnknown);
+  return grid;
+}
+
+// Pillars made of cells, as many of their corners are clipped by beams that come out a few
+// centimetres on: they grow by hardly a cell, and none of them is taken for water.
+TEST(OccupancyMap, PillarsDoNotGrowWhereBeamsClipTheirCorners) {
+  Random random(8);
+  const GridGeometry grid = pond().geometry;
+  OccupancyGrid world = pond();
+  std::vector<Eigen::Vector2d> pillars;
+  for (int k = 0; k < 12; ++k) {
+    pillars.emplace_back(random.uniform(-8.0, 8.0), random.uniform(1.5, 8.0));
+  }
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) {
+      for (const Eigen::Vector2d& pillar : pillars) {
+        if ((grid.centreOf(column, row) - pillar).norm() < 0.22) {
+          world.cells[grid.index(column, row)] = Cell::kOccupied;
+        }
+      }
+    }
+  }
+  OccupancyMap map(pond(), kHull, kOptions);
+  for (double x = -6.0; x < 6.0; x += 0.1) {
+    const SensorPose sensor = sensorAt(x, 0.0, 0.1 * random.normal());
+    Scan scan = openWater();
+    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+      const Eigen::Vector2d along = (sensor.rotation() * scan.direction(i)).head<2>();
+      for (const double at : linesCrossed(grid, sensor.position.head<2>(), along)) {
+        const Eigen::Vector2d behind = sensor.position.head<2>() + (at + 1e-6) * along;
+        if (at > 0.0 && grid.contains(behind) &&
+            world.cells[grid.index(grid.cellAt(behind).x(), grid.cellAt(behind).y())] ==
+                Cell::kOccupied) {
+          scan.ranges_m[i] = static_cast<float>(at + 0.01 * random.normal());
+          break;
+        }
+      }
+    }
+    ASSERT_TRUE(insert(map, sensor, scan));
+  }
+  int right = 0, grown = 0, lost = 0;
+  for (std::size_t i = 0; i < world.cells.size(); ++i) {
+    const bool there = world.cells[i] == Cell::kOccupied;
+    const Cell seen = map.projection().cells[i];
+    right += there && seen == Cell::kOccupied;
+    grown += !there && seen == Cell::kOccupied;
+    lost += there && seen == Cell::kFree;
+  }
+  EXPECT_GT(right, 6 * 12);
+  EXPECT_LT(grown, 6);
+  EXPECT_EQ(lost, 0);
+}
+
+// A beam that clips a cell's corner, 11 mm long, with its echo at 7 mm: by itself it comes from the
+// cell behind, but not where the first is known.
+TEST(OccupancyMap, AnEchoBetweenTwoFacesIsOfTheObstacleThatIsKnown) {
+  constexpr double kCellM = 0.1;
+  constexpr double kBesideM = 0.008;
+  const Eigen::Vector2d corner(5.0, 1.0);  // of the cell to the right and below
+  for (const bool known : {false, true}) {
+    OccupancyMap map(pond(), kHull, kOptions);
+    if (known) {
+      ASSERT_TRUE(insert(map, sensorAt(2.0, corner.y() - 0.5 * kCellM), aheadOnly(3.0F)));
+    }
+    const Eigen::Vector2d enters = corner - Eigen::Vector2d(0.0, kBesideM);
+    const float range = static_cast<float>(3.0 * std::sqrt(2.0) + 0.007);
+    ASSERT_TRUE(
+        insert(map, sensorAt(enters.x() - 3.0, enters.y() - 3.0, 0.25 * kPi), aheadOnly(range)));
+    EXPECT_EQ(cellAt(map, corner.x() + 0.5 * kCellM, corner.y() - 0.5 * kCellM) == Cell::kOccupied,
+              known);
+    EXPECT_EQ(cellAt(map, corner.x() + 0.5 * kCellM, corner.y() + 0.5 * kCellM) == Cell::kOccupied,
+              !known);
+  }
+}
+
+// All echoes of it lie near two faces, and in each of the four cells other beams pass beside it.
+TEST(OccupancyMap, SeesAThinPostWhereFourCellsMeet) {
+  constexpr double kRadiusM = 0.015;
+  OccupancyMap map(pond(), kHull, kOptions);
+  const Eigen::Vector2d post(4.0, 4.0);
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), openWater()));
+  }
+  for (int k = 0; k < 8; ++k) {
+    const SensorPose sensor = sensorAt(0.02 * k, 0.02 * k);
+    Scan scan = openWater(2880);
+    int echoes = 0;
+    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+      const Eigen::Vector2d along = scan.direction(i).head<2>();
+      const Eigen::Vector2d to = post - sensor.position.head<2>();
+      const double beside = to.x() * along.y() - to.y() * along.x();
+      if (to.dot(along) > 0.0 && std::abs(beside) < kRadiusM) {
+        scan.ranges_m[i] =
+            static_cast<float>(to.dot(along) - std::sqrt(kRadiusM * kRadiusM - beside * beside));
+        ++echoes;
+      }
+    }
+    ASSERT_GT(echoes, 0);
+    ASSERT_TRUE(insert(map, sensor, scan));
+  }
+  int occupied = 0;
+  for (const double x : {3.95, 4.05}) {
+    for (const double y : {3.95, 4.05}) {
+      occupied += cellAt(map, x, y) == Cell::kOccupied;
+    }
+  }
+  EXPECT_GT(occupied, 0);
 }
 
 // What beams tell of one layer is nothing to the layers over and under it, nor to columns beside.
