@@ -78,8 +78,14 @@ stopping::StopLimits Safety::stop(const feasibility::SafetyLimits& planned) cons
 }
 
 stopping::StopLimits Safety::leastStop(const feasibility::SafetyLimits& planned) const {
-  return {centreClearance(vessel_.hull, options_.critical_side_clearance_m), kOffTrajectoryM,
-          planned.disturbance, planned.felt, std::min(kSwingsM, kTimesWander * reach())};
+  stopping::StopLimits limits;
+  limits.clearance_m = centreClearance(vessel_.hull, options_.critical_side_clearance_m);
+  limits.hull_margin_m = kOffTrajectoryM;
+  limits.disturbance = planned.disturbance;
+  limits.felt = planned.felt;
+  limits.rest_room_m = std::min(stopping::kSwingsM, kTimesWander * reach());
+  limits.rest_load = weather_.isKnown() ? weather_.mean() : vessel::Disturbance{};
+  return limits;
 }
 
 feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {

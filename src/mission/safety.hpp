@@ -33,9 +33,6 @@ namespace otter_nav::mission {
 [[nodiscard]] double planClearance(const SupervisorOptions& options, std::size_t level,
                                    double gust_reach_m, const vessel::Hull& hull, double room_m);
 
-// The most that the hull's corners swing at rest in a light wind and waves.
-constexpr double kSwingsM = 0.3;
-
 // The clearances of the list in turn, from the widest to the narrowest and round again; or in steps
 // between them, for in strong wind one level asks for metres less than the one before.
 class ClearanceLevels {

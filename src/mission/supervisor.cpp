@@ -294,11 +294,19 @@ class Decider final : public Supervisor {
     conflict_ = hull.found ? hull : conflict_;
     return conflict_.found;
   }
-  // As it truly lies, and not as it was planned.
+  // As it truly lies, and not as it was planned; or what lies still, on the way that the tracker
+  // foresees, which knows what drives it.
   bool isAboutToTouch(const Moment& m) {
-    return !isAtTheEnd(m) &&
-           stopping::isAboutToTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
-                                    alongSailed(m), vessel_, planned_limits_.disturbance);
+    constexpr double kForeseesS = 4.0;
+    if (isAtTheEnd(m)) {
+      return false;
+    }
+    const vessel::Foreseen& foreseen = m.situation.foreseen;
+    return stopping::isAboutToTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
+                                    alongSailed(m), vessel_, planned_limits_.disturbance) ||
+           (foreseen.start_s >= given_s_ &&
+            stopping::isAboutToTouch(foreseen, m.now_s, m.now_s + kForeseesS, m.situation.state,
+                                     Obstacles(m.obstacles.field()), vessel_.hull));
   }
   // The way that is sailed keeps `clearance_m`, the margin round the hull and the room to leeward
   // that are asked for, at a speed for them: such a plan would have no more.
@@ -336,7 +344,8 @@ class Decider final : public Supervisor {
     }
     const Obstacles known = m.obstacles.inKnownWater();
     const auto room = [&](const Trajectory& stop, double start_s) {
-      return std::min(kSwingsM, stopping::roomAtRest(stop, known.startingAt(start_s), vessel_));
+      return std::min(stopping::kSwingsM,
+                      stopping::roomAtRest(stop, known.startingAt(start_s), vessel_));
     };
     const double kept_m = room(fallback_->trajectory, fallback_->start_time_s);
     for (double later = at + kStepS; later < hull.time_s; later += kStepS) {

@@ -15,6 +15,7 @@
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/stopping/watch.hpp"
 #include "otter_nav/trajectory/joint.hpp"
+#include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "straight_stop.hpp"
 
@@ -259,6 +260,15 @@ double gathersWay(const trajectory::Sample& here, const Trajectory& stop) {
   return fastest - here.flat.velocity.norm();
 }
 
+// What is preferred beside the outline where a stop ends on the heading `psi_rad`, m. What would
+// set the hull aside there is held by turning it to and fro with way on, for it has no other force
+// abeam.
+double roomToSwing(const StopLimits& stop, const vessel::Parameters& vessel, double psi_rad) {
+  constexpr double kSetAsideMps = 0.2;  // from here on it swings by all of that
+  const double aside_mps = vessel::setAside(vessel.manoeuvring, stop.rest_load, psi_rad);
+  return std::max(stop.rest_room_m, kSwingsM * std::min(1.0, aside_mps / kSetAsideMps));
+}
+
 }  // namespace
 
 double roomAtRest(const Trajectory& stop, const feasibility::Obstacles& obstacles,
@@ -326,12 +336,14 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
   Braking cramped;
   double cramped_room_m = -std::numeric_limits<double>::infinity();
   const auto hasRoom = [&](Trajectory& candidate) {
-    const double room_m = stop.rest_room_m > 0.0 ? roomAtRest(candidate, ahead, vessel) : 0.0;
-    if (room_m < stop.rest_room_m && room_m > cramped_room_m) {
+    const double psi_rad = candidate.sample(candidate.duration(), vessel).state[vessel::kPsi];
+    const double wanted_m = roomToSwing(stop, vessel, psi_rad);
+    const double room_m = wanted_m > 0.0 ? roomAtRest(candidate, ahead, vessel) : 0.0;
+    if (room_m < wanted_m && room_m > cramped_room_m) {
       cramped_room_m = room_m;
       cramped = {std::move(candidate), true, stop.clearance_m};
     }
-    return room_m >= stop.rest_room_m;
+    return room_m >= wanted_m;
   };
   const bool under_way = here.flat.velocity.norm() > kUnderWayMps;
   if (!under_way) {

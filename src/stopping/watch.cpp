@@ -30,6 +30,21 @@ double pointClearance(const Eigen::Vector2d& p, double time_s, const Obstacles& 
   return edge_is_nearest ? std::numeric_limits<double>::infinity() : clearance;
 }
 
+double besideHull(const vessel::Pose& pose, double time_s, const Obstacles& obstacles,
+                  const vessel::Hull& hull) {
+  return feasibility::outlineClearance(
+      hull, pose.position, pose.psi_rad,
+      [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, time_s); });
+}
+
+// With less beside it a hull that lies there now will touch, m. Where it touches by the map
+// already, what leads away is no worse.
+double touchesFrom(const vessel::Pose& now, double time_s, const Obstacles& obstacles,
+                   const vessel::Hull& hull) {
+  constexpr double kContactM = 0.01;
+  return std::min(kContactM, besideHull(now, time_s, obstacles, hull) - kContactM);
+}
+
 // Of a spin by its polynomial; under sail by what the thrusters can hold.
 double turningBound(const Piece& piece, const vessel::Parameters& vessel) {
   if (piece.kind == trajectory::PieceKind::kSail) {
@@ -130,23 +145,31 @@ bool isAboutToTouch(const Trajectory& trajectory, double at_s, const vessel::Sta
   constexpr double kOffRad = 0.1;  // less is what margins are for
   constexpr double kSoonS = 1.5;
   constexpr double kEachS = 0.1;
-  constexpr double kContactM = 0.01;
   const Off off = offTrajectory(trajectory, at_s, state, vessel, disturbance);
   if (std::abs(off.heading_rad) < kOffRad) {
     return false;
   }
-  const auto left = [&](const Eigen::Vector2d& centre, double psi_rad, double t) {
-    return feasibility::outlineClearance(
-        vessel.hull, centre, psi_rad,
-        [&](const Eigen::Vector2d& p) { return obstacles.clearance(p, t); });
-  };
-  // Where it touches by the map already, what leads away is no worse.
-  const double now = left(state.head<2>(), state[vessel::kPsi], at_s);
+  const double touches_m =
+      touchesFrom({state.head<2>(), state[vessel::kPsi]}, at_s, obstacles, vessel.hull);
   const double until = std::min(trajectory.duration(), at_s + kSoonS);
   for (double t = at_s + kEachS; t <= until; t += kEachS) {
     const vessel::State there = trajectory.sample(t, vessel, disturbance).state;
-    if (left(there.head<2>() + off.position_m, there[vessel::kPsi] + off.heading_rad, t) <
-        std::min(kContactM, now - kContactM)) {
+    if (besideHull({there.head<2>() + off.position_m, there[vessel::kPsi] + off.heading_rad}, t,
+                   obstacles, vessel.hull) < touches_m) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool isAboutToTouch(const vessel::Foreseen& foreseen, double from_s, double to_s,
+                    const vessel::State& state, const Obstacles& obstacles,
+                    const vessel::Hull& hull) {
+  const double touches_m =
+      touchesFrom({state.head<2>(), state[vessel::kPsi]}, from_s, obstacles, hull);
+  for (std::size_t k = 0; k < foreseen.poses.size(); ++k) {
+    const double t = foreseen.start_s + static_cast<double>(k) * foreseen.step_s;
+    if (t >= from_s && t <= to_s && besideHull(foreseen.poses[k], t, obstacles, hull) < touches_m) {
       return true;
     }
   }

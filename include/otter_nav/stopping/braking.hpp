@@ -24,8 +24,9 @@ struct StopLimits {
   vessel::Disturbance disturbance = {};  // that the sailed trajectory was planned with
   vessel::Disturbance felt = {};         // and what it leans into besides
   // At rest wind and waves swing a hull that has no thruster against them: a stop that ends with so
-  // much beside the outline is preferred.
+  // much beside the outline is preferred, and with more where `rest_load` sets it aside.
   double rest_room_m = 0.0;
+  vessel::Disturbance rest_load = {};
   // How the hull lies off the sailed trajectory: no stop may touch on its way back either.
   Off off = {};
 };
@@ -41,6 +42,9 @@ struct StopLimits {
 [[nodiscard]] Braking brakingTrajectory(const trajectory::Trajectory& sailed, double at_s,
                                         const feasibility::Obstacles& obstacles,
                                         const vessel::Parameters& vessel, const StopLimits& stop);
+
+// The most that the hull's corners swing at rest in a light wind and waves.
+constexpr double kSwingsM = 0.3;
 
 // What is left beside the hull's outline where `stop` comes to rest, m.
 [[nodiscard]] double roomAtRest(const trajectory::Trajectory& stop,

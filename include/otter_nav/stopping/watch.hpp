@@ -7,6 +7,7 @@
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "otter_nav/trajectory/trajectory.hpp"
 #include "otter_nav/vessel/parameters.hpp"
+#include "otter_nav/vessel/pose.hpp"
 
 namespace otter_nav::stopping {
 
@@ -48,6 +49,13 @@ struct Off {
                                   const feasibility::Obstacles& obstacles,
                                   const vessel::Parameters& vessel,
                                   const vessel::Disturbance& disturbance = {});
+
+// The same where the tracker foresees the hull, from `from_s` to `to_s` on its clock, which is that
+// of `obstacles` too.
+[[nodiscard]] bool isAboutToTouch(const vessel::Foreseen& foreseen, double from_s, double to_s,
+                                  const vessel::State& state,
+                                  const feasibility::Obstacles& obstacles,
+                                  const vessel::Hull& hull);
 
 // When a way to rest ends in contact, and how fast the vessel is then: at rest, something comes
 // over her.

@@ -11,6 +11,16 @@
 
 namespace otter_nav::mission::test {
 
+// Where the tracker expects the vessel, half a second apart, from its place at this velocity.
+inline vessel::Foreseen foreseenFrom(double start_s, const vessel::State& state,
+                                     const Eigen::Vector2d& velocity) {
+  vessel::Foreseen foreseen{start_s, 0.5, {}};
+  for (int k = 0; k <= 12; ++k) {
+    foreseen.poses.push_back({state.head<2>() + 0.5 * k * velocity, state[vessel::kPsi]});
+  }
+  return foreseen;
+}
+
 class ScriptedMission {
  public:
   explicit ScriptedMission(map::OccupancyGrid water = openWater(), SupervisorOptions o = {})

@@ -410,6 +410,32 @@ TEST(Supervisor, StopsBeforeItTouchesAsItLies) {
   }
 }
 
+// Nor does it wait for that: the tracker knows sooner where wind and current take the hull. What it
+// foresaw on the plan before says nothing.
+TEST(Supervisor, StopsBeforeItTouchesWhereTheTrackerForeseesIt) {
+  struct Case {
+    double sets_mps;
+    bool is_narrow, of_this_plan;
+    bool stops;
+  };
+  for (const auto& c : {Case{1.0, true, true, true}, Case{1.0, false, true, false},
+                        Case{1.0, true, false, false}, Case{0.3, true, true, false}}) {
+    ScriptedMission m;
+    const double before_s = m.now_s - 0.5;
+    m.setOut(3.0);
+    Situation s = m.situation();
+    if (c.is_narrow) {
+      m.put({s.state.x() + 2.0, 3.0}, {s.state.x() + 40.0, 5.0});
+    }
+    const Eigen::Vector2d goes(s.state[vessel::kSurge], c.sets_mps);
+    s.foreseen = test::foreseenFrom(c.of_this_plan ? m.now_s : before_s, s.state, goes);
+    s.odometry_stamp_s = m.now_s;
+    (void)m.supervisor->update(m.now_s, s, m.obstacles());
+    EXPECT_EQ(m.supervisor->phase() == Phase::kStopping, c.stops)
+        << c.sets_mps << " " << c.is_narrow << " " << c.of_this_plan;
+  }
+}
+
 // Set aside towards something, every stop would touch before the vessel is back on its way: the
 // last one is taken.
 TEST(Supervisor, StopsWhereNoLaterStopIsClearAsTheHullLies) {

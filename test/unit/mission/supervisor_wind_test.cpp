@@ -1334,16 +1334,6 @@ TEST(SupervisorInWind, AHeadingInTheWindsLineIsNotLostInStrongWind) {
   }
 }
 
-// Where the tracker expects the vessel, half a second apart, from its place at this velocity.
-vessel::Foreseen foreseenFrom(double start_s, const vessel::State& state,
-                              const Vector2d& velocity) {
-  vessel::Foreseen foreseen{start_s, 0.5, {}};
-  for (int k = 0; k <= 12; ++k) {
-    foreseen.poses.push_back({state.head<2>() + 0.5 * k * velocity, state[vessel::kPsi]});
-  }
-  return foreseen;
-}
-
 // Its heading is lost, and it stops; what it drifts onto then there are thrusts to pass. So in wind
 // that turns the hull, if the tracker foresees it since it was told to stop.
 TEST(SupervisorInWind, EscapesFromWhatTheTrackerForeseesItDriftsOnto) {
@@ -1379,8 +1369,8 @@ TEST(SupervisorInWind, EscapesFromWhatTheTrackerForeseesItDriftsOnto) {
     ASSERT_TRUE(orders.stop);
     mission.now_s += 0.1;
     driven.odometry_stamp_s = mission.now_s;
-    driven.foreseen = foreseenFrom(c.since_the_stop ? mission.now_s : before_s, driven.state,
-                                   {c.drifts_mps, 0.0});
+    driven.foreseen = test::foreseenFrom(c.since_the_stop ? mission.now_s : before_s, driven.state,
+                                         {c.drifts_mps, 0.0});
     orders = mission.supervisor->update(mission.now_s, driven, mission.field);
     EXPECT_EQ(orders.sail && orders.sail->rolled_out, c.escapes)
         << c.wind_mps << " " << c.shore << " " << c.since_the_stop << " " << c.drifts_mps;
@@ -1426,7 +1416,7 @@ TEST(SupervisorInWind, EscapesInAFirmLoadThatPlansKnow) {
     driven.state.tail<3>().setZero();
     const Vector2d here = driven.state.head<2>();
     mission.put(here + Vector2d(-6.5, -1.0), here + Vector2d(-4.5, 1.0));
-    driven.foreseen = foreseenFrom(mission.now_s, driven.state, {-c.drifts_mps, 0.0});
+    driven.foreseen = test::foreseenFrom(mission.now_s, driven.state, {-c.drifts_mps, 0.0});
     const Orders orders = mission.supervisor->update(mission.now_s, driven, mission.field);
     EXPECT_EQ(orders.sail && orders.sail->rolled_out, c.escapes)
         << c.load_n << " " << c.known << " " << c.waits << " " << c.drifts_mps;
@@ -1437,7 +1427,7 @@ TEST(SupervisorInWind, EscapesInAFirmLoadThatPlansKnow) {
     for (const auto& [after_s, again] : {std::pair(20.0, false), std::pair(50.0, true)}) {
       blow(mission, after_s, [&](double) { return Vector2d(-c.load_n, 0.0); });
       driven.odometry_stamp_s = mission.now_s += 0.1;
-      driven.foreseen = foreseenFrom(mission.now_s, driven.state, {-1.0, 0.0});
+      driven.foreseen = test::foreseenFrom(mission.now_s, driven.state, {-1.0, 0.0});
       const Orders then = mission.supervisor->update(mission.now_s, driven, mission.field);
       EXPECT_EQ(then.sail && then.sail->rolled_out, again) << c.waits << " " << after_s;
     }

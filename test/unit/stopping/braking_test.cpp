@@ -116,6 +116,34 @@ TEST(Braking, LeavesRoomToSwingAtRest) {
   EXPECT_GT(room(), least + 0.3);
 }
 
+// A load from abeam, which only turning to and fro with way on holds, swings it by 0.3 m; one from
+// ahead doesn't, and less of it by less.
+TEST(Braking, LeavesRoomToSwingWhereALoadSetsItAside) {
+  map::OccupancyGrid grid = openWater();
+  const Trajectory sailed = eastward({-40.0, 0.0}, 80.0, kSpeed);
+  vessel::Parameters vessel;
+  vessel.manoeuvring = vessel::ManoeuvringModel::fromPaper(vessel.paper);
+  const double bow = 0.5 * vessel.hull.length_m;
+  const Eigen::Vector2d here = sailed.flat(6.0).position;
+  const Braking usual = brakingTrajectory(sailed, 6.0, fieldOf(grid), vessel, {kClearanceM, 0.02});
+  const double way = usual.trajectory.flat(100.0).position.x() - here.x();
+  block(grid, {here.x() + way + bow + 0.25, -10.0}, {here.x() + way + 4.0, 10.0});
+  const map::DistanceField field = fieldOf(grid);
+  const auto room = [&](const Eigen::Vector2d& current_mps) {
+    StopLimits limits = {kClearanceM, 0.02};
+    limits.rest_load.current_mps = current_mps;
+    const Braking stop = brakingTrajectory(sailed, 6.0, field, vessel, limits);
+    EXPECT_TRUE(stop.clear);
+    return field.clearance(stop.trajectory.flat(100.0).position) - bow;
+  };
+  const double least = room({0.0, 0.0});
+  EXPECT_LT(least, 0.29);
+  EXPECT_EQ(room({-0.25, 0.0}), least);
+  EXPECT_EQ(room({0.0, 0.02}), least);
+  EXPECT_GE(room({0.0, 0.25}), 0.29);
+  EXPECT_GE(room({0.0, -0.25}), 0.29);
+}
+
 // Between walls that the planned hull keeps clear of, and leaning into a wind from abeam doesn't.
 TEST(Braking, KeepsTheLeaningHullClear) {
   map::OccupancyGrid grid = openWater();
