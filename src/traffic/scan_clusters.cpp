@@ -44,6 +44,7 @@ void ScanClusters::readEchoes(const map::SensorPose& sensor, const vessel::Pose&
   others_.clear();
   directions_.assign(scan.ranges_m.size(), Eigen::Vector2d::Zero());
   free_m_.assign(scan.ranges_m.size(), kNaN);
+  reach_m_.assign(scan.ranges_m.size(), 0.0);
   ends_at_standing_.assign(scan.ranges_m.size(), false);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double range = scan.ranges_m[i];
@@ -54,12 +55,13 @@ void ScanClusters::readEchoes(const map::SensorPose& sensor, const vessel::Pose&
     const Eigen::Vector3d beam = rotation * scan.direction(i);
     const double level = beam.head<2>().norm();
     // No farther than where the beam comes too near the water.
-    double reach = nothing ? scan.range_max_m : range;
+    double reach = scan.range_max_m;
     if (beam.z() < 0.0) {
       reach = std::min(reach, (kLeastHeightM - sensor.position.z()) / beam.z());
     }
     directions_[i] = beam.head<2>() / level;
-    free_m_[i] = std::max(0.0, reach * level);
+    reach_m_[i] = std::max(0.0, reach * level);
+    free_m_[i] = nothing ? reach_m_[i] : std::min(reach_m_[i], range * level);
     if (nothing) {
       continue;
     }
@@ -89,9 +91,15 @@ void ScanClusters::remember() {
     memory_.met(point);
   }
   constexpr double kShortOfEchoM = 0.5;
-  for (std::size_t i = 0; i < free_m_.size(); i += 2) {
+  // What comes into range or over the waves is first met there: water not known to have been free
+  // up to the end would let it seem to have been there all along.
+  constexpr double kShortOfReachM = 0.1;
+  // Every beam: far off they are as far apart as cells are wide, and those of a vessel at rest are
+  // the same each time.
+  for (std::size_t i = 0; i < free_m_.size(); ++i) {
+    const double short_m = free_m_[i] < reach_m_[i] ? kShortOfEchoM : kShortOfReachM;
     if (free_m_[i] > kShortOfEchoM) {  // not for NaN
-      memory_.passed(eye_, eye_ + (free_m_[i] - kShortOfEchoM) * directions_[i]);
+      memory_.passed(eye_, eye_ + (free_m_[i] - short_m) * directions_[i]);
     }
   }
 }
@@ -179,16 +187,17 @@ double ScanClusters::inSight(const Eigen::Vector2d& position, double near_m, dou
   }
   const double half = std::atan2(0.25 * beam_m, std::max(range, 0.1));
   const double bearing = std::atan2(off.y(), off.x()) - yaw_rad_;
+  double most = 0.0;
   for (const double side : {-half, 0.0, half}) {
     const double turns =
         std::remainder(bearing + side - angle_min_rad_ - kPi, 2.0 * kPi) + kPi;  // 0 to 2 pi
     const auto beam = static_cast<std::size_t>(std::lround(turns / increment_rad_));
     if (beam < free_m_.size() &&
         free_m_[beam] > range - near_m - (ends_at_standing_[beam] ? 0.0 : doubt_m)) {
-      return range + kMarginM < range_max_m_ ? 1.0 : 0.5;
+      most = std::max(most, range + kMarginM < reach_m_[beam] ? 1.0 : 0.5);
     }
   }
-  return 0.0;
+  return most;
 }
 
 }  // namespace otter_nav::traffic

@@ -30,8 +30,8 @@ class ScanClusters {
   // Next to the water: waves, or a hull's foot. They make no thing, but a map may take them.
   [[nodiscard]] const std::vector<Echo>& lowEchoes() const { return low_; }
   // How much of something at `position` could be seen in the scan gathered last: all of it (1), a
-  // part (0.5: its far end is out of range), or nothing (0: it is out of range, behind something
-  // nearer, or where the waves hide it). What is met up to `near_m` before it is the thing itself;
+  // part (0.5: its far end is out of range, or where the waves hide it), or nothing (0: all of it
+  // is, or behind something nearer). What is met up to `near_m` before it is the thing itself;
   // `doubt_m` more if it hasn't stood there for a while.
   [[nodiscard]] double inSight(const Eigen::Vector2d& position, double near_m, double doubt_m,
                                double beam_m) const;
@@ -51,9 +51,11 @@ class ScanClusters {
   std::vector<Echo> low_;
   std::vector<Eigen::Vector2d> others_;  // the charted ones
   std::vector<Cluster> clusters_;
-  // Of each beam, over ground: direction, and how far it saw nothing (NaN: it says nothing).
+  // Of each beam, over ground: direction, how far it saw nothing (NaN: it says nothing), and how
+  // far it would have seen, to the lidar's range or the water.
   std::vector<Eigen::Vector2d> directions_;
   std::vector<double> free_m_;
+  std::vector<double> reach_m_;
   std::vector<bool> ends_at_standing_;
   Eigen::Vector2d eye_ = Eigen::Vector2d::Zero();
   double yaw_rad_ = 0.0;

@@ -759,10 +759,11 @@ class Tracker::Impl {
       if (vessel.confirmed || vessel.existence < kConfirmed || vessel.hits < kFewestHits) {
         continue;
       }
-      // A hull under way comes into free water all the time; what comes into sight behind something
-      // nearer seems to for a moment.
+      // A hull under way comes into free water all the time, but for the first moments at the edge
+      // of sight, beyond which nothing was seen free; what comes into sight behind something nearer
+      // seems to for a moment.
       const bool comes_in = vessel.moving_hits >= kFewestMovingHits &&
-                            2 * vessel.moving_hits >= vessel.hits &&
+                            3 * vessel.moving_hits >= 2 * vessel.hits &&
                             vessel.last_new_s >= vessel.last_s;
       const bool moves = vessel.has_moved && comes_in && now_s - vessel.first_s >= kFewestSeconds;
       if (!isTheLidarsAlone(vessel) || moves) {
