@@ -827,7 +827,7 @@ class Decider final : public Supervisor {
     return planFromSailed(m);
   }
   Orders planFromRest(const Moment& m) {
-    return {plans_.fromRest(m.now_s, m.situation.state, goal_, m.obstacles), {}, false};
+    return {plans_.fromRest(m.now_s, withoutSwing(m), goal_, m.obstacles), {}, false};
   }
   // Nothing if the vessel is about to come to rest: what comes then is for the rules at the
   // trajectory's end, or for the brake.
@@ -1412,7 +1412,7 @@ class Decider final : public Supervisor {
     constexpr double kInStrongMps = 1.0;  // with way on it can make good what sets it aside
     constexpr double kLeastS = 4.0;
     const double speed = mayLoseItsHeading() ? kInStrongMps : kSpeedMps;
-    return Trajectory({trajectory::straightLeg(m.situation.state.head<2>(), windward(m), ahead_m,
+    return Trajectory({trajectory::straightLeg(withoutSwing(m).head<2>(), windward(m), ahead_m,
                                                std::max(kLeastS, std::abs(ahead_m) / speed))});
   }
   // The hull's heading, or in strong wind the one into it, bow or stern, as far as turning there
@@ -1604,6 +1604,20 @@ class Decider final : public Supervisor {
   bool knowsPlace(const Moment& m) {
     return m.situation.state.allFinite() &&
            m.now_s - m.situation.odometry_stamp_s <= options_.odometry_timeout_s;
+  }
+  // Where the hull lies but for the waves that swing it abeam, which the tracker leaves it to at
+  // crawling pace. What begins at the end of a swing would be off by all of it half a wave later,
+  // and by half of it from its middle.
+  static vessel::State withoutSwing(const Moment& m) {
+    constexpr double kOldS = 0.5;
+    const vessel::Foreseen& foreseen = m.situation.foreseen;
+    vessel::State x = m.situation.state;
+    if (!foreseen.poses.empty() && std::abs(foreseen.start_s - m.now_s) < kOldS) {
+      const Eigen::Vector2d port = across(unitVector(x[vessel::kPsi]));
+      const double swing_m = port.dot(foreseen.poses.front().position - x.head<2>());
+      x.head<2>() += std::clamp(swing_m, -stopping::kSwingsM, stopping::kSwingsM) * port;
+    }
+    return x;
   }
   double inside(const Moment& m) {
     return stopping::insideMap(m.obstacles.field().geometry(), m.situation.state.head<2>());
@@ -1841,7 +1855,7 @@ class Decider final : public Supervisor {
 
   Orders planFromVessel(const Moment& m, std::string why, Cause cause) {
     replan(std::move(why), cause);
-    return {plans_.fromVessel(m.now_s, m.situation.state, goal_, m.obstacles), {}, false};
+    return {plans_.fromVessel(m.now_s, withoutSwing(m), goal_, m.obstacles), {}, false};
   }
   Orders takeFromRest(const Moment& m, const planner::Plan& plan,
                       const PlanRequests::Asked& asked) {
@@ -1970,7 +1984,7 @@ class Decider final : public Supervisor {
     }
     if (!hasFault(m)) {
       if (std::optional<Trajectory> path =
-              stopping::backOff(m.situation.state, m.obstacles.startingAt(m.now_s), vessel_,
+              stopping::backOff(withoutSwing(m), m.obstacles.startingAt(m.now_s), vessel_,
                                 m.situation.disturbance.mean, safety().reach())) {
         noteDeadEnd(m);
         return manoeuvre(m, Phase::kBackingOff, std::move(*path), "no room to turn: " + why,

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "scripted_mission.hpp"
 
@@ -163,6 +164,37 @@ TEST(Goal, LearnsTheWavesBeforeItGoesThroughNarrowWater) {
   narrow.mission.knows_waves = true;
   EXPECT_LT(narrow.waitsFor(10.0), 0.2);
   EXPECT_TRUE(narrow.sails());
+}
+
+// The tracker keeps the place about which waves swing the hull abeam: from the end of a swing on it
+// would be off by all of it. Along the heading there are thrusters, and it lies where it is.
+TEST(Goal, PlansFromTheMiddleOfASwing) {
+  struct Case {
+    double psi_rad;
+    Eigen::Vector2d still_m;  // place that the tracker keeps, from where the hull is
+    double old_s;
+    Eigen::Vector2d begins_m;  // likewise
+  };
+  const Case cases[] = {{0.0, {0.0, 0.1}, 0.0, {0.0, 0.1}},
+                        {0.0, {0.05, -0.08}, 0.2, {0.0, -0.08}},
+                        {0.5 * kPi, {0.1, 0.05}, 0.0, {0.1, 0.0}},
+                        {0.0, {0.0, 0.1}, 1.0, {0.0, 0.0}},    // of a moment ago
+                        {0.0, {0.0, -2.0}, 0.0, {0.0, -0.3}},  // no swing is that wide
+                        {0.0, {0.0, 0.0}, 0.0, {0.0, 0.0}}};
+  for (const Case& c : cases) {
+    ScriptedMission mission;
+    mission.rest << -40.0, 0.0, c.psi_rad, 0.0, 0.0, 0.0;
+    Situation swinging = mission.situation();
+    vessel::State still = mission.rest;
+    still.head<2>() += c.still_m;
+    swinging.foreseen = test::foreseenFrom(mission.now_s - c.old_s, still, {0.0, 0.0});
+    const auto orders = mission.supervisor->setGoal(mission.now_s, {{40.0, 0.0}, 0.0}, swinging,
+                                                    mission.obstacles());
+    ASSERT_TRUE(orders.has_value() && orders->plan.has_value());
+    const Eigen::Vector2d begins = orders->plan->query.start.flat.position;
+    EXPECT_LT((begins - mission.rest.head<2>() - c.begins_m).norm(), 1e-9)
+        << c.still_m.transpose() << ", " << c.old_s << " s old, heading " << c.psi_rad;
+  }
 }
 
 TEST(Goal, WaitsForNoTrackerThatNeverKnowsTheWaves) {
