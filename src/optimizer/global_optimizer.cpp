@@ -158,6 +158,7 @@ class GlobalOptimizer::Solver {
     still_ = obstacles_->lyingStill();
     problem_.targets.still = obstacles_->rateBound() > 0.0 ? &*still_ : nullptr;
     problem_.targets.kept_n.clear();
+    problem_.targets.knows_curvature = false;
     problem_.targets.clock = 1.0 / slow_;
     problem_.setDisturbance(inSlowMotion(limits_.disturbance, slow_));
     leaning_ =
@@ -250,6 +251,8 @@ class GlobalOptimizer::Solver {
   }
 
   // A feasible trajectory gets quicker: time weighs more, and what verifies and is better is kept.
+  // First by steps that know the limits' curvature, which make straight what the rounds before may
+  // have left bent; then by squares alone, which end nearer to a low speed limit.
   void quicken(const SplineSolver::Stop& stop) {
     Optimized best = std::move(result_);
     for (int round = 0; round < kQuickenRounds; ++round) {
@@ -258,6 +261,7 @@ class GlobalOptimizer::Solver {
         break;
       }
       problem_.targets.weights.time *= kQuickenGrowth;
+      problem_.targets.knows_curvature = round == 0;
       improve(stop);
       best.iterations = result_.iterations;
       followEnds();

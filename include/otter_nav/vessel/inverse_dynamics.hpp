@@ -198,6 +198,14 @@ class InverseDynamics {
     return row;
   }
 
+  // The same from its derivative by the surge force.
+  [[nodiscard]] FlatRow bySurgeForce(const Eigen::Vector2d& by_force) const {
+    FlatRow row = FlatRow::Zero();
+    row.col(0) = model_.d1_kgps * by_force;
+    row.col(1) = model_.m1_kg * by_force;
+    return row;
+  }
+
   // The bow for w, on the side of `ahead`; |D| is taken as no less than `floor_n`.
   [[nodiscard]] Bow bow(const Eigen::Vector2d& w, const Eigen::Vector2d& ahead,
                         double floor_n) const {

@@ -66,6 +66,8 @@ struct Targets {
   const feasibility::Obstacles* still = nullptr;
   const Originals* originals = nullptr;
   const vessel::InverseDynamics* leaning = nullptr;  // into a load that isn't planned with
+  // The limits' curvature across course and force counts in the model, beside the squares.
+  bool knows_curvature = false;
   // Of each thruster's limits, kept back for what the objective's model leaves out; one a
   // quadrature point of each piece, or empty.
   std::vector<std::array<double, trajectory::kLobattoPoints>> kept_n;

@@ -20,7 +20,8 @@ constexpr double kMotionKnee = 1.0;  // of speed, m/s, and yaw rate, rad/s
   return rows;
 }
 
-// Both thrusters, ahead and astern.
+// Both thrusters, ahead and astern. What they push with ahead is about the length of the surge
+// force, whose curvature across itself is known.
 class ThrustLimit final : public Cost {
  public:
   explicit ThrustLimit(const vessel::Thrusters& thrusters)
@@ -32,16 +33,29 @@ class ThrustLimit final : public Cost {
     const vessel::FlatGradient& g = point.demand();
     const double weight = targets.weights.dynamics;
     const double kept = targets.keptAt(point.piece.index, point.number);
+    double slope_per_n = 0.0;  // of the cost over what both push with ahead
     for (const double side : {-1.0, 1.0}) {
       const double thrust = 0.5 * (g.surge_n + side * g.difference_n);
       for (const double sign : {1.0, -1.0}) {
         const double most =
             (sign > 0.0 ? targets.limits.thrust_ahead_n : targets.limits.thrust_astern_n) - kept;
         const double inverse = sign > 0.0 ? inverse_ahead_ : inverse_astern_;
-        point.addHinge(weight, (sign * thrust - most) * inverse, kForceKnee, [&] {
+        const double excess = (sign * thrust - most) * inverse;
+        point.addHinge(weight, excess, kForceKnee, [&] {
           return byDerivatives(0.5 * (g.surge + side * g.difference), sign * inverse);
         });
+        if (sign > 0.0) {
+          slope_per_n += weight * std::clamp(excess, 0.0, kForceKnee) * inverse;
+        }
       }
+    }
+    if (targets.knows_curvature && slope_per_n > 0.0 && point.piece.wanted) {
+      const Eigen::Vector2d force =
+          point.dynamics.surgeForce(point.path().col(1), point.path().col(2));
+      const double force_n = std::max(force.norm(), point.force_floor_n);
+      point.piece.addCurvature(
+          slope_per_n / force_n,
+          point.chain(byDerivatives(point.dynamics.bySurgeForce(across(force) / force_n), 1.0)));
     }
   }
 
@@ -62,7 +76,8 @@ class YawRateLimit final : public Cost {
   }
 };
 
-// Over ground.
+// Over ground; its curvature across the course is known: without it a step along a straight course
+// at the limit swings to and fro beside it.
 class SpeedLimit final : public Cost {
  public:
   void add(const Targets& targets, Point& point) const override {
@@ -70,8 +85,15 @@ class SpeedLimit final : public Cost {
     const double speed = velocity.norm();
     const SplineLimits& limits = targets.limits;
     const double most = limits.slowing.limitAt(point.time_s, limits.speed_mps);
-    point.addHinge(targets.weights.dynamics, speed - most, kMotionKnee, 1,
+    const double excess = speed - most;
+    const double weight = targets.weights.dynamics;
+    point.addHinge(weight, excess, kMotionKnee, 1,
                    [&]() -> Eigen::Vector2d { return velocity / speed; });
+    if (targets.knows_curvature && excess > 0.0 && point.piece.wanted) {
+      point.piece.addCurvature(
+          2.0 * weight * std::min(excess, kMotionKnee) / std::max(speed, kSlowMps),
+          point.chain(1, across(velocity / speed)));
+    }
   }
 };
 
