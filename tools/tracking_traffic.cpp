@@ -115,6 +115,7 @@ json toJson(const traffic::Track& track) {
           {"heading", track.heading_rad},
           {"turn_rate", track.turn_rate_radps},
           {"turn_time", track.turn_time_s},
+          {"keeps_place", track.keeps_place},
           {"shape", track.shape == traffic::Shape::kBox ? "box" : "disc"},
           {"length_m", track.length_m},
           {"beam_m", track.beam_m},

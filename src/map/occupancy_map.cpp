@@ -254,6 +254,23 @@ CellRectangle OccupancyMap::forget(const std::vector<Eigen::Vector2d>& points) {
   return changed;
 }
 
+CellRectangle OccupancyMap::fill(const std::vector<Eigen::Vector3d>& points) {
+  CellRectangle changed;
+  const GridGeometry& g = sensed_->chart.geometry;
+  for (const Eigen::Vector3d& p : points) {
+    const int layer = sensed_->layers.layers().at(p.z());
+    if (layer < 0 || !g.contains(p.head<2>())) {
+      continue;
+    }
+    const Eigen::Vector2i cell = g.cellAt(p.head<2>());
+    const std::size_t index = g.index(cell.x(), cell.y());
+    if (sensed_->chart.cells[index] != Cell::kOccupied && sensed_->layers.fill(index, layer)) {
+      sensed_->project(index, changed);
+    }
+  }
+  return changed;
+}
+
 CellRectangle OccupancyMap::reset() {
   CellRectangle changed;
   sensed_->layers.reset();

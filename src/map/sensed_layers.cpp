@@ -134,6 +134,12 @@ bool SensedLayers::clear(std::size_t index) {
   return changed;
 }
 
+bool SensedLayers::fill(std::size_t index, int layer) {
+  const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
+  return !occupied(index) &&
+         judge(index, bit, *tree_.setNodeValue(keyOf(index, layer), hit_log_odds_, true));
+}
+
 void SensedLayers::reset() {
   tree_.clear();
   for (auto& run : runs_) {

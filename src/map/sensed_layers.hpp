@@ -40,6 +40,8 @@ class SensedLayers {
   }
   // As free as can be, in all layers that were occupied.
   bool clear(std::size_t column);
+  // As likely occupied as one hit of what was unknown leaves it, if it wasn't before.
+  bool fill(std::size_t column, int layer);
 
   void reset();
   [[nodiscard]] std::unique_ptr<octomap::OcTree> copyTree() const;

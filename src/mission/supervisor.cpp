@@ -764,10 +764,33 @@ class Decider final : public Supervisor {
     constexpr double kLastResortS = 1.0;
     constexpr double kPartS = 2.0;  // what leads a part of the way
     constexpr double kCrawlingS = 2.0;
+    constexpr double kCrowdedS = 3.0;
     const double last_resort = planned_left_m_ > 0.0 ? kPartS : kLastResortS;
-    const double usual = crawlsForRoom() ? kCrawlingS : options_.improve_period_s;
+    const double usual = crawlsForRoom()           ? kCrawlingS
+                         : waitsForOthers(m.now_s) ? kCrowdedS
+                                                   : options_.improve_period_s;
     const double period = is_last_resort_ ? last_resort : usual;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
+  }
+  // A plan that others drove to go slowly, though it may be fast: they will have gone soon.
+  bool waitsForOthers(double now_s) const {
+    constexpr double kLonger = 1.8;
+    constexpr double kSpareS = 5.0;
+    if (!planned_among_others_) {
+      return false;
+    }
+    const double left_s = sailed_.left(now_s);
+    const double at_most_m = planned_limits_.speed_max_mps * (left_s - kSpareS) / kLonger;
+    return at_most_m > wayLeft(now_s);
+  }
+  double wayLeft(double now_s) const {
+    constexpr double kStepS = 0.5;
+    const Trajectory& path = sailed_.trajectory;
+    double way_m = 0.0;
+    for (double t = sailed_.elapsed(now_s); t < path.duration(); t += kStepS) {
+      way_m += kStepS * path.flat(t).velocity.norm();
+    }
+    return way_m;
   }
   // Past the narrow place there may be a wider way, to be sailed faster.
   bool crawlsForRoom() const {
@@ -1527,8 +1550,15 @@ class Decider final : public Supervisor {
     const Eigen::Vector2d steered =
         follows ? sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position : x.head<2>();
     pilot_.observe(m.now_s, {x.head<2>(), map_from_base * x.segment<2>(vessel::kSurge)}, steered,
-                   m.situation.tracks, goal_.position,
+                   underWay(m.situation.tracks), goal_.position,
                    kCruiseShare * planned_limits_.speed_max_mps);
+  }
+  // Who lies there is passed as any other thing is.
+  static std::vector<traffic::Track> underWay(const std::vector<traffic::Track>& tracks) {
+    std::vector<traffic::Track> some;
+    std::copy_if(tracks.begin(), tracks.end(), std::back_inserter(some),
+                 [](const traffic::Track& track) { return !track.keeps_place; });
+    return some;
   }
   static std::vector<traffic::Track> moversOf(const Moment& m) {
     std::vector<traffic::Track> movers;
@@ -1688,8 +1718,7 @@ class Decider final : public Supervisor {
     // One with less beside it than the plan has is better than an old one.
     limits = safety().leastStop(planned);
     limits.off = off;
-    (void)keepStop(m, path, kReserveS, limits);
-    return true;
+    return keepStop(m, path, kReserveS, limits) || fallback_;
   }
   // Whether a stop can begin at any time soon. A way to rest is given up for nothing less: going on
   // and stopping in turns, the hull is soon off all of them.
@@ -1787,6 +1816,7 @@ class Decider final : public Supervisor {
     countReplan(asked);
     sailed_ = std::move(plan);
     planned_left_m_ = asked.left_m;
+    planned_among_others_ = near_ && !near_->empty();
     if (planned_left_m_ == 0.0) {
       rememberTheWay();
     }
@@ -2069,7 +2099,8 @@ class Decider final : public Supervisor {
   double planned_for_mps_ = 0.0;     // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
   stopping::Conflict conflict_;  // what the last condition found on the way
-  double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
+  bool planned_among_others_ = false;
+  double plan_time_s_ = 0.0;  // when the plan was taken, or an improvement asked for
   // When the tracker was given what is sailed, or to stop.
   double given_s_ = -std::numeric_limits<double>::infinity();
   // When a plan was asked for that leaves the waves what they take.

@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "map_node_options.hpp"
@@ -48,6 +49,11 @@ class MapNode {
 
   void onScan(const sensor_msgs::LaserScanConstPtr& message);
   void onGhosts(const sensor_msgs::PointCloud& message);
+  void onLying(const sensor_msgs::PointCloud& message);
+  // None, and said on /diagnostics, if it makes no sense.
+  std::optional<std::vector<Eigen::Vector3d>> pointsOf(const char* topic,
+                                                       const sensor_msgs::PointCloud& message);
+  void publishChange(const map::CellRectangle& changed, const ros::Time& stamp);
   [[nodiscard]] Result<map::CellRectangle> insert(const sensor_msgs::LaserScan& message);
   bool onSave(SaveMap::Request& request, SaveMap::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -68,6 +74,7 @@ class MapNode {
   message_filters::Subscriber<sensor_msgs::LaserScan> scan_subscriber_;
   tf2_ros::MessageFilter<sensor_msgs::LaserScan> scan_filter_;
   ros::Subscriber ghost_subscriber_;
+  ros::Subscriber lying_subscriber_;
   ros::Publisher map_publisher_;
   ros::Publisher chart_publisher_;
   ros::Publisher update_publisher_;
@@ -122,6 +129,8 @@ MapNode::MapNode(map::OccupancyMap map)
       [this](const sensor_msgs::LaserScanConstPtr& message) { onScan(message); });
   ghost_subscriber_ = node_.subscribe("ghosts", kQueue, &MapNode::onGhosts, this,
                                       ros::TransportHints().tcpNoDelay());
+  lying_subscriber_ =
+      node_.subscribe("lying", kQueue, &MapNode::onLying, this, ros::TransportHints().tcpNoDelay());
   diagnostics_.setState(Level::kOk, "chart loaded");
 }
 
@@ -162,20 +171,45 @@ void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   publishUpdate(changed.value_or(map::CellRectangle{}), last_scan_);
 }
 
+std::optional<std::vector<Eigen::Vector3d>> MapNode::pointsOf(
+    const char* topic, const sensor_msgs::PointCloud& message) {
+  Status status = ros_bridge::checkFrame(message.header.frame_id, frames().map);
+  std::vector<Eigen::Vector3d> points;
+  for (const geometry_msgs::Point32& point : message.points) {
+    points.emplace_back(static_cast<double>(point.x), static_cast<double>(point.y),
+                        static_cast<double>(point.z));
+    if (status && !points.back().allFinite()) {
+      status = failure("a point is not finite");
+    }
+  }
+  if (!status) {
+    diagnostics_.refuse(topic, status.error().message);
+    return std::nullopt;
+  }
+  return points;
+}
+
 // A vessel was met there before it was known to be one.
 void MapNode::onGhosts(const sensor_msgs::PointCloud& message) {
-  if (const Status status = ros_bridge::checkFrame(message.header.frame_id, frames().map);
-      !status) {
-    diagnostics_.refuse("ghosts", status.error().message);
-    return;
+  if (const auto points = pointsOf("ghosts", message)) {
+    std::vector<Eigen::Vector2d> places;
+    for (const Eigen::Vector3d& point : *points) {
+      places.emplace_back(point.head<2>());
+    }
+    publishChange(map_.forget(places), message.header.stamp);
   }
-  std::vector<Eigen::Vector2d> points;
-  for (const geometry_msgs::Point32& point : message.points) {
-    points.emplace_back(static_cast<double>(point.x), static_cast<double>(point.y));
+}
+
+// A vessel has come to lie still there.
+void MapNode::onLying(const sensor_msgs::PointCloud& message) {
+  if (const auto points = pointsOf("lying", message)) {
+    publishChange(map_.fill(*points), message.header.stamp);
   }
-  const map::CellRectangle changed = map_.forget(points);
+}
+
+void MapNode::publishChange(const map::CellRectangle& changed, const ros::Time& stamp) {
   if (!changed.empty()) {
-    publishUpdate(changed, last_scan_.isZero() ? message.header.stamp : last_scan_);
+    publishUpdate(changed, last_scan_.isZero() ? stamp : last_scan_);
   }
 }
 

@@ -61,7 +61,8 @@ class TrafficNode {
   void onRadar(const geometry_msgs::PoseArray& message);
   void onAis(const std_msgs::String& message);
   void takeOthers();
-  void publishGhosts(const ros::Time& stamp, const std::vector<Eigen::Vector2d>& ghosts);
+  static void publishPoints(const ros::Publisher& publisher, const ros::Time& stamp,
+                            const std::vector<Eigen::Vector3d>& points);
   void publish(const ros::Time& stamp);
 
   // What came between two scans.
@@ -93,6 +94,7 @@ class TrafficNode {
   ros::Publisher markers_publisher_;
   ros::Publisher still_publisher_;
   ros::Publisher ghosts_publisher_;
+  ros::Publisher lying_publisher_;
 };
 
 Result<std::unique_ptr<TrafficNode>> TrafficNode::create(config::Section section) {
@@ -116,7 +118,8 @@ TrafficNode::TrafficNode(const traffic::Options& options, const vessel::Hull& hu
       tracks_publisher_(node_.advertise<Tracks>("tracks", kQueue)),
       markers_publisher_(node_.advertise<visualization_msgs::MarkerArray>("track_markers", 1)),
       still_publisher_(node_.advertise<sensor_msgs::LaserScan>("scan_still", kQueue)),
-      ghosts_publisher_(node_.advertise<sensor_msgs::PointCloud>("ghosts", kQueue)) {
+      ghosts_publisher_(node_.advertise<sensor_msgs::PointCloud>("ghosts", kQueue)),
+      lying_publisher_(node_.advertise<sensor_msgs::PointCloud>("lying", kQueue)) {
   diagnostics_.setState(Level::kOk, "without a chart");
   chart_subscriber_ = node_.subscribe("chart", 1, &TrafficNode::onChart, this);
   radar_subscriber_ = node_.subscribe("radar", kQueue, &TrafficNode::onRadar, this,
@@ -212,28 +215,34 @@ void TrafficNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
         still.ranges[i] = std::numeric_limits<float>::quiet_NaN();
       }
     }
-    publishGhosts(stamp, verdict.ghosts);
+    std::vector<Eigen::Vector3d> ghosts;
+    for (const Eigen::Vector2d& ghost : verdict.ghosts) {
+      ghosts.emplace_back(ghost.x(), ghost.y(), 0.0);
+    }
+    publishPoints(ghosts_publisher_, stamp, ghosts);
+    publishPoints(lying_publisher_, stamp, verdict.lying);
   }
   last_scan_ = stamp;
   last_still_ = std::move(still);
   publish(stamp);
 }
 
-void TrafficNode::publishGhosts(const ros::Time& stamp,
-                                const std::vector<Eigen::Vector2d>& ghosts) {
-  if (ghosts.empty()) {
+void TrafficNode::publishPoints(const ros::Publisher& publisher, const ros::Time& stamp,
+                                const std::vector<Eigen::Vector3d>& points) {
+  if (points.empty()) {
     return;
   }
   sensor_msgs::PointCloud message;
   message.header.frame_id = frames().map;
   message.header.stamp = stamp;
-  for (const Eigen::Vector2d& ghost : ghosts) {
+  for (const Eigen::Vector3d& p : points) {
     geometry_msgs::Point32 point;
-    point.x = static_cast<float>(ghost.x());
-    point.y = static_cast<float>(ghost.y());
+    point.x = static_cast<float>(p.x());
+    point.y = static_cast<float>(p.y());
+    point.z = static_cast<float>(p.z());
     message.points.push_back(point);
   }
-  ghosts_publisher_.publish(message);
+  publisher.publish(message);
 }
 
 // The map's answer to the scan lets time go on: it comes last.

@@ -74,6 +74,7 @@ Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& sta
     one.turn_time = track.turn_time_s;
     one.length = track.length_m;
     one.beam = track.beam_m;
+    one.keeps_place = static_cast<std::uint8_t>(track.keeps_place);
     one.disc = static_cast<std::uint8_t>(track.shape == traffic::Shape::kDisc);
     std::copy(track.covariance.data(), track.covariance.data() + 16, one.covariance.begin());
     one.existence = track.existence;
@@ -103,6 +104,7 @@ Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
     track.turn_time_s = one.turn_time;
     track.length_m = one.length;
     track.beam_m = one.beam;
+    track.keeps_place = one.keeps_place != 0;
     track.shape = one.disc != 0 ? traffic::Shape::kDisc : traffic::Shape::kBox;
     std::copy(one.covariance.begin(), one.covariance.end(), track.covariance.data());
     track.existence = one.existence;

@@ -36,6 +36,7 @@ Status Sensing::insert(Scan scan, const plant::Odometry& odometry) {
     }
   }
   update(map_.forget(verdict.ghosts));
+  update(map_.fill(verdict.lying));
   if (!field_.geometry().contains(pose.position.head<2>())) {
     return {};
   }

@@ -29,7 +29,7 @@ Eigen::Matrix2d positionCovariance(const Track& track, double t_s, const Predict
   const Eigen::Matrix2d mixed = p.topRightCorner<2, 2>();
   return p.topLeftCorner<2, 2>() + t_s * (mixed + mixed.transpose()) +
          t_s * t_s * p.bottomRightCorner<2, 2>() +
-         strayVariance(t_s, o) * Eigen::Matrix2d::Identity();
+         (track.keeps_place ? 0.0 : strayVariance(t_s, o)) * Eigen::Matrix2d::Identity();
 }
 
 // The present outline moved to `position` and grown by what is uncertain after `t_s`.

@@ -131,15 +131,32 @@ bool TrackedVessel::followCourse() {
   return first;
 }
 
-bool TrackedVessel::liesStill(double now_s) {
-  constexpr double kPlaceM = 0.6;
-  constexpr double kForS = 6.0;
-  const Eigen::Vector2d here = motion.state().head<2>();
-  if (placed_s == kLongAgoS || (here - place).norm() > kPlaceM) {
+void TrackedVessel::findPlace(double now_s) {
+  constexpr double kPlaceM = 2.0;
+  constexpr double kForS = 15.0;
+  const Eigen::Vector2d here = motion.usualState().head<2>();
+  if (placed_s == kLongAgoS || course() || (here - place).norm() > kPlaceM) {
     place = here;
     placed_s = now_s;
   }
-  return now_s - placed_s > kForS;
+  stays = now_s - placed_s > kForS;
+}
+
+void TrackedVessel::lookedAt(const Cluster& cluster, double now_s) {
+  // A side that comes into sight is met where nothing was, as a bow is, until it has stood a while.
+  constexpr double kShare = 0.5;
+  constexpr double kShareLying = 0.3;
+  const double share = is_mapped ? kShareLying : kShare;
+  const bool moves = is_mapped ? isUnderWay() : course().has_value();
+  if (moves || cluster.standing_points < share * static_cast<double>(cluster.points.size())) {
+    stands_since_s = kLongAgoS;
+  } else if (stands_since_s == kLongAgoS) {
+    stands_since_s = now_s;
+  }
+}
+
+bool TrackedVessel::liesStill(double now_s, double for_s) const {
+  return stands_since_s != kLongAgoS && now_s - stands_since_s > for_s;
 }
 
 bool TrackedVessel::isUnderWay() const {
@@ -153,11 +170,12 @@ Track TrackedVessel::track() const {
   track.mmsi = mmsi;
   track.stamp_s = motion.stamp();
   track.position = x.head<2>();
-  track.velocity = keeps_place ? Eigen::Vector2d::Zero() : Eigen::Vector2d(x.segment<2>(2));
-  track.turn_rate_radps = keeps_place ? 0.0 : x[4];
+  track.keeps_place = keeps_place || is_mapped || stays;
+  track.velocity = track.keeps_place ? Eigen::Vector2d::Zero() : Eigen::Vector2d(x.segment<2>(2));
+  track.turn_rate_radps = track.keeps_place ? 0.0 : x[4];
   track.turn_time_s = kBriefTurnS + motion.steadiness() * (kSteadyTurnS - kBriefTurnS);
   track.covariance = motion.likelyCovariance().topLeftCorner<4, 4>();
-  if (keeps_place) {
+  if (track.keeps_place) {
     track.covariance.rightCols<2>().setZero();
     track.covariance.bottomRows<2>().setZero();
   }
@@ -177,6 +195,23 @@ Track TrackedVessel::track() const {
   track.sources = sources;
   track.met = met;
   return track;
+}
+
+std::vector<Eigen::Vector2d> TrackedVessel::pointsWithin() const {
+  constexpr double kInsideM = 0.3;  // the sides themselves are the lidar's to tell
+  constexpr double kSpacingM = 0.2;
+  std::vector<Eigen::Vector2d> points;
+  if (!knowsOutline()) {
+    return points;
+  }
+  const Eigen::Vector2d middle = motion.usualState().head<2>();
+  const Eigen::Vector2d half(0.5 * length_m - kInsideM, 0.5 * beam_m - kInsideM);
+  for (double along = -half.x(); along <= half.x(); along += kSpacingM) {
+    for (double athwart = -half.y(); athwart <= half.y(); athwart += kSpacingM) {
+      points.push_back(middle + along * ahead() + athwart * across(ahead()));
+    }
+  }
+  return points;
 }
 
 Eigen::Vector2d TrackedVessel::ahead() const {

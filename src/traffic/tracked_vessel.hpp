@@ -62,9 +62,18 @@ struct TrackedVessel {
   // Where it has been all along since then, to within what the estimate wanders.
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   double placed_s = kLongAgoS;
+  bool stays = false;  // has for long enough to be taken to lie there
+  // To be called whenever it was seen.
+  void findPlace(double now_s);
 
-  // To be called whenever it was seen: whether it has lain where it is for a while.
-  bool liesStill(double now_s);
+  // Since when each look of the lidar's has met mostly what stands, and nothing told of a course.
+  double stands_since_s = kLongAgoS;
+  bool is_mapped = false;                      // lies where the map has her outline
+  std::vector<Eigen::Vector2d> mapped_points;  // that it was given of it
+
+  // To be called with each cluster that is hers.
+  void lookedAt(const Cluster& cluster, double now_s);
+  [[nodiscard]] bool liesStill(double now_s, double for_s) const;
 
   // Begins to count anew: what was met now may be something else than before.
   void doubt(double time_s) {
@@ -79,6 +88,10 @@ struct TrackedVessel {
   // Whether it is the first one.
   bool followCourse();
   [[nodiscard]] bool isUnderWay() const;
+  // How long, how broad and how it lies; else the track's outline is what may hold it.
+  [[nodiscard]] bool knowsOutline() const { return heading_rad && size != Size::kGuessed; }
+  // Of that, a little inside; none where it isn't known.
+  [[nodiscard]] std::vector<Eigen::Vector2d> pointsWithin() const;
   [[nodiscard]] Track track() const;
 
   // The direction of the sides that a cluster shows next to the heading, which has to be known;

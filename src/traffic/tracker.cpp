@@ -46,6 +46,7 @@ constexpr int kMostMissed = 1;
 constexpr double kTentativeS = 8.0;  // what is not confirmed by then is dropped, in doubt or not
 constexpr double kOutlineMarginM = 0.7;  // echoes this near a vessel's outline are hers
 constexpr double kLostS = 30.0;          // neither seen nor heard for so long
+constexpr double kMappedS = 2.0;         // lies still in the lidar's sight for so long
 
 // Radar.
 constexpr double kRadarDetection = 0.9;
@@ -98,6 +99,7 @@ class Tracker::Impl {
     const Eigen::Vector2d eye = sensor.position.head<2>();
     verdict_.on_vessel.assign(scan.ranges_m.size(), false);
     verdict_.ghosts.clear();
+    verdict_.lying.clear();
     lookRound(eye);
     Look look;
     look.stamp_s = stamp_s;
@@ -126,6 +128,7 @@ class Tracker::Impl {
         ++vessel.moving_hits;
         vessel.last_new_s = look.stamp_s;
       }
+      vessel.lookedAt(clusters[k], look.stamp_s);
       if (!crowded_ || !clusters[k].shared) {
         vessel.learnSize(clusters[k], eye, crowded_);
       }
@@ -144,6 +147,7 @@ class Tracker::Impl {
     }
     unite();
     judge(stamp_s);
+    giveToMap(stamp_s, sensor.position.z());
     findOnVessels();
     return verdict_;
   }
@@ -395,6 +399,9 @@ class Tracker::Impl {
         vessel.doubt(look.stamp_s);
       }
       vessel.last_s = look.stamp_s;
+      vessel.findPlace(look.stamp_s);
+      // She has said that she lies there, and has gone since.
+      vessel.keeps_place = vessel.keeps_place && !(vessel.isUnderWay() && vessel.course());
       ++vessel.hits;
       vessel.sources |= look.source;
       vessel.plots += look.source == kRadar ? 1 : 0;
@@ -750,12 +757,6 @@ class Tracker::Impl {
   // Confirms, drops, and tells of what is left.
   void judge(double now_s) {
     for (TrackedVessel& vessel : vessels_) {
-      // What the lidar alone has seen lying where it is belongs to the map: it may be something
-      // that never moved, and nothing is foretold of it.
-      if (vessel.confirmed && isTheLidarsAlone(vessel) && vessel.last_s == now_s &&
-          vessel.liesStill(now_s)) {
-        vessel.existence = 0.0;
-      }
       if (vessel.confirmed || vessel.existence < kConfirmed || vessel.hits < kFewestHits) {
         continue;
       }
@@ -778,8 +779,29 @@ class Tracker::Impl {
                    vessels_.end());
     tracks_.clear();
     for (const TrackedVessel& vessel : vessels_) {
-      if (vessel.confirmed) {
+      if (vessel.confirmed && !vessel.is_mapped) {
         tracks_.push_back(vessel.track());
+      }
+    }
+  }
+
+  // What the lidar has seen lying where it is belongs to the map: it may be something that never
+  // moved, and nothing is foretold of it. Who else tells of her goes on being heard: she may sail.
+  void giveToMap(double now_s, double height_m) {
+    for (TrackedVessel& vessel : vessels_) {
+      if (vessel.is_mapped && (vessel.isUnderWay() || !vessel.liesStill(now_s, 0.0))) {
+        vessel.is_mapped = false;
+        vessel.stands_since_s = kLongAgoS;
+        verdict_.ghosts.insert(verdict_.ghosts.end(), vessel.mapped_points.begin(),
+                               vessel.mapped_points.end());
+        vessel.mapped_points = {};
+      } else if (vessel.confirmed && !vessel.is_mapped && vessel.liesStill(now_s, kMappedS)) {
+        vessel.is_mapped = true;
+        vessel.mapped_points = vessel.pointsWithin();
+        for (const Eigen::Vector2d& point : vessel.mapped_points) {
+          verdict_.lying.emplace_back(point.x(), point.y(), height_m);
+        }
+        vessel.existence = isTheLidarsAlone(vessel) ? 0.0 : vessel.existence;
       }
     }
   }
@@ -788,7 +810,7 @@ class Tracker::Impl {
   // wave, or is met at its foot.
   void findOnVessels() {
     for (const TrackedVessel& vessel : vessels_) {
-      if (!vessel.confirmed || !vessel.has_moved) {
+      if (!vessel.confirmed || !vessel.has_moved || vessel.is_mapped) {
         continue;
       }
       PredictionOptions now;

@@ -81,6 +81,10 @@ class OccupancyMap {
   // Clears what was sensed in the columns of these points: what was met there has moved on. The
   // changed cells.
   CellRectangle forget(const std::vector<Eigen::Vector2d>& points);
+  // Takes these points, at heights over the water, for occupied as if an echo had met each: what is
+  // known to be there though the lidar sees but its near sides. Beams that pass there clear it. The
+  // changed cells.
+  CellRectangle fill(const std::vector<Eigen::Vector3d>& points);
   // Forgets what was sensed; the changed cells.
   CellRectangle reset();
   // By the path's ending: .bt or .ot (the tree), .yaml (the projection, with a PGM beside it).

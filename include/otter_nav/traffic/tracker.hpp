@@ -39,6 +39,9 @@ struct ScanVerdict {
   std::vector<bool> on_vessel;
   // Where a vessel was met before it was known to be one: what a map holds there is a ghost.
   std::vector<Eigen::Vector2d> ghosts;
+  // Points within the hulls of vessels that have come to lie still, at the sensor's height: the
+  // map's from now on, of which the lidar sees but the near sides.
+  std::vector<Eigen::Vector3d> lying;
 };
 
 class Tracker {

@@ -82,6 +82,24 @@ TEST(OccupancyMap, FloatingObstacleAppearsAndClears) {
   EXPECT_LT(misses, 15);
 }
 
+// What is filled in stays until beams pass there; land is land.
+TEST(OccupancyMap, WhatIsFilledInClearsWhereBeamsPass) {
+  OccupancyMap map(coast(), kHull, kOptions);
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), openWater()));
+  }
+  const CellRectangle changed = map.fill({{5.1, 0.0, 0.8}, {-17.0, 0.0, 0.8}, {5.1, 4.0, 99.0}});
+  EXPECT_EQ(changed.width * changed.height, 1);
+  EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kOccupied);
+  EXPECT_EQ(cellAt(map, 5.1, 4.0), Cell::kFree);
+  ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(4.5F)));
+  EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kOccupied);
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(kInf)));
+  }
+  EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kFree);
+}
+
 TEST(OccupancyMap, ChartedLandStays) {
   OccupancyMap map(coast(), kHull, kOptions);
   for (int i = 0; i < 30; ++i) {

@@ -383,6 +383,46 @@ TEST(TrafficTracker, TellsTheMapWhatMoves) {
   EXPECT_LE(missed, 5);
 }
 
+// Who is heard besides and lies in the lidar's sight is the map's, with the sides that it doesn't
+// see, and no track is told; when she sails on she is a track again, and the map forgets her.
+TEST(TrafficTracker, GivesToTheMapWhoLiesInSight) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    vessel::ScriptedVessel vessel{1,
+                                  {5.0, 2.0},
+                                  true,
+                                  {{-30.0, 8.0}, {0.0, 8.0}, {0.3, 8.0}, {40.0, 8.0}},
+                                  {2.0, 0.01, 2.0}};  // lies from 15 to 45 s
+    Sea sea(test::plantOptions("none"), {}, {vessel}, seed);
+    std::vector<Eigen::Vector3d> filled;
+    std::size_t forgotten = 0;
+    sea.run(14.0, {0.0, 0.0}, [&](const ScanVerdict& verdict) {
+      filled.insert(filled.end(), verdict.lying.begin(), verdict.lying.end());
+    });
+    EXPECT_TRUE(filled.empty());  // nobody who makes way
+    EXPECT_TRUE(sea.trackOf(0)) << seed;
+    sea.run(40.0, {0.0, 0.0}, [&](const ScanVerdict& verdict) {
+      filled.insert(filled.end(), verdict.lying.begin(), verdict.lying.end());
+    });
+    EXPECT_FALSE(sea.trackOf(0)) << seed;
+    EXPECT_GT(filled.size(), 60U) << seed;
+    const auto far_side = std::count_if(filled.begin(), filled.end(),
+                                        [](const auto& point) { return point.y() > 8.2; });
+    EXPECT_GT(far_side, 15) << seed;
+    for (const Eigen::Vector3d& point : filled) {
+      EXPECT_LT(std::abs(point.x() - 0.15), 3.1) << seed;
+      EXPECT_LT(std::abs(point.y() - 8.0), 1.4) << seed;
+      EXPECT_GT(point.z(), 0.0);
+    }
+    sea.run(52.0, {0.0, 0.0},
+            [&](const ScanVerdict& verdict) { forgotten += verdict.ghosts.size(); });
+    const std::optional<Track> again = sea.trackOf(0);
+    ASSERT_TRUE(again) << seed;
+    EXPECT_FALSE(again->keeps_place);
+    EXPECT_GT(again->velocity.norm(), 1.0);
+    EXPECT_GE(forgotten, filled.size()) << seed;
+  }
+}
+
 // By the lidar alone nobody can tell what has come to rest from what never moved: it is the map's.
 TEST(TrafficTracker, LeavesToTheMapWhatHasComeToRest) {
   const vessel::ScriptedVessel vessel{1, {5.0, 2.0}, false, {{-30.0, 8.0}, {0.0, 8.0}}, {2.0}};
