@@ -766,9 +766,10 @@ class Decider final : public Supervisor {
     constexpr double kCrawlingS = 2.0;
     constexpr double kCrowdedS = 3.0;
     const double last_resort = planned_left_m_ > 0.0 ? kPartS : kLastResortS;
-    const double usual = crawlsForRoom()           ? kCrawlingS
-                         : waitsForOthers(m.now_s) ? kCrowdedS
-                                                   : options_.improve_period_s;
+    const bool others_slow_it = m.now_s - plan_time_s_ >= kCrowdedS && waitsForOthers(m.now_s);
+    const double usual = crawlsForRoom()  ? kCrawlingS
+                         : others_slow_it ? kCrowdedS
+                                          : options_.improve_period_s;
     const double period = is_last_resort_ ? last_resort : usual;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
   }
@@ -1715,7 +1716,7 @@ class Decider final : public Supervisor {
         return true;
       }
     }
-    // One with less beside it than the plan has is better than an old one.
+    // One with less beside it than the plan has is better than an old one, and that than none.
     limits = safety().leastStop(planned);
     limits.off = off;
     return keepStop(m, path, kReserveS, limits) || fallback_;

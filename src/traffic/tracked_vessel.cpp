@@ -146,6 +146,11 @@ void TrackedVessel::lookedAt(const Cluster& cluster, double now_s) {
   // A side that comes into sight is met where nothing was, as a bow is, until it has stood a while.
   constexpr double kShare = 0.5;
   constexpr double kShareLying = 0.3;
+  constexpr double kGapS = 0.5;  // unseen for longer, she may have gone, and another come
+  if (!is_mapped && now_s - looked_s > kGapS) {
+    stands_since_s = kLongAgoS;
+  }
+  looked_s = now_s;
   const double share = is_mapped ? kShareLying : kShare;
   const bool moves = is_mapped ? isUnderWay() : course().has_value();
   if (moves || cluster.standing_points < share * static_cast<double>(cluster.points.size())) {

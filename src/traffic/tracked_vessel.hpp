@@ -63,11 +63,12 @@ struct TrackedVessel {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   double placed_s = kLongAgoS;
   bool stays = false;  // has for long enough to be taken to lie there
-  // To be called whenever it was seen.
+  // To be called whenever it was seen or heard.
   void findPlace(double now_s);
 
   // Since when each look of the lidar's has met mostly what stands, and nothing told of a course.
   double stands_since_s = kLongAgoS;
+  double looked_s = kLongAgoS;
   bool is_mapped = false;                      // lies where the map has her outline
   std::vector<Eigen::Vector2d> mapped_points;  // that it was given of it
 

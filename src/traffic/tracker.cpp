@@ -47,6 +47,9 @@ constexpr double kTentativeS = 8.0;  // what is not confirmed by then is dropped
 constexpr double kOutlineMarginM = 0.7;  // echoes this near a vessel's outline are hers
 constexpr double kLostS = 30.0;          // neither seen nor heard for so long
 constexpr double kMappedS = 2.0;         // lies still in the lidar's sight for so long
+// Of what the lidar takes for one thing nothing is longer by much: what AIS says to be so is not
+// what stands there, or too large for the map to be given it point by point.
+constexpr double kLongestMappedM = 40.0;
 
 // Radar.
 constexpr double kRadarDetection = 0.9;
@@ -594,6 +597,7 @@ class Tracker::Impl {
       vessel.motion.update(*vessel.reported);
     }
     vessel.followCourse();
+    vessel.findPlace(stamp_s);
     if (m.type == 21 && !m.hasDimensions()) {
       vessel.length_m = vessel.beam_m = kAidDiameterM;
     }
@@ -795,7 +799,9 @@ class Tracker::Impl {
         verdict_.ghosts.insert(verdict_.ghosts.end(), vessel.mapped_points.begin(),
                                vessel.mapped_points.end());
         vessel.mapped_points = {};
-      } else if (vessel.confirmed && !vessel.is_mapped && vessel.liesStill(now_s, kMappedS)) {
+      } else if (vessel.confirmed && !vessel.is_mapped && vessel.looked_s == now_s &&
+                 vessel.liesStill(now_s, kMappedS) &&
+                 std::max(vessel.length_m, vessel.beam_m) < kLongestMappedM) {
         vessel.is_mapped = true;
         vessel.mapped_points = vessel.pointsWithin();
         for (const Eigen::Vector2d& point : vessel.mapped_points) {

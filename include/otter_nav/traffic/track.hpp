@@ -24,7 +24,7 @@ struct Track {
   double heading_rad = 0.0;
   double turn_rate_radps = 0.0;  // of course and heading alike
   double turn_time_s = 5.0;      // in which the turn will have fallen to 1 / e
-  bool keeps_place = false;      // at anchor, moored, a buoy: it isn't foretold to stray either
+  bool keeps_place = false;      // at anchor, a buoy, or lying still: foretold to stay
   Shape shape = Shape::kBox;
   double length_m = 0.0;
   double beam_m = 0.0;

@@ -37,7 +37,8 @@ struct ScanVerdict {
   // A beam each: whether it met a vessel that is tracked and has moved. What such beams met does
   // not belong into a map of what stands.
   std::vector<bool> on_vessel;
-  // Where a vessel was met before it was known to be one: what a map holds there is a ghost.
+  // Where a vessel was met before it was known to be one, or lay before it sailed on: what a map
+  // holds there is a ghost.
   std::vector<Eigen::Vector2d> ghosts;
   // Points within the hulls of vessels that have come to lie still, at the sensor's height: the
   // map's from now on, of which the lidar sees but the near sides.

@@ -82,6 +82,20 @@ TEST(TrackLayer, GrowsWithTimeAndNotBeyondItsLimit) {
   EXPECT_NEAR(path.at(150.0).half_beam_m, 1.2, 1e-9);
 }
 
+// Who keeps her place may be off by what is not known of it, and by no more as time goes on.
+TEST(TrackLayer, DoesNotLetStrayWhoKeepsHerPlace) {
+  Track track = eastward();
+  track.velocity.setZero();
+  track.covariance.setZero();
+  track.covariance.diagonal().head<2>().setConstant(0.25);
+  const PredictionOptions options;
+  EXPECT_GT(PredictedPath(track, options).at(130.0).half_beam_m, 2.2);
+  track.keeps_place = true;
+  const PredictedPath path(track, options);
+  EXPECT_NEAR(path.at(130.0).half_beam_m, 1.0 + options.sigmas * 0.5, 1e-9);
+  EXPECT_EQ(path.rateBound(), 0.0);
+}
+
 // The strayed positions of many simulated vessels have the variance that is said.
 TEST(TrackLayer, StraysAsAnOrnsteinUhlenbeckProcess) {
   PredictionOptions options;

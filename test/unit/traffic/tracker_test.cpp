@@ -537,6 +537,52 @@ TEST(TrafficTracker, KeepsAnAnchoredVesselTenMinutesWithTheReachOfItsDimensions)
   EXPECT_FALSE(tracker.addAis(603.0, "!AIVDM,1,1,,A,nonsense,0*00"));
 }
 
+// Gathering way from rest by 0.3 m/s2, `t_s` later.
+double gatheredM(double t_s) {
+  return 0.15 * t_s * t_s;
+}
+
+// Who was seen to lie in one place for long enough keeps it, until anybody tells of her making way:
+// a sensor that sees her, or she herself.
+TEST(TrafficTracker, TakesWhoLiesToStayUntilSheMakesWay) {
+  const Eigen::Vector2d place(60.0, 20.0);
+  const Eigen::Vector2d east = Eigen::Vector2d::UnitX();
+  for (const bool reports : {false, true}) {
+    Tracker tracker(Options{}, {}, {2.0, 1.08});
+    for (int k = 0; k <= 30; ++k) {
+      tracker.addRadar(k, {place}, {0.0, 0.0});
+    }
+    ASSERT_EQ(tracker.tracks().size(), 1U);
+    EXPECT_TRUE(tracker.tracks().front().keeps_place);
+    EXPECT_EQ(tracker.tracks().front().velocity.norm(), 0.0);
+    for (int k = 1; k <= 8; ++k) {
+      const Eigen::Vector2d here = place + gatheredM(k) * east;
+      if (reports) {
+        ASSERT_TRUE(tracker.addAis(30.0 + k, report(257000005, here, 0.3 * k / ais::kKnotMps, 90)));
+      } else {
+        tracker.addRadar(30.0 + k, {here}, {0.0, 0.0});
+      }
+    }
+    ASSERT_EQ(tracker.tracks().size(), 1U) << reports;
+    EXPECT_FALSE(tracker.tracks().front().keeps_place) << reports;
+    EXPECT_GT(tracker.tracks().front().velocity.x(), 1.2) << reports;
+  }
+}
+
+// She says every three minutes that she lies, and may be off meanwhile.
+TEST(TrafficTracker, BelievesTheLidarBeforeAReportOfRest) {
+  const vessel::ScriptedVessel vessel{
+      1, {5.0, 2.0}, true, {{-10.0, 8.0}, {-9.8, 8.0}, {30.0, 8.0}}, {0.01, 2.0}};
+  Sea sea(lidarOnly("none"), {}, {vessel}, 1);
+  sea.run(1.0, {0.0, 0.0});
+  ASSERT_TRUE(sea.trackOf(0));
+  EXPECT_TRUE(sea.trackOf(0)->keeps_place);
+  sea.run(24.0, {0.0, 0.0});
+  ASSERT_TRUE(sea.trackOf(0));
+  EXPECT_FALSE(sea.trackOf(0)->keeps_place);
+  EXPECT_GT(sea.trackOf(0)->velocity.x(), 1.2);
+}
+
 TEST(TrafficTracker, JoinsAisWithWhatTheRadarSees) {
   Tracker tracker(Options{}, {}, {2.0, 1.08});
   for (int k = 0; k < 20; ++k) {
