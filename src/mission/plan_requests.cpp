@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "otter_nav/base/parts.hpp"
 #include "otter_nav/base/planar.hpp"
@@ -18,8 +19,9 @@ namespace {
 
 // From `at_s` on, the first time at which a new trajectory can begin: well under way, and with a
 // heading that follows from the path. A plan that starts at walking pace has a heading that hardly
-// counts and turns at once.
-std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, double at_s) {
+// counts and turns at once. Nothing where it isn't `fastest_mps` at most by `slow_by_s`.
+std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, double at_s,
+                                  double fastest_mps, double slow_by_s) {
   constexpr double kStepS = 0.1;
   const double least = PlanRequests::joiningSpeed(whole);
   const trajectory::Trajectory& sailed = whole.trajectory;
@@ -27,8 +29,15 @@ std::optional<double> joiningTime(const trajectory::TimedTrajectory& whole, doub
   for (int k = 0; k < steps; ++k) {
     const double t = at_s + k * kStepS;
     const trajectory::Piece& piece = sailed.pieces()[sailed.pieceAt(t)];
-    if (piece.kind != trajectory::PieceKind::kSpin && sailed.flat(t).velocity.norm() >= least) {
+    const double speed_mps = sailed.flat(t).velocity.norm();
+    if (piece.kind == trajectory::PieceKind::kSpin || speed_mps < least) {
+      continue;
+    }
+    if (speed_mps <= fastest_mps) {
       return t;
+    }
+    if (t >= slow_by_s) {
+      break;
     }
   }
   return std::nullopt;
@@ -101,7 +110,8 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                                                     double thrust_share, const vessel::Pose& goal,
                                                     const feasibility::Obstacles& obstacles,
                                                     double rests_by_s) {
-  const std::optional<double> at = beginning(now_s, sailed, rests_by_s);
+  const double fastest_mps = safety.fastestStart(safety.level());
+  const std::optional<double> at = beginning(now_s, sailed, rests_by_s, fastest_mps);
   if (!at) {
     return std::nullopt;
   }
@@ -133,9 +143,11 @@ double PlanRequests::joiningSpeed(const trajectory::TimedTrajectory& sailed) {
 
 std::optional<double> PlanRequests::beginning(double now_s,
                                               const trajectory::TimedTrajectory& sailed,
-                                              double rests_by_s) const {
+                                              double rests_by_s, double fastest_mps) const {
+  constexpr double kSlowsDownS = 6.0;  // as a stop does
   const double soon = sailed.elapsed(now_s + latency.seconds());
-  if (const std::optional<double> at = joiningTime(sailed, soon)) {
+  const double slow_by_s = std::min(soon + kSlowsDownS, sailed.elapsed(rests_by_s));
+  if (const std::optional<double> at = joiningTime(sailed, soon, fastest_mps, slow_by_s)) {
     return at;
   }
   const std::optional<double> at = restingTime(sailed.trajectory, soon);
@@ -144,7 +156,9 @@ std::optional<double> PlanRequests::beginning(double now_s,
 
 std::optional<double> PlanRequests::joint(double now_s,
                                           const trajectory::TimedTrajectory& sailed) const {
-  const std::optional<double> at = joiningTime(sailed, sailed.elapsed(now_s + latency.seconds()));
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  const std::optional<double> at =
+      joiningTime(sailed, sailed.elapsed(now_s + latency.seconds()), kAny, kAny);
   return at ? std::optional<double>(sailed.start_time_s + *at) : std::nullopt;
 }
 

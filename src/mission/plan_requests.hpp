@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -65,7 +66,8 @@ class PlanRequests {
   PlanRequest fromRest(double now_s, const vessel::State& state, const vessel::Pose& goal,
                        const feasibility::Obstacles& obstacles);
   // From where it is under way soon; or where it next rests on its way, if that is `rests_by_s` at
-  // the latest. Nothing where it is about to come to rest for good.
+  // the latest. Nothing where it is about to come to rest for good, or too fast for the level and
+  // not about to slow down.
   std::optional<PlanRequest> fromSailed(double now_s, const trajectory::TimedTrajectory& sailed,
                                         double thrust_share, const vessel::Pose& goal,
                                         const feasibility::Obstacles& obstacles, double rests_by_s);
@@ -77,10 +79,11 @@ class PlanRequests {
   [[nodiscard]] std::optional<double> joint(double now_s,
                                             const trajectory::TimedTrajectory& sailed) const;
   [[nodiscard]] static double joiningSpeed(const trajectory::TimedTrajectory& sailed);
-  // When a plan from the sailed trajectory would begin, s from that one's start; see `fromSailed`.
-  [[nodiscard]] std::optional<double> beginning(double now_s,
-                                                const trajectory::TimedTrajectory& sailed,
-                                                double rests_by_s) const;
+  // When a plan from the sailed trajectory would begin, s from that one's start, at no more than
+  // `fastest_mps`; see `fromSailed`.
+  [[nodiscard]] std::optional<double> beginning(
+      double now_s, const trajectory::TimedTrajectory& sailed, double rests_by_s,
+      double fastest_mps = std::numeric_limits<double>::infinity()) const;
   // Whether what is known of the water round the vessel, and of how it wanders, lets plans on a
   // level be markedly faster than at that share of the usual speed.
   [[nodiscard]] bool mayBeFaster(std::size_t level, double pace_share, const vessel::State& state,

@@ -159,6 +159,12 @@ double Safety::paceAt(std::size_t level, double usual_mps) const {
   return std::min(usual_mps, std::max(vessel::crawlMps(vessel_.hull), leastPace()));
 }
 
+double Safety::fastestStart(std::size_t level) const {
+  constexpr double kFaster = 1.25;
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  return wander_.isKnown() ? kFaster * paceAt(level, kAny) : kAny;
+}
+
 double Safety::leastPace() const {
   constexpr double kLeanRad = 0.25;
   return vessel::InverseDynamics(vessel_, lightLoad()).greatestLoadAbeam() /

@@ -110,6 +110,9 @@ class Safety {
   // `usual_mps`, or a crawl where the vessel wanders by most of the room that a level has: at speed
   // it would be farther off its way.
   [[nodiscard]] double paceAt(std::size_t level, double usual_mps) const;
+  // Little more than that crawl, m/s, where the vessel was seen to wander so: a plan that begins
+  // faster sails the narrow water with it before it has slowed down. Else anything.
+  [[nodiscard]] double fastestStart(std::size_t level) const;
 
   void setOptions(const SupervisorOptions& options) { options_ = options; }
   // Of all plans from now on; 0: the vessel's alone.

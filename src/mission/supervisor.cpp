@@ -865,6 +865,9 @@ class Decider final : public Supervisor {
         plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles, rests_by_s),
         {},
         false};
+    if (!orders.plan) {
+      safety().tryWidest();  // by the next update the vessel may be too fast for this level still
+    }
     if (orders.plan && phase_ == Phase::kReplanning && cause_ == Cause::kClearance) {
       const feasibility::SafetyLimits& asked = orders.plan->query.limits;
       const double listed_m = std::min(listedClearance(safety().level()), asked.clearance_m);
