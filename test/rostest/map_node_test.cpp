@@ -1,9 +1,11 @@
-// map_node alone: chart in, map out; a scan adds to it, save and reset work.
+// map_node alone: chart in, map out; a scan adds to it, and so do vessels that lie; save and reset
+// work.
 #include <gtest/gtest.h>
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <otter_nav/SaveMap.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
@@ -106,6 +108,43 @@ TEST_F(MapNode, PublishesItsChartAddsEchoesSavesAndResets) {
     (void)ros_bridge::applyUpdate(update, ros_bridge::frames().map, grid);
     return cellAhead(grid) == map::Cell::kFree;
   }));
+}
+
+// What traffic_node tells of hulls that have come to lie, and of those that have moved on.
+TEST_F(MapNode, FillsInWhoLiesAndForgetsWhoHasMovedOn) {
+  ros::Publisher lying = node_.advertise<sensor_msgs::PointCloud>("lying", 10);
+  ros::Publisher ghosts = node_.advertise<sensor_msgs::PointCloud>("ghosts", 10);
+  ASSERT_TRUE(maps_.waitFor([](const auto& message) { return message.info.width == 240U; }));
+  ASSERT_TRUE(waitUntil([&] {
+    return updates_.connected() && lying.getNumSubscribers() > 0 && ghosts.getNumSubscribers() > 0;
+  }));
+  map::OccupancyGrid grid = *ros_bridge::toGrid(maps_.messages.back(), ros_bridge::frames().map);
+  const Eigen::Vector2d place(kEast - 4.0, 6.0);
+  const auto isAt = [&](map::Cell wanted, double patience_s) {
+    return updates_.waitFor(
+        [&](const auto& update) {
+          (void)ros_bridge::applyUpdate(update, ros_bridge::frames().map, grid);
+          const Eigen::Vector2i cell = grid.geometry.cellAt(place);
+          return grid.at(cell.x(), cell.y()) == wanted;
+        },
+        patience_s);
+  };
+  sensor_msgs::PointCloud cloud;
+  cloud.header.frame_id = ros_bridge::frames().map;
+  cloud.header.stamp = ros::Time::now();
+  geometry_msgs::Point32 point;
+  point.x = static_cast<float>(place.x());
+  point.y = std::numeric_limits<float>::quiet_NaN();
+  point.z = 0.5F;
+  cloud.points.assign(1, point);
+  lying.publish(cloud);
+  EXPECT_FALSE(isAt(map::Cell::kOccupied, 1.0));
+  cloud.points[0].y = static_cast<float>(place.y());
+  lying.publish(cloud);
+  EXPECT_TRUE(isAt(map::Cell::kOccupied, kPatienceS));
+  updates_.messages.clear();
+  ghosts.publish(cloud);
+  EXPECT_TRUE(isAt(map::Cell::kFree, kPatienceS));
 }
 
 TEST_F(MapNode, RefusesAScanThatGoesBackInTime) {

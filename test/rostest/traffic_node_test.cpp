@@ -1,13 +1,19 @@
-// traffic_node alone: tracks from radar and AIS, the scan passed on, nonsense refused.
+// traffic_node alone: tracks from radar and AIS, the scan passed on, nonsense refused; who comes to
+// lie is given to the map.
 #include <geometry_msgs/PoseArray.h>
 #include <gtest/gtest.h>
 #include <otter_nav/Tracks.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/ros/tracks.hpp"
 #include "support.hpp"
 
@@ -31,6 +37,26 @@ TEST(TracksMessage, CarriesWhereTheyWereMet) {
   EXPECT_FALSE(ros_bridge::toTracks(message));
 }
 
+// A hull along x, 5 m by 2 m.
+struct Hull {
+  Eigen::Vector2d middle;
+
+  // Along a beam from the origin; infinite where that passes her.
+  [[nodiscard]] double range(double bearing_rad) const {
+    const Eigen::Vector2d along = unitVector(bearing_rad);
+    double first = 0.0;
+    double last = std::numeric_limits<double>::infinity();
+    const Eigen::Vector2d half(2.5, 1.0);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double a = (middle[axis] - half[axis]) / along[axis];
+      const double b = (middle[axis] + half[axis]) / along[axis];
+      first = std::max(first, std::min(a, b));
+      last = std::min(last, std::max(a, b));
+    }
+    return first < last ? first : std::numeric_limits<double>::infinity();
+  }
+};
+
 class TrafficNode : public testing::Test {
  protected:
   void SetUp() override {
@@ -41,8 +67,8 @@ class TrafficNode : public testing::Test {
     ASSERT_TRUE(tracks_.connected() && still_.connected());
   }
 
-  // The vessel lies at the origin and looks into open water.
-  void scanAt(const ros::Time& stamp) {
+  // The vessel lies at the origin and looks into open water, or at somebody there.
+  void scanAt(const ros::Time& stamp, const std::optional<Hull>& other = std::nullopt) {
     tf2_msgs::TFMessage transforms;
     for (const std::string& child : {ros_bridge::frames().base, ros_bridge::frames().lidar}) {
       geometry_msgs::TransformStamped transform;
@@ -63,7 +89,21 @@ class TrafficNode : public testing::Test {
     scan.range_min = 0.2F;
     scan.range_max = 25.0F;
     scan.ranges.assign(628, std::numeric_limits<float>::infinity());
+    for (std::size_t k = 0; other && k < scan.ranges.size(); ++k) {
+      const auto range = static_cast<float>(
+          other->range(static_cast<double>(scan.angle_min + scan.angle_increment * k)));
+      if (range < scan.range_max) {
+        scan.ranges[k] = range;
+      }
+    }
     scans_.publish(scan);
+  }
+  // Sent again like the plant does it: the first may go out before all are listening.
+  bool isAnswered(const ros::Time& stamp, const std::optional<Hull>& other = std::nullopt) {
+    return waitUntil([&] {
+      scanAt(stamp, other);
+      return still_.waitFor([&](const auto& scan) { return scan.header.stamp == stamp; }, 1.0);
+    });
   }
   void radarAt(const ros::Time& stamp, double x, double y) {
     geometry_msgs::PoseArray plot;
@@ -93,12 +133,7 @@ TEST_F(TrafficNode, TracksWhatTheRadarAndAisTell) {
     nonsense.data = "!AIVDM,1,1,,A,nonsense,0*00";
     ais_.publish(nonsense);
     ros::WallDuration(0.05).sleep();
-    // Sent again like the plant does it: the first may go out before all are listening.
-    const auto answered = [&] {
-      scanAt(stamp);
-      return still_.waitFor([&](const auto& scan) { return scan.header.stamp == stamp; }, 1.0);
-    };
-    ASSERT_TRUE(waitUntil(answered)) << k;
+    ASSERT_TRUE(isAnswered(stamp)) << k;
     EXPECT_EQ(still_.messages.back().ranges.size(), 628U);
   }
   ASSERT_TRUE(tracks_.waitFor([](const Tracks& message) { return message.tracks.size() == 1; }));
@@ -111,6 +146,40 @@ TEST_F(TrafficNode, TracksWhatTheRadarAndAisTell) {
   EXPECT_NEAR(track.met_position.y, 20.0, 1.5);
   EXPECT_GT(track.met_deviation, 0.0);
   EXPECT_EQ(tracks_.messages.back().header.frame_id, ros_bridge::frames().map);
+}
+
+// She passes by abeam at 2 m/s, and stops there.
+TEST_F(TrafficNode, GivesToTheMapWhoHasComeToLie) {
+  constexpr int kScansPerS = 15;
+  constexpr double kMps = 2.0;
+  Inbox<sensor_msgs::PointCloud> lying{node_, "lying"};
+  ASSERT_TRUE(lying.connected());
+  const auto points = [](const sensor_msgs::PointCloud& message) { return message.points.size(); };
+  const auto isSomebody = [&](const auto& message) { return points(message) > 0; };
+  const ros::Time begin(200.0);
+  for (int k = 0; k < 20 * kScansPerS; ++k) {
+    const double t = static_cast<double>(k) / kScansPerS;
+    const ros::Time stamp = begin + ros::Duration(t);
+    const Hull other{{std::min(0.0, -20.0 + kMps * t), 8.0}};
+    if (k % kScansPerS == 0) {
+      radarAt(stamp, other.middle.x(), other.middle.y());
+    }
+    still_.messages.clear();
+    ASSERT_TRUE(isAnswered(stamp, other)) << t;
+    ASSERT_TRUE(other.middle.x() == 0.0 ||
+                std::none_of(lying.messages.begin(), lying.messages.end(), isSomebody));
+  }
+  ASSERT_TRUE(lying.waitFor(isSomebody));
+  std::size_t far_side = 0;
+  for (const auto& message : lying.messages) {
+    EXPECT_EQ(message.header.frame_id, ros_bridge::frames().map);
+    for (const geometry_msgs::Point32& point : message.points) {
+      EXPECT_LT(std::abs(point.x), 3.1F);
+      EXPECT_LT(std::abs(point.y - 8.0F), 1.6F);
+      far_side += point.y > 8.3F ? 1 : 0;
+    }
+  }
+  EXPECT_GT(far_side, 5U);  // no beam meets that
 }
 
 }  // namespace
