@@ -70,5 +70,33 @@ TEST(SupervisorSpeed, LooksForAFasterPlanWhenTheLimitRises) {
   EXPECT_FALSE(mission.update(0.1).plan);
 }
 
+// They will have gone soon. What is slow for other reasons, or fast, is left as it is.
+TEST(SupervisorSpeed, LooksForAQuickerPlanWhereOthersMadeItSlow) {
+  for (const bool has_company : {false, true}) {
+    for (const double speed_mps : {1.0, 4.0}) {
+      ScriptedMission mission;
+      if (has_company) {
+        traffic::Track other;
+        other.position = {45.0, 45.0};
+        mission.tracks = {other};
+      }
+      mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+      const Result<Orders> orders = mission.goTo({40.0, 0.0});
+      ASSERT_TRUE(
+          mission.answer(*orders->plan, test::eastward({-40.0, 0.0}, 80.0, speed_mps)).sail);
+      int asked = 0;
+      for (int k = 0; k < 100; ++k) {
+        if (const Orders next = mission.update(0.1); next.plan) {
+          EXPECT_GT(next.plan->query.limits.speed_max_mps, 3.0);
+          EXPECT_FALSE(mission.refuse(*next.plan, "none").stop);
+          ++asked;
+        }
+      }
+      EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+      EXPECT_EQ(asked, has_company && speed_mps < 2.0 ? 3 : 0) << has_company << speed_mps;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace otter_nav::mission
