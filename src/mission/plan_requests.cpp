@@ -156,9 +156,9 @@ std::optional<double> PlanRequests::beginning(double now_s,
 
 std::optional<double> PlanRequests::joint(double now_s,
                                           const trajectory::TimedTrajectory& sailed) const {
-  constexpr double kAny = std::numeric_limits<double>::infinity();
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   const std::optional<double> at =
-      joiningTime(sailed, sailed.elapsed(now_s + latency.seconds()), kAny, kAny);
+      joiningTime(sailed, sailed.elapsed(now_s + latency.seconds()), kUnbounded, kUnbounded);
   return at ? std::optional<double>(sailed.start_time_s + *at) : std::nullopt;
 }
 

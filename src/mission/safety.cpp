@@ -161,8 +161,8 @@ double Safety::paceAt(std::size_t level, double usual_mps) const {
 
 double Safety::fastestStart(std::size_t level) const {
   constexpr double kFaster = 1.25;
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  return wander_.isKnown() ? kFaster * paceAt(level, kAny) : kAny;
+  constexpr double kAnyPaceMps = std::numeric_limits<double>::infinity();
+  return wander_.isKnown() ? kFaster * paceAt(level, kAnyPaceMps) : kAnyPaceMps;
 }
 
 double Safety::leastPace() const {
