@@ -866,7 +866,7 @@ class Decider final : public Supervisor {
         {},
         false};
     if (!orders.plan) {
-      safety().tryWidest();  // by the next update the vessel may be too fast for this level still
+      safety().tryWidest();  // too fast for this level, perhaps for a while: the others first
     }
     if (orders.plan && phase_ == Phase::kReplanning && cause_ == Cause::kClearance) {
       const feasibility::SafetyLimits& asked = orders.plan->query.limits;
