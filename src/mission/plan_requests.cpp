@@ -55,6 +55,12 @@ std::optional<double> restingTime(const trajectory::Trajectory& sailed, double a
   return std::nullopt;
 }
 
+// Of the hull's centre where the plan begins and ends, m.
+double roomAtEnds(const map::DistanceField& field, const Eigen::Vector2d& start,
+                  const Eigen::Vector2d& goal) {
+  return std::min(field.clearance(start), field.clearance(goal));
+}
+
 // What the discs that cover the hull leave where it lies, m.
 double roomAround(const vessel::Hull& hull, const trajectory::Boundary& at,
                   const map::DistanceField& field) {
@@ -110,11 +116,15 @@ std::optional<PlanRequest> PlanRequests::fromSailed(double now_s,
                                                     double thrust_share, const vessel::Pose& goal,
                                                     const feasibility::Obstacles& obstacles,
                                                     double rests_by_s) {
-  const double fastest_mps = safety.fastestStart(safety.level());
-  const std::optional<double> at = beginning(now_s, sailed, rests_by_s, fastest_mps);
-  if (!at) {
-    return std::nullopt;
-  }
+  // Where it begins says which level there is room for, and that how fast it may begin.
+  std::optional<double> at;
+  do {
+    at = beginning(now_s, sailed, rests_by_s, safety.fastestStart(safety.level()));
+    if (!at) {
+      return std::nullopt;
+    }
+  } while (safety.narrowTo(
+      roomAtEnds(obstacles.field(), sailed.trajectory.flat(*at).position, goal.position)));
   const trajectory::Sample sample =
       trajectory::MotionAlong(sailed.trajectory, vessel_, safety.planDisturbance()).sample(*at);
   PlanRequest request;
@@ -228,8 +238,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
                               double thrust_share, From from,
                               const feasibility::Obstacles& obstacles) {
   const map::DistanceField& field = obstacles.field();
-  const double room =
-      std::min(field.clearance(request.query.start.flat.position), field.clearance(goal.position));
+  const double room = roomAtEnds(field, request.query.start.flat.position, goal.position);
   safety.inUnknownWater(isUnknownNear(request.query.start.flat.position, obstacles));
   request.id = next_id_++;
   request.query.goal.flat.position = goal.position;

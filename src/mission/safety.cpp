@@ -88,11 +88,18 @@ stopping::StopLimits Safety::leastStop(const feasibility::SafetyLimits& planned)
   return limits;
 }
 
-feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
+bool Safety::narrowTo(double room_m) {
+  bool narrows = false;
   while (!levels_.atNarrowest() &&
          centreClearance(vessel_.hull, options_.side_clearances_m[levels_.level()]) > room_m) {
     levels_.begin(levels_.level() + 1);
+    narrows = true;
   }
+  return narrows;
+}
+
+feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
+  (void)narrowTo(room_m);
   const double wider = levels_.stepsWider() / static_cast<double>(ClearanceLevels::kSteps);
   const auto between = [&](const auto& of_level) {
     const double at = of_level(levels_.level());

@@ -82,8 +82,10 @@ class Safety {
   [[nodiscard]] stopping::StopLimits stop(const feasibility::SafetyLimits& planned) const;
   [[nodiscard]] stopping::StopLimits leastStop(const feasibility::SafetyLimits& planned) const;
 
-  // The next request's limits: of the first level from the present one on that start and goal have
-  // room for, and with `thrust_share`.
+  // To the first level from the present one on that start and goal have room for; whether that is
+  // another.
+  bool narrowTo(double room_m);
+  // The next request's limits: of that level, and with `thrust_share`.
   [[nodiscard]] feasibility::SafetyLimits limits(double thrust_share, double room_m);
 
   // What the next plan is made with; the state it starts from has to be one under that too.

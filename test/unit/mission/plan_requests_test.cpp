@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <utility>
+
 #include "otter_nav/feasibility/obstacles.hpp"
 #include "waters.hpp"
 
@@ -54,6 +57,18 @@ TEST_F(PlansFromUnderWay, WaitForTheCrawlThatTheirLevelAsksFor) {
   EXPECT_GT(begins->first, ends_s - 4.0);
   EXPECT_LE(begins->second, 1.0 + 1e-9);
   EXPECT_GT(begins->second, 0.8);
+}
+
+// Asked for on the widest, which has no room where it would begin.
+TEST_F(PlansFromUnderWay, WaitForTheCrawlOfTheLevelThatHasRoom) {
+  map::OccupancyGrid canal = test::openWater();
+  test::block(canal, {-40.0, 1.0}, {40.0, 2.0});
+  field_ = test::fieldOf(canal);
+  const double ends_s = sailed_.trajectory.duration();
+  const auto begins = beginning(ends_s - 6.0, 0);
+  ASSERT_TRUE(begins);
+  EXPECT_GT(begins->first, ends_s - 4.0);
+  EXPECT_LE(begins->second, 1.0 + 1e-9);
 }
 
 TEST_F(PlansFromUnderWay, DontWaitUntilWhatIsInTheWayIsReachedOrForLong) {
