@@ -298,9 +298,23 @@ std::string Safety::beyondThrust() const {
   return {};
 }
 
+void Safety::feel(double now_s, const vessel::Disturbance& estimate) {
+  constexpr double kForgetsS = 120.0;  // what a gust took, one time after the other
+  weather_.feel(now_s, estimate);
+  if (times_left_behind_ > 0 && now_s - left_behind_s_ > kForgetsS) {
+    --times_left_behind_;
+    left_behind_s_ = now_s;
+  }
+}
+
+void Safety::leftBehind(double now_s) {
+  ++times_left_behind_;
+  left_behind_s_ = now_s;
+}
+
 void Safety::newGoal() {
   times_left_behind_ = 0;
-  times_refused_ = 0;
+  planTaken();
 }
 
 bool Safety::refused() {

@@ -135,7 +135,7 @@ class Safety {
 
   void newGoal();  // forgets what happened on the way to the one before
   // What wind and current are estimated to be.
-  void feel(double now_s, const vessel::Disturbance& estimate) { weather_.feel(now_s, estimate); }
+  void feel(double now_s, const vessel::Disturbance& estimate);
   [[nodiscard]] const Weather& weather() const { return weather_; }
   // The vessel's sway beside its trajectory's, m/s.
   void feelSway(double now_s, double off_mps) { weather_.feelSway(now_s, off_mps); }
@@ -146,7 +146,7 @@ class Safety {
   // Whether there is water near that nobody has seen or charted.
   void inUnknownWater(bool is) { in_unknown_water_ = is; }
   [[nodiscard]] bool isInUnknownWater() const { return in_unknown_water_; }
-  void leftBehind() { ++times_left_behind_; }
+  void leftBehind(double now_s);
   // A plan failed: the next is tried narrower; false where all levels were tried.
   bool refused();
   // At all levels; for blind plans, since they are.
@@ -185,7 +185,8 @@ class Safety {
   bool in_unknown_water_ = false;
   bool is_slow_ = false;       // what was asked for last
   int times_refused_ = 0;      // at all levels, from where the vessel is, in a row
-  int times_left_behind_ = 0;  // on the way to this goal
+  int times_left_behind_ = 0;  // on the way to this goal, and not long ago
+  double left_behind_s_ = 0.0;
 };
 
 }  // namespace otter_nav::mission

@@ -97,6 +97,8 @@ class Decider final : public Supervisor {
       return failure(status.error().message);
     }
     goal_ = goal;
+    planned_goal_psi_rad_ = goal.psi_rad;
+    calm_by_s_.reset();
     way_.clear();
     plans_.forgetDeadEnds();
     sailed_since_s_ = m.now_s;
@@ -125,7 +127,7 @@ class Decider final : public Supervisor {
     plans_.drop();
     suspended_.reset();
     end_reason_ = std::move(why);
-    return follow(kCancelRules, m);
+    return handedOut(m, follow(kCancelRules, m));
   }
 
   Result<Orders> pause(double now_s, const Situation& situation,
@@ -144,6 +146,7 @@ class Decider final : public Supervisor {
     if (!std::exchange(suspended_, std::nullopt)) {
       return failure("nothing is paused");
     }
+    safety().tryWidest();
     return handedOut(m, follow(kResumeRules, m));
   }
 
@@ -874,7 +877,6 @@ class Decider final : public Supervisor {
       const double enough_m = listed_m + kForGustsShare * (asked.clearance_m - listed_m);
       if (hasRoomFor(m, asked, enough_m)) {
         planned_clearance_m_ = std::min(planned_clearance_m_, enough_m);
-        safety().planTaken();
         return keepThePlan(m);
       }
     }
@@ -890,7 +892,6 @@ class Decider final : public Supervisor {
     }
     plans_.drop();
     ++replans_.all;
-    planned_left_m_ = 0.0;
     const double catch_up_mps = sailed_.speed_max_mps;
     sailed_ = stopping::splice(sailed_, m.now_s, path);
     sailed_.speed_max_mps = catch_up_mps;
@@ -899,7 +900,7 @@ class Decider final : public Supervisor {
   }
   Orders planFromFarOff(const Moment& m) {
     if (phase_ == Phase::kSailing) {  // not for each attempt again
-      safety().leftBehind();
+      safety().leftBehind(m.now_s);
     }
     late_m_ = 0.0;
     return planFromVessel(m, "far off the trajectory", Cause::kOff);
@@ -925,12 +926,21 @@ class Decider final : public Supervisor {
     return orders.plan ? orders : enter(Phase::kSailing);
   }
   Orders planForSpeedMax(const Moment& m) {
-    if (!isTooFast()) {
-      planned_for_mps_ = safety().speedMax();
-      return planToImprove(m);
+    if (isTooFast()) {
+      replan(text("the speed limit is %.2f m/s now", safety().speedMax()));
+      return planFromSailed(m);
     }
-    replan(text("the speed limit is %.2f m/s now", safety().speedMax()));
-    return planFromSailed(m);
+    planned_for_mps_ = safety().speedMax();
+    Orders orders = planToImprove(m);
+    // Nor when it is behind.
+    feasibility::SafetyLimits catching_up;
+    catching_up.speed_max_mps = sailed_.speed_max_mps;
+    catching_up.limitSpeed(safety().speedMax());
+    if (catching_up.speed_max_mps < sailed_.speed_max_mps) {
+      sailed_.speed_max_mps = catching_up.speed_max_mps;
+      orders.sail = sailed_;
+    }
+    return orders;
   }
   Orders planFaster(const Moment& m) {
     safety().tryLevel(planned_level_, planned_steps_wider_);
@@ -1018,6 +1028,7 @@ class Decider final : public Supervisor {
   }
   Orders keepThePlan(const Moment& /*m*/) {
     plans_.drop();
+    safety().planTaken();
     return enter(Phase::kSailing);
   }
 
@@ -1046,11 +1057,12 @@ class Decider final : public Supervisor {
     plans_.drop();
     cause_ = cause;
     stop_time_s_ = m.now_s;
+    sailed_ = *fallback_;
     enter(Phase::kStopping, std::move(why));
-    sailed_ = *std::exchange(fallback_, std::nullopt);
     return {std::nullopt, sailed_, false};
   }
   Orders changeTheStop(const Moment& m) {
+    plans_.drop();  // what is asked for begins on the other
     sailed_ = {std::move(other_stop_), m.now_s};
     return {std::nullopt, sailed_, false};
   }
@@ -1073,7 +1085,7 @@ class Decider final : public Supervisor {
   }
   Orders endAtRest(const Moment& /*m*/) {
     cancelled_ = true;
-    return {};
+    return enter(phase_, end_reason_);
   }
   Orders stopForFault(const Moment& m) { return stopByItself(m, faultOf(m)); }
   Orders stopUnplanned(const Moment& m) { return stopByItself(m, "under way without a plan"); }
@@ -1152,7 +1164,6 @@ class Decider final : public Supervisor {
     }
     plans_.drop();  // what is asked for begins on what was sailed
     if (!evades) {
-      fallback_.reset();
       stop_time_s_ = m.now_s;
       is_aside_ = makes_room_ = escapes_ = holds_ = false;
       cause_ = Cause::kOther;
@@ -1370,7 +1381,9 @@ class Decider final : public Supervisor {
         const vessel::State there =
             sailed_.trajectory.sample(sailed_.elapsed(felt_s_), vessel_, planned_disturbance_)
                 .state;
-        safety().wander(felt_s_, (state.head<2>() - there.head<2>()).norm());
+        if (hasMission()) {  // else anybody may move it
+          safety().wander(felt_s_, (state.head<2>() - there.head<2>()).norm());
+        }
         sway_mps = there[vessel::kSway];
       }
       safety().feelSway(felt_s_, state[vessel::kSway] - sway_mps);
@@ -1537,20 +1550,23 @@ class Decider final : public Supervisor {
   Orders suspend(const Moment& m, Phase until) {
     cancelled_ = !hasMission();
     suspended_ = until;
+    calm_by_s_.reset();
     plans_.drop();
-    return follow(kSuspendRules, m);
+    return handedOut(m, follow(kSuspendRules, m));
   }
 
   void lookOut(const Moment& m) {
     constexpr double kCruiseShare = 0.99;  // of the speed that plans may have
     evasion_.observe(m.situation.tracks);
-    if (!knowsPlace(m) || sailed_.trajectory.empty() ||
-        (m.situation.tracks.empty() && pilot_.encounters().empty())) {
+    const bool has_met = !pilot_.encounters().empty();
+    const bool has_way = !sailed_.trajectory.empty();
+    if (!knowsPlace(m) || !(has_met || (has_way && !m.situation.tracks.empty()))) {
       return;
     }
     const vessel::State& x = m.situation.state;
     const Eigen::Rotation2D<double> map_from_base(x[vessel::kPsi]);
-    const bool follows = m.situation.tracking_error_m < 0.5 * options_.tracking_error_max_m;
+    const bool follows =
+        has_way && m.situation.tracking_error_m < 0.5 * options_.tracking_error_max_m;
     const Eigen::Vector2d steered =
         follows ? sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position : x.head<2>();
     pilot_.observe(m.now_s, {x.head<2>(), map_from_base * x.segment<2>(vessel::kSurge)}, steered,
@@ -1667,8 +1683,9 @@ class Decider final : public Supervisor {
   }
   // The mission's limit fell below that of the plan.
   bool isTooFast() {
-    const double limit = safety().speedMax();
-    return limit > 0.0 && (planned_for_mps_ == 0.0 || limit < planned_for_mps_);
+    feasibility::SafetyLimits limits = planned_limits_;
+    limits.limitSpeed(safety().speedMax());
+    return limits.speed_max_mps < planned_limits_.speed_max_mps;
   }
   Obstacles alongSailed(const Moment& m) { return m.obstacles.startingAt(sailed_.start_time_s); }
   // What is known ahead of a trajectory, on its clock: what nobody saw to be free stops there.
@@ -1803,6 +1820,9 @@ class Decider final : public Supervisor {
   Orders enter(Phase phase, std::string reason = {}) {
     phase_ = phase;
     reason_ = std::move(reason);
+    if ((in(phase)&kUnderWay) == 0) {
+      fallback_.reset();
+    }
     return {};
   }
   // Only if a stop exists on it; else it is asked for again, or the vessel stops.
@@ -1813,8 +1833,11 @@ class Decider final : public Supervisor {
     if (gives_up_a_stop && !hasRoomForWhatItIsOff(m, plan, planned)) {
       return {};  // asked for again, from where it is less
     }
+    // That on what was sailed is none on this one.
+    std::optional<TimedTrajectory> last = std::exchange(fallback_, std::nullopt);
     if ((gives_up_a_stop && !hasStopsForAWhile(m, plan, planned)) ||
         !findStop(m, plan, planned, from_sailed ? offSailed(m) : stopping::Off{})) {
+      fallback_ = std::move(last);
       return asked.gain ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
     }
     countReplan(asked);
@@ -1856,7 +1879,6 @@ class Decider final : public Supervisor {
     stop_time_s_ = m.now_s;
     is_aside_ = makes_room_ = escapes_ = false;
     planned_clearance_m_ = 0.0;
-    fallback_.reset();
     enter(phase, std::move(reason));
     if (path.empty()) {
       sailed_ = {};
@@ -1889,6 +1911,9 @@ class Decider final : public Supervisor {
 
   Orders planFromVessel(const Moment& m, std::string why, Cause cause) {
     replan(std::move(why), cause);
+    return askFromVessel(m);
+  }
+  Orders askFromVessel(const Moment& m) {
     return {plans_.fromVessel(m.now_s, withoutSwing(m), goal_, m.obstacles), {}, false};
   }
   Orders takeFromRest(const Moment& m, const planner::Plan& plan,
@@ -1896,7 +1921,11 @@ class Decider final : public Supervisor {
     constexpr double kDriftM = 0.7;
     const Eigen::Vector2d& start = asked.request.query.start.flat.position;
     if ((m.situation.state.head<2>() - start).norm() > kDriftM) {
-      return planFromRest(m);
+      return retries_.roundLost(m.now_s)
+                 ? Orders{}
+                 : enter(Phase::kFailed, text("set aside by more than %.1f m while it plans, "
+                                              "%d times",
+                                              kDriftM, retries_.rounds()));
     }
     if (isForNarrowWater(asked) && mayLearnTheWaves(m)) {
       waves_since_s_ = waves_since_s_.value_or(m.now_s);
@@ -1960,10 +1989,13 @@ class Decider final : public Supervisor {
     }
     const double starts = next.start_time_s;
     const double late = m.now_s - starts;
-    const Eigen::Vector2d there = sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position;
+    const bool from_vessel = asked.from == From::kVessel;
+    const Eigen::Vector2d there = from_vessel
+                                      ? m.situation.state.head<2>()
+                                      : sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position;
     if (late > 0.0 && (next.trajectory.flat(late).position - there).norm() > kLateM) {
       plans_.latency.late(late);
-      return asked.gain ? Orders{} : planFromSailed(m);
+      return asked.gain ? Orders{} : from_vessel ? askFromVessel(m) : planFromSailed(m);
     }
     // Not with thrust that wind and current take.
     const auto lacks_thrust = [&] {
@@ -1990,7 +2022,7 @@ class Decider final : public Supervisor {
       return {};
     }
     plans_.latency.onTime();
-    if (asked.from == From::kVessel) {
+    if (from_vessel) {
       return sail(m, std::move(next), asked);
     }
     return sail(m, stopping::splice(sailed_, m.now_s, next), asked);
@@ -2007,7 +2039,6 @@ class Decider final : public Supervisor {
     // and on for one, the vessel would see to nothing else.
     const bool in_vain = safety().plansWithWeather() ? safety().plansBlind() : !more;
     if (replansForLoad() && in_vain) {
-      safety().planTaken();
       return keepThePlan(m);
     }
     if (more && asked.from == From::kSailed && phase_ == Phase::kReplanning) {

@@ -18,6 +18,7 @@ using vessel::Disturbance;
 
 constexpr double kKnownS = 1.0;     // the estimator's first transient has died down
 constexpr double kMemoryS = 30.0;   // of the means
+constexpr double kGapMostS = 5.0;   // that an estimate counts for: what was between nobody knows
 constexpr double kFastestS = 60.0;  // the fastest gust fades out of memory
 constexpr double kDeviations = 2.0;
 constexpr double kPriorGust = 0.2;  // of the mean, while little was seen
@@ -62,7 +63,7 @@ double Weather::Spread::extreme(double prior) const {
 }
 
 void Weather::feel(double now_s, const Disturbance& estimate) {
-  const double dt = started_ ? std::max(0.0, now_s - last_s_) : 0.0;
+  const double dt = started_ ? std::clamp(now_s - last_s_, 0.0, kGapMostS) : 0.0;
   last_s_ = now_s;
   felt_s_ += dt;
   if (!isKnown() || !started_) {  // no memory of the transient

@@ -447,7 +447,8 @@ std::vector<config::NumberField> PlannerNode::live() const {
   std::vector<config::NumberField> fields = config::numbersOf(setup_.supervisor, prefix);
   const auto fixed = [&](const config::NumberField& field) {
     return field.path == prefix + "planning_latency_s" ||
-           field.path == prefix + "rounds_from_rest" || field.path == prefix + "stops_max";
+           field.path == prefix + "rounds_from_rest" || field.path == prefix + "stops_max" ||
+           field.path.rfind(prefix + "encounter/", 0) == 0;
   };
   fields.erase(std::remove_if(fields.begin(), fields.end(), fixed), fields.end());
   return fields;

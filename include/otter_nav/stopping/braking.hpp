@@ -13,7 +13,7 @@ namespace otter_nav::stopping {
 struct Braking {
   trajectory::Trajectory trajectory;  // starts at the sailed trajectory's `at_s`, ends at rest
   bool clear = false;                 // keeps the clearance, within the thrusters' limits
-  double clearance_m = 0.0;           // the least along it, sampled; only if not clear
+  double clearance_m = 0.0;           // the least along it, sampled
 };
 
 // What a stop keeps: the hull's centre `clearance_m`, and the discs that cover the hull
@@ -31,14 +31,14 @@ struct StopLimits {
   Off off = {};
 };
 
-// The quickest stop from `at_s` (s from the trajectory's start) that keeps to its limits and asks
-// for no more than the thrusters give: along the sailed way, slowed down in time, or straightened
-// out and then ahead in a line; where there is no room for these, along more of the way, at last to
-// a rest that the way itself comes to. A hull without a side thruster can't brake harder than its
-// drag in a curve (its heading would have to swing across, docs/model.md), so a hard stop
-// straightens first. No stop gathers way. Stops are preferred on whose place nothing comes soon
-// after. If none keeps to the limits, the one that is slowest when it touches something or does so
-// last, and comes least near otherwise, with `clear` false.
+// A stop, usual rather than hard, from `at_s` (s from the trajectory's start) that keeps to its
+// limits and asks for no more than the thrusters give: along the sailed way, slowed down in time,
+// or straightened out and then ahead in a line; where there is no room for these, along more of the
+// way, at last to a rest that the way itself comes to. A hull without a side thruster can't brake
+// harder than its drag in a curve (its heading would have to swing across, docs/model.md), so a
+// hard stop straightens first. No stop gathers way. Stops are preferred on whose place nothing
+// comes soon after. If none keeps to the limits, the one that is slowest when it touches something
+// or does so last, and comes least near otherwise, with `clear` false.
 [[nodiscard]] Braking brakingTrajectory(const trajectory::Trajectory& sailed, double at_s,
                                         const feasibility::Obstacles& obstacles,
                                         const vessel::Parameters& vessel, const StopLimits& stop);

@@ -54,6 +54,29 @@ TEST(Goal, NarrowPlacesLowerTheClearance) {
   EXPECT_DOUBLE_EQ(orders->plan->query.limits.clearance_m, mission.clearance(1));
 }
 
+TEST(Goal, NewOneIsAskedForAtTheWidestAgain) {
+  for (const bool pauses : {false, true}) {
+    ScriptedMission mission;
+    std::optional<PlanRequest> asked = mission.goTo({20.0, 0.0})->plan;
+    for (int k = 0; k < 2; ++k) {
+      ASSERT_TRUE(asked);
+      (void)mission.refuse(*asked, "none");
+      asked = mission.update(0.1).plan;
+    }
+    ASSERT_TRUE(asked);
+    ASSERT_LT(asked->query.limits.clearance_m, mission.clearance(0) - 0.1);
+    Result<Orders> again = Orders{};
+    if (pauses) {
+      ASSERT_TRUE(mission.supervisor->pause(mission.now_s, mission.situation(), mission.field));
+      again = mission.supervisor->resume(mission.now_s, mission.situation(), mission.field);
+    } else {
+      again = mission.goTo({10.0, 5.0});
+    }
+    ASSERT_TRUE(again && again->plan);
+    EXPECT_NEAR(again->plan->query.limits.clearance_m, mission.clearance(0), 0.05) << pauses;
+  }
+}
+
 TEST(Goal, RefusalLeavesTheMissionUntouched) {
   ScriptedMission mission;
   mission.setOut(5.0);

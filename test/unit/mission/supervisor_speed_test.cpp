@@ -56,6 +56,27 @@ TEST(SupervisorSpeed, StopsWhereNoPlanKeepsToALimitSetUnderWay) {
   EXPECT_NE(mission.supervisor->reason().find("1.00 m/s"), std::string::npos);
 }
 
+// Nothing is planned anew for one that the plan keeps to, but that it may not exceed either when it
+// is behind.
+TEST(SupervisorSpeed, SailsOnWhereThePlanKeepsToANewLimit) {
+  for (const double times : {10.0, 1.03}) {
+    ScriptedMission mission;
+    const double planned_mps = mission.goTo({40.0, 0.0})->plan->query.limits.speed_max_mps;
+    const double limit_mps = times * planned_mps;
+    mission.setOut(6.0);
+    (void)mission.update(0.1);
+    ASSERT_TRUE(mission.supervisor->setSpeedMax(limit_mps));
+    for (int i = 0; i < 80; ++i) {
+      const Orders orders = mission.update(0.1);
+      if (orders.plan) {
+        (void)mission.refuse(*orders.plan, "none");
+      }
+      ASSERT_EQ(mission.supervisor->phase(), Phase::kSailing) << mission.supervisor->reason();
+    }
+    EXPECT_LE(mission.supervisor->sailed().speed_max_mps, limit_mps);
+  }
+}
+
 // A higher limit is no hurry: a faster plan is asked for once, and taken if it is faster.
 TEST(SupervisorSpeed, LooksForAFasterPlanWhenTheLimitRises) {
   SupervisorOptions options;

@@ -163,6 +163,67 @@ TEST(Supervisor, LatePlansAreAskedForAgainFurtherAhead) {
   EXPECT_GT(second.plan->start_time_s - mission.now_s, 0.6);
 }
 
+// One from the vessel is late for where that is by then, not for the trajectory it is off.
+TEST(Supervisor, TakesLatePlansFromTheVesselThatItIsOnStill) {
+  constexpr double kAsideM = 2.0;
+  for (const double off_m : {0.0, 1.0}) {
+    ScriptedMission mission;
+    mission.setOut(6.0);
+    const auto astray = [&] {
+      Situation s = mission.situation();
+      s.state[vessel::kY] += kAsideM;
+      s.tracking_error_m = kAsideM;
+      return s;
+    };
+    mission.now_s += 0.5;
+    const Orders asked = mission.supervisor->update(mission.now_s, astray(), mission.field);
+    ASSERT_TRUE(asked.plan);
+    const vessel::FlatPoint& start = asked.plan->query.start.flat;
+    ASSERT_NEAR(start.position.y(), kAsideM, 1e-6);
+    mission.now_s = asked.plan->start_time_s + 0.1;
+    vessel::FlatPoint from = start;
+    from.position.y() += off_m;
+    vessel::FlatPoint end;
+    end.position = from.position + Eigen::Vector2d(40.0, -kAsideM - off_m);
+    planner::Plan plan;
+    plan.outcome = planner::Outcome::kSolved;
+    plan.trajectory = trajectory::Trajectory({trajectory::hermitePiece(from, end, 20.0)});
+    const Orders orders = mission.supervisor->planFinished(mission.now_s, asked.plan->id, plan,
+                                                           astray(), mission.field);
+    EXPECT_EQ(orders.sail.has_value(), off_m == 0.0);
+    if (off_m > 0.0) {
+      ASSERT_TRUE(orders.plan);
+      EXPECT_NEAR(orders.plan->query.start.flat.position.y(), kAsideM, 1e-6);
+    }
+  }
+}
+
+// What was refused for an obstacle that has gone says nothing of the next.
+TEST(Supervisor, BeginsAtTheWidestAgainOnceTheWayIsClear) {
+  ScriptedMission mission;
+  mission.setOut(6.0);
+  const map::OccupancyGrid clear = mission.grid;
+  mission.put({25.0, -1.0}, {26.0, 1.0});
+  Orders orders = mission.update(0.1);
+  ASSERT_TRUE(orders.plan);
+  const feasibility::SafetyLimits first = orders.plan->query.limits;
+  for (int k = 0; k < 6 && orders.plan; ++k) {
+    orders = mission.refuse(*orders.plan, "none");
+    if (!orders.plan) {
+      orders = mission.update(0.01);
+    }
+  }
+  mission.grid = clear;
+  mission.field = test::fieldOf(clear);
+  (void)mission.update(0.01);
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kSailing);
+  mission.put({30.0, -1.0}, {31.0, 1.0});
+  orders = mission.update(0.5);
+  ASSERT_TRUE(orders.plan);
+  EXPECT_NEAR(orders.plan->query.limits.clearance_m, first.clearance_m, 1e-6);
+  EXPECT_NEAR(orders.plan->query.limits.speed_max_mps, first.speed_max_mps, 1e-6);
+}
+
 TEST(Supervisor, GoesBackToSailingWithoutAPlanWhenTheWayClears) {
   ScriptedMission mission;
   mission.setOut(6.0);
@@ -550,6 +611,32 @@ TEST(Supervisor, ChangesAStopThatTouchesAsTheHullLies) {
   }
 }
 
+// What was asked for on the way to rest would begin on the one that was given up.
+TEST(Supervisor, DropsThePlanThatBeginsOnAStopThatItChanges) {
+  ScriptedMission m;
+  Orders asked = stopForWhatGoesAway(m, 0.0);
+  for (int k = 0; k < 10 && !asked.plan; ++k) {
+    asked = m.update(0.05);
+  }
+  ASSERT_TRUE(asked.plan);
+  const trajectory::TimedTrajectory stop = m.supervisor->sailed();
+  const double rest_m = stop.trajectory.flat(stop.trajectory.duration()).position.x();
+  m.put({rest_m - 0.3, -20.0}, {rest_m + 0.5, 20.0});
+  for (int k = 0; k < 10 && m.supervisor->sailed().left(m.now_s) == stop.left(m.now_s); ++k) {
+    (void)m.update(0.05);
+  }
+  ASSERT_NE(m.supervisor->sailed().left(m.now_s), stop.left(m.now_s));
+  m.put({rest_m - 0.3, -20.0}, {rest_m + 0.5, 20.0});
+  m.grid = test::openWater();
+  m.field = test::fieldOf(m.grid);
+  const vessel::FlatPoint& start = asked.plan->query.start.flat;
+  vessel::FlatPoint end;
+  end.position = start.position + Eigen::Vector2d(60.0, 0.0);
+  EXPECT_FALSE(
+      m.answer(*asked.plan, trajectory::Trajectory({trajectory::hermitePiece(start, end, 30.0)}))
+          .sail);
+}
+
 // One is kept that goes through where what is sailed is now, to within `off_m`, and comes to rest
 // in less than `within_s`.
 void expectAStopThatCanBeTaken(const ScriptedMission& m, double off_m, double within_s) {
@@ -819,6 +906,45 @@ TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
     EXPECT_LT(bound_s, 3.0) << 0.1 * k;
   }
   EXPECT_GT(made, 0);
+}
+
+// What is sailed slower behind another vessel leads as far as before: the rest of the way is
+// planned from there.
+TEST(Supervisor, MakesWayOnAPartOfTheWay) {
+  map::OccupancyGrid water = test::openWater(400.0);
+  test::block(water, {-199.0, 4.0}, {199.0, 149.0});
+  test::block(water, {-199.0, -149.0}, {199.0, -4.0});
+  ScriptedMission m(water);
+  m.rest << -140.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = m.goTo({190.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  planner::Plan plan;
+  plan.outcome = planner::Outcome::kSolved;
+  plan.trajectory = eastward({-140.0, 0.0}, 280.0, 1.8);
+  plan.left_m = 50.0;
+  (void)m.supervisor->planFinished(m.now_s, orders->plan->id, plan, m.situation(), m.obstacles());
+  (void)m.update(10.0);
+  const double began_s = m.now_s;
+  const int before = m.supervisor->replans().all;
+  for (int k = 0; k < 4000 && m.supervisor->phase() != Phase::kStopped; ++k) {
+    m.tracks.clear();
+    if (k < 300) {
+      traffic::Track track;
+      track.id = 1;
+      track.stamp_s = m.now_s + 0.1;
+      track.velocity = {1.0, 0.0};
+      track.position = {-84.0 + track.stamp_s - began_s, 0.0};
+      track.length_m = 6.0;
+      track.beam_m = 2.0;
+      m.tracks = {track};
+    }
+    for (Orders asked = m.update(0.1); asked.plan;) {
+      asked = m.refuse(*asked.plan, "none");
+    }
+  }
+  EXPECT_GT(m.supervisor->replans().all, before);
+  EXPECT_EQ(m.supervisor->phase(), Phase::kStopped);
+  EXPECT_EQ(m.supervisor->stops(), 0) << m.supervisor->reason();
 }
 
 }  // namespace

@@ -685,6 +685,24 @@ TEST(SupervisorInWind, WaitsAMinuteForLessWind) {
   EXPECT_EQ(mission.supervisor->phase(), Phase::kFailed);
 }
 
+// Each time: it may have abated.
+TEST(SupervisorInWind, WaitsAMinuteForLessWindForEachGoal) {
+  ScriptedMission mission;
+  const Force storm = [](double) { return Vector2d(-150.0, 0.0); };
+  blow(mission, 40.0, storm);
+  (void)mission.goTo({20.0, 0.0});
+  blow(mission, 70.0, storm);
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kFailed);
+  (void)mission.goTo({10.0, 0.0});
+  blow(mission, 40.0, storm);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning) << mission.supervisor->reason();
+  ASSERT_TRUE(mission.supervisor->pause(mission.now_s, mission.situation(), mission.field));
+  blow(mission, 70.0, storm);
+  (void)mission.supervisor->resume(mission.now_s, mission.situation(), mission.field);
+  blow(mission, 40.0, storm);
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning) << mission.supervisor->reason();
+}
+
 TEST(SupervisorInWind, LaunchesAVesselAgainThatHasHardlyGotUnderWay) {
   for (const double surge : {0.1, 1.5}) {
     ScriptedMission mission;
@@ -1013,6 +1031,23 @@ TEST(SupervisorInWind, DoesNotTurnRoundAtTheGoalWhereStrongWindVeers) {
     const bool arrived = mission.supervisor->phase() == Phase::kArrived;
     EXPECT_EQ(arrived, wind_mps > 5.0) << mission.supervisor->reason();
     EXPECT_EQ(mission.supervisor->reason().find("in gusts") != std::string::npos, arrived);
+  }
+}
+
+// A new goal at the same place, the other way round: what the old plan gave up is nothing to it.
+TEST(SupervisorInWind, TurnsRoundForANewGoalAtThePlaceOfTheOld) {
+  ScriptedMission mission = inWind(-8.0);
+  mission.rest.x() = 0.0;
+  const auto orders = mission.goTo({20.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  ASSERT_TRUE(mission.answer(*orders->plan, test::eastward({0.0, 0.0}, 20.0, 0.8)).sail);
+  while (mission.supervisor->sailed().left(mission.now_s) > 1.0) {
+    (void)mission.update(0.1);
+  }
+  ASSERT_TRUE(mission.goTo({20.0, 0.0}, kPi));
+  for (int k = 0; k < 30; ++k) {
+    (void)mission.update(0.1);
+    EXPECT_NE(mission.supervisor->phase(), Phase::kArrived) << mission.supervisor->reason();
   }
 }
 

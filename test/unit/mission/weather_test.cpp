@@ -56,6 +56,23 @@ TEST(Weather, LearnsMeanAndGustsFromWhatItSaw) {
   EXPECT_NEAR(felt(windy(), 3.0, steady).gust().wind_mps.x(), 9.5, 0.15);
 }
 
+// Odometry that comes back after a while says what blows now, not what blew meanwhile.
+TEST(Weather, AGapTellsLittle) {
+  for (const double gap_s : {1.0, 60.0, 300.0}) {
+    Weather weather(windy());
+    vessel::Disturbance estimate;
+    double t = 0.0;
+    for (estimate.force_n = {5.0, 0.0}; t < 60.0; t += 0.1) {
+      weather.feel(t, estimate);
+    }
+    estimate.force_n.x() = 2.0;
+    weather.feel(t + gap_s, estimate);
+    EXPECT_LE(weather.mean().force_n.x(), 5.0) << gap_s;
+    EXPECT_GE(weather.mean().force_n.x(), 2.0) << gap_s;
+    EXPECT_TRUE(std::isfinite(weather.gust().moment_nm)) << gap_s;
+  }
+}
+
 TEST(Weather, CalmAsksForNothing) {
   const Weather weather = felt(windy(), 60.0, [](double) { return 0.0; });
   EXPECT_EQ(weather.gustShare(), 0.0);
