@@ -80,6 +80,8 @@ struct RuleOf {
   bool goes_on = false;
 };
 
+constexpr const char* kBlind = "no scan comes into the map any more";
+
 class Decider final : public Supervisor {
  public:
   Decider(const SupervisorOptions& options, const vessel::Parameters& vessel, std::uint64_t seed)
@@ -232,6 +234,11 @@ class Decider final : public Supervisor {
     return vessel::speedOf(m.situation.state) > kMovingMps;
   }
   bool hasFault(const Moment& m) { return !faultOf(m).empty(); }
+  // What comes into the way would not be seen.
+  bool isBlind(const Moment& m) {
+    const std::optional<double>& scanned_s = m.situation.scanned_s;
+    return scanned_s && m.now_s - *scanned_s > options_.map_timeout_s;
+  }
   bool isCancelled(const Moment& /*m*/) { return cancelled_; }
   bool isSuspended(const Moment& /*m*/) { return suspended_.has_value(); }
   bool hasNoMission(const Moment& /*m*/) { return !hasMission(); }
@@ -383,8 +390,8 @@ class Decider final : public Supervisor {
   }
   // From a way to rest a plan may lead on.
   bool mayGoOn(const Moment& m) {
-    return !cancelled_ && !suspended_ && !mustWait(m) && !hasFault(m) && !isFarOff(m) &&
-           sailed_.left(m.now_s) > 0.0;
+    return !cancelled_ && !suspended_ && !mustWait(m) && !hasFault(m) && !isBlind(m) &&
+           !isFarOff(m) && sailed_.left(m.now_s) > 0.0;
   }
   // Other vessels ask for another way than the one being sailed.
   bool shouldMakeWay(const Moment& m) {
@@ -1035,6 +1042,11 @@ class Decider final : public Supervisor {
   Orders brakeAsItLies(const Moment& m) {
     return brakeFor(m, "off its attitude, and about to touch something", Cause::kOff);
   }
+  Orders brakeBlind(const Moment& m) { return brakeFor(m, kBlind); }
+  Orders stopBlind(const Moment& m) { return stopByItself(m, kBlind); }
+  Orders waitToSee(const Moment& m) {
+    return enter(retries_.roundLost(m.now_s) ? phase_ : Phase::kFailed, kBlind);
+  }
   Orders brakeForSpeed(const Moment& m) {
     return brakeFor(m, text("no plan keeps to %.2f m/s from here", safety().speedMax()));
   }
@@ -1293,6 +1305,7 @@ class Decider final : public Supervisor {
   // Several times a second.
   static constexpr Rule kRules[] = {
       {kEvading, &Decider::hasFault, &Decider::stopForFault},
+      {kEvading, &Decider::isBlind, &Decider::stopBlind},
       {kEvading, &Decider::isThere, &Decider::arriveEvading},
       {kEvading, &Decider::hasRoomInVain, &Decider::stopAfterEvading},
       {kEvading, &Decider::hasRoomAgain, &Decider::planAfterEvading},
@@ -1304,6 +1317,7 @@ class Decider final : public Supervisor {
       {kWaiting | in(Phase::kStopping), &Decider::isRunDown, &Decider::standAside},
       {kWaiting, &Decider::mustWait, &Decider::keepOn},
       {kWaiting, &Decider::hasFault, &Decider::loseRound},
+      {kWaiting, &Decider::isBlind, &Decider::waitToSee},
       {kWaiting, &Decider::doesNotKnowTheWeather, &Decider::keepOn},
       {kWaiting, &Decider::learnsTheWaves, &Decider::keepOn},
       {kWaiting, &Decider::isOverTheEdge, &Decider::turnBack},
@@ -1317,6 +1331,7 @@ class Decider final : public Supervisor {
 
       {kUnderWay, &Decider::hasFault, &Decider::stopForFault},
       {kUnderWay, &Decider::hasArrived, &Decider::arrive},
+      {kUnderWay, &Decider::isBlind, &Decider::brakeBlind},
       {kUnderWay, &Decider::settlesNoMore, &Decider::planAnew},
       {kUnderWay, &Decider::isAtTheEnd, &Decider::keepOn},
       {kUnderWay, &Decider::isLostOverTheEdge, &Decider::stopOverTheEdge},
@@ -1919,6 +1934,9 @@ class Decider final : public Supervisor {
   Orders takeFromRest(const Moment& m, const planner::Plan& plan,
                       const PlanRequests::Asked& asked) {
     constexpr double kDriftM = 0.7;
+    if (isBlind(m)) {
+      return {};
+    }
     const Eigen::Vector2d& start = asked.request.query.start.flat.position;
     if ((m.situation.state.head<2>() - start).norm() > kDriftM) {
       return retries_.roundLost(m.now_s)

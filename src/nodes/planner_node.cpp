@@ -134,6 +134,7 @@ class PlannerNode {
   TrackerWatch tracker_;
   std::vector<traffic::Track> tracks_;  // other vessels, as last told
   double tracks_stamp_s_ = 0.0;
+  std::optional<double> scanned_s_;  // when a scan came into the map last
   std::unique_ptr<mission::Supervisor> supervisor_;
   PlannerPublisher publisher_;
   mission::Phase shown_ = mission::Phase::kIdle;  // by its markers
@@ -234,6 +235,8 @@ void PlannerNode::onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message)
   } else {
     if (const auto changed = map_.take(*message); !changed) {
       diagnostics_.refuse("map_updates", changed.error().message);
+    } else {
+      scanned_s_ = message->header.stamp.toSec();
     }
     decide();
   }
@@ -279,6 +282,8 @@ void PlannerNode::decideInTurn() {
     tracker_.countUntil(told_s);
     if (const auto changed = map_.take(*updates_.front()); !changed) {
       diagnostics_.refuse("map_updates", changed.error().message);
+    } else {
+      scanned_s_ = stamp.toSec();
     }
     updates_.pop_front();
     unacknowledged_ = stamp;
@@ -470,6 +475,7 @@ mission::Situation PlannerNode::situation() const {
   mission::Situation situation;
   situation.state = vessel_.state;
   situation.odometry_stamp_s = vessel_.stamp_s;
+  situation.scanned_s = scanned_s_;
   const trajectory::TimedTrajectory& sailed = supervisor_->sailed();
   if (!sailed.trajectory.empty() && vessel_.stamp_s >= sailed.start_time_s) {
     const vessel::FlatPoint reference = sailed.trajectory.flat(sailed.elapsed(vessel_.stamp_s));

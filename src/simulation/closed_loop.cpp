@@ -88,6 +88,7 @@ void ClosedLoop::sense() {
     return;
   }
   scanned_from_ = plant_.truth();
+  scanned_s_ = time();
   if (const Status status = sensing_->insert(plant_.scan(), odometry); !status) {
     finish(scenario::Outcome::kError, status.error().message);
     return;
@@ -189,6 +190,7 @@ mission::Situation ClosedLoop::situation() const {
   mission::Situation situation;
   situation.state = plant_.odometry().state;
   situation.odometry_stamp_s = plant_.odometry().stamp_s;
+  situation.scanned_s = scanned_s_;
   situation.tracking_error_m = command_.tracking_error_m;
   situation.disturbance = command_.disturbance;
   using tracker::Mode;

@@ -59,6 +59,7 @@ struct SupervisorOptions {
   int stops_max = 8;
   double tracking_error_max_m = 1.2;
   double odometry_timeout_s = 1.0;
+  double map_timeout_s = 2.0;
   double arrival_distance_m = 0.9;
   double arrival_heading_rad = 0.15;
   double improve_period_s = 0.0;
@@ -87,6 +88,10 @@ struct SupervisorOptions {
         "up to 1.25 times the hull's length");
     fields("odometry_timeout_s", o.odometry_timeout_s, {0.05, 60.0},
            "older odometry stops the vessel");
+    fields(
+        "map_timeout_s", o.map_timeout_s, {0.2, 600.0},
+        "so long after the last scan came into the map the vessel stops; one whose map never had "
+        "any sails by the chart");
     fields("arrival_distance_m", o.arrival_distance_m, {0.01, 100.0},
            "arrived: within this of the goal,");
     fields("arrival_heading_rad", o.arrival_heading_rad, {0.01, 3.2}, "this heading, and slow");
@@ -106,6 +111,7 @@ struct SupervisorOptions {
 struct Situation {
   vessel::State state = vessel::State::Zero();  // latest odometry, map frame
   double odometry_stamp_s = 0.0;
+  std::optional<double> scanned_s;          // when a scan came into the map last; none ever did
   double tracking_error_m = 0.0;            // as the tracker reports it
   vessel::DisturbanceEstimate disturbance;  // wind, current and force as the tracker has them
   bool tracker_fault = false;               // the tracker can't follow and brakes by itself

@@ -106,6 +106,7 @@ class ClosedLoop {
   scenario::Recorder recorder_;
   tracker::Command command_;
   plant::Truth scanned_from_;
+  std::optional<double> scanned_s_;
   bool started_ = false;
   bool stop_ordered_ = false;
   // The answer to the last request, and when the vessel gets it.

@@ -36,7 +36,8 @@ struct StopLimits {
 // or straightened out and then ahead in a line; where there is no room for these, along more of the
 // way, at last to a rest that the way itself comes to. A hull without a side thruster can't brake
 // harder than its drag in a curve (its heading would have to swing across, docs/model.md), so a
-// hard stop straightens first. No stop gathers way. Stops are preferred on whose place nothing
+// hard stop straightens first. No stop gathers more way than
+// an acceleration that dies out does. Stops are preferred on whose place nothing
 // comes soon after. If none keeps to the limits, the one that is slowest when it touches something
 // or does so last, and comes least near otherwise, with `clear` false.
 [[nodiscard]] Braking brakingTrajectory(const trajectory::Trajectory& sailed, double at_s,

@@ -39,6 +39,7 @@ class ScriptedMission {
   [[nodiscard]] Situation situation() const {
     Situation s;
     s.odometry_stamp_s = now_s;
+    s.scanned_s = scanned_s;
     s.disturbance.mean = disturbance;
     s.disturbance.knows_waves = knows_waves;
     s.state = rest;
@@ -106,6 +107,7 @@ class ScriptedMission {
   SupervisorOptions options;
   std::unique_ptr<Supervisor> supervisor;
   vessel::State rest = vessel::State::Zero();
+  std::optional<double> scanned_s;
   bool knows_waves = true;
   vessel::Disturbance disturbance;  // as the tracker estimates it
   double now_s = 98.5;              // 100 s once the weather is known

@@ -256,6 +256,59 @@ TEST(Supervisor, StopsOnLostOdometryAndTrackerFaults) {
   EXPECT_NE(other.supervisor->reason().find("solver"), std::string::npos);
 }
 
+// It brakes on its way, waits at rest, and goes on once scans come again; without any ever it sails
+// by the chart.
+TEST(Supervisor, StopsWhereNoScanComesIntoTheMapAnyMore) {
+  ScriptedMission by_chart;
+  by_chart.setOut(6.0);
+  EXPECT_EQ(by_chart.supervisor->phase(), Phase::kSailing);
+
+  ScriptedMission m;
+  m.scanned_s = m.now_s;
+  m.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = m.goTo({40.0, 0.0});
+  ASSERT_TRUE(m.answer(*orders->plan, eastward({-40.0, 0.0}, 80.0, 2.0)).sail);
+  for (int k = 0; k < 40; ++k) {
+    m.scanned_s = m.now_s;
+    (void)m.update(0.1);
+    ASSERT_EQ(m.supervisor->phase(), Phase::kSailing) << m.supervisor->reason();
+  }
+  double blind_s = 0.0;
+  for (; m.supervisor->phase() == Phase::kSailing && blind_s < 5.0; blind_s += 0.1) {
+    EXPECT_FALSE(m.update(0.1).stop);
+  }
+  EXPECT_NEAR(blind_s, m.options.map_timeout_s, 0.25);
+  EXPECT_EQ(m.supervisor->phase(), Phase::kStopping);
+  EXPECT_NE(m.supervisor->reason().find("no scan"), std::string::npos);
+  for (int k = 0; k < 100 && m.supervisor->phase() == Phase::kStopping; ++k) {
+    EXPECT_FALSE(m.update(0.1).plan);
+  }
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_FALSE(m.update(0.1).plan);
+    ASSERT_EQ(m.supervisor->phase(), Phase::kStopped) << m.supervisor->reason();
+  }
+  std::optional<PlanRequest> again;
+  for (int k = 0; k < 20 && !again; ++k) {
+    m.scanned_s = m.now_s;
+    again = m.update(0.1).plan;
+  }
+  EXPECT_TRUE(again);
+}
+
+// Not for ever, and nothing begins meanwhile.
+TEST(Supervisor, SetsOutOnNothingWhereNoScanComesIntoTheMap) {
+  ScriptedMission m;
+  m.scanned_s = m.now_s - 10.0;
+  const auto orders = m.goTo({40.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  EXPECT_FALSE(m.answer(*orders->plan, eastward({0.0, 0.0}, 40.0, 2.0)).sail);
+  for (int k = 0; k < 100 && m.supervisor->phase() != Phase::kFailed; ++k) {
+    EXPECT_FALSE(m.update(0.1).plan);
+  }
+  EXPECT_EQ(m.supervisor->phase(), Phase::kFailed);
+  EXPECT_NE(m.supervisor->reason().find("no scan"), std::string::npos);
+}
+
 TEST(Supervisor, FarOffTheTrajectoryItPlansFromTheVessel) {
   ScriptedMission mission;
   mission.setOut(6.0);
