@@ -31,14 +31,18 @@ def main():
         else:
             failures.append(name)
             programs_with_failures.add(program)
-    programs = list(ElementTree.parse(junit).getroot().iter("testcase"))
+    try:
+        programs = list(ElementTree.parse(junit).getroot().iter("testcase"))
+    except (OSError, ElementTree.ParseError) as error:
+        failures.append(f"{junit}: the run did not end ({error})")
+        programs = []
     for program in programs:
         if program.get("status") == "run":
             continue
         name = program.get("name")
         if not any(known in name for known in programs_with_failures):
             failures.append(f"{name} ({program.get('status')})")
-    if not programs:
+    if not programs and not failures:
         failures.append("no test program ran")
     for name in failures:
         print(f"FAILED {name}")

@@ -4,8 +4,9 @@
 # BUILD holds the built programs (default: install/, else build/core, which is built if missing).
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
-build=${1:-}
-out=${2:-$top/config/vessels/otter.yaml}
+# Absolute, for the work is done elsewhere.
+build=${1:+$(realpath "$1")}
+out=$(realpath "${2:-$top/config/vessels/otter.yaml}")
 
 if [ -z "$build" ]; then
   build=$top/install

@@ -40,11 +40,31 @@ def wrap(angle):
     return (np.asarray(angle) + math.pi) % (2 * math.pi) - math.pi
 
 
-def read_csv(path):
-    with open(path, encoding="ascii") as file:
-        names = file.readline().strip().split(",")
-    data = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+def read_csv(path, columns):
+    try:
+        with open(path, encoding="ascii") as file:
+            names = file.readline().strip().split(",")
+            lines = file.readlines()
+        data = np.loadtxt(lines, delimiter=",", ndmin=2) if lines else np.empty((0, len(names)))
+    except (OSError, ValueError) as error:
+        sys.exit(f"judge_encounters: {path}: {getattr(error, 'strerror', None) or error}")
+    missing = [name for name in columns if name not in names]
+    if missing or data.shape[1] != len(names):
+        sys.exit(f"judge_encounters: {path}: no column {', '.join(missing)}" if missing
+                 else f"judge_encounters: {path}: rows of {data.shape[1]} for {len(names)} names")
     return {name: data[:, k] for k, name in enumerate(names)}
+
+
+def find(named, folder):
+    """A file as named, beside the result, or in a folder below it."""
+    base = os.path.basename(named)
+    for place in (named, os.path.join(folder, named), os.path.join(folder, base)):
+        if os.path.isfile(place):
+            return place
+    for parent, _, files in os.walk(folder or "."):
+        if base in files:
+            return os.path.join(parent, base)
+    sys.exit(f"judge_encounters: {named}: no such file, nor one of its name in '{folder or '.'}'")
 
 
 class Track:
@@ -349,15 +369,21 @@ class Run:
 
 def judge_mission(entry, scenario, folder, own_hull):
     mission = scenario["missions"][entry["mission"]]
-    data = read_csv(os.path.join(folder, entry["track"])
-                    if not os.path.isabs(entry["track"]) else entry["track"])
+    if not entry.get("track"):
+        sys.exit(f"judge_encounters: mission {entry['mission']} names no track")
+    place = find(entry["track"], folder)
+    data = read_csv(place, ("t", "x", "y", "psi"))
+    if len(data["t"]) < 2:
+        sys.exit(f"judge_encounters: {place}: fewer than two rows")
     own = Track(data["t"], data["x"], data["y"], data["psi"])
     t = np.arange(0.0, own.t[-1] + STEP_S, STEP_S)
     others = []
     faults = []
     if (np.diff(own.t) <= 0).any() or np.hypot(np.diff(own.x), np.diff(own.y)).max() > 2.0:
         faults.append("broken track")
-    table = read_csv(entry["vessels"]) if entry.get("vessels") else None
+    table = None
+    if entry.get("vessels"):
+        table = read_csv(find(entry["vessels"], folder), ("id", "t", "x", "y", "psi"))
     for vessel in scenario.get("vessels") or []:
         script = scripted(vessel, t)
         if table is None:

@@ -8,7 +8,7 @@ echo "Building with tests (build/build.log has the details)"
 "$top/scripts/build.sh" --tests
 
 cd "$top"
-rm -rf build/otter_nav/test_results build/otter_nav/Testing
+rm -rf build/otter_nav/test_results build/otter_nav/Testing build/ctest.xml
 set +u
 # shellcheck disable=SC1091
 . install/setup.bash

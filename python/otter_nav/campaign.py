@@ -96,17 +96,23 @@ def _column(missions, key):
     return numpy.array([m.get(key, numpy.nan) for m in missions], dtype=float)
 
 
+def _figure(of, missions, key):
+    """Of the missions of which it was measured; None without."""
+    values = _column(missions, key)
+    values = values[~numpy.isnan(values)]
+    return float(of(values)) if len(values) else None
+
+
 def _summary(missions):
-    error = _column(missions, "tracking_error_mean_m")
     return {"count": len(missions),
             "arrived": sum(m.get("outcome") == "arrived" for m in missions),
-            "tracking_error_mean_m": float(numpy.mean(error)),
-            "tracking_error_max_m": float(numpy.max(_column(missions, "tracking_error_max_m"))),
-            "min_clearance_m": float(numpy.min(_column(missions, "min_clearance_m"))),
-            "duration_s_mean": float(numpy.mean(_column(missions, "duration_s"))),
-            "replans_mean": float(numpy.mean(_column(missions, "replans"))),
-            "planning_ms_max": float(numpy.max(_column(missions, "planning_ms_max"))),
-            "tracker_ms_p99_max": float(numpy.max(_column(missions, "tracker_ms_p99")))}
+            "tracking_error_mean_m": _figure(numpy.mean, missions, "tracking_error_mean_m"),
+            "tracking_error_max_m": _figure(numpy.max, missions, "tracking_error_max_m"),
+            "min_clearance_m": _figure(numpy.min, missions, "min_clearance_m"),
+            "duration_s_mean": _figure(numpy.mean, missions, "duration_s"),
+            "replans_mean": _figure(numpy.mean, missions, "replans"),
+            "planning_ms_max": _figure(numpy.max, missions, "planning_ms_max"),
+            "tracker_ms_p99_max": _figure(numpy.max, missions, "tracker_ms_p99")}
 
 
 def _missions(page, found, charts):
@@ -156,10 +162,15 @@ def _name(mission):
     return f"{mission.get('scenario')}, mission {mission.get('mission')}, {mission.get('vessel')}"
 
 
+def _largest_error(mission):
+    """0 where none was measured, which JSON tells as null."""
+    return mission.get("tracking_error_max_m") or 0.0
+
+
 def _worst_missions(page, found, charts, pictures):
     """First what did not arrive, then by the largest error."""
     order = sorted(found, key=lambda entry: (entry[1].get("outcome") == "arrived",
-                                             -entry[1].get("tracking_error_max_m", 0.0)))
+                                             -_largest_error(entry[1])))
     drawn, titles = [], []
     for path, mission in order:
         if len(drawn) == _WORST:
@@ -167,7 +178,7 @@ def _worst_missions(page, found, charts, pictures):
         if find_track(mission, os.path.dirname(os.path.abspath(path))) is None:
             continue
         title = (f"{_name(mission)}: {mission.get('outcome')}, "
-                 f"{mission.get('tracking_error_max_m', 0.0):.2f} m at most")
+                 f"{_largest_error(mission):.2f} m at most")
         drawn.append(pictures.track(run_of(mission, path), charts.get(mission.get("scenario")), title,
                                     compact=True))
         titles.append(title)
@@ -259,6 +270,10 @@ def _worst_plans(page, cases, charts, pictures, folder):
                   os.path.join(folder, os.path.basename(dump))]
         place = next((p for p in places if dump and os.path.isfile(p)), None)
         if place is None or len(drawn) == _WORST:
+            continue
+        with open(place) as file:
+            rows = len(file.readlines()) - 1
+        if rows < 2:  # nothing was written, or no way
             continue
         data = numpy.genfromtxt(place, delimiter=",", names=True)
         way = Table(t=data["t"], x=data["x"], y=data["y"], u=data["u"], v=data["v"])

@@ -28,6 +28,7 @@
 #include "otter_nav/ros/run_node.hpp"
 #include "otter_nav/ros/scans.hpp"
 #include "otter_nav/scenario/scenario.hpp"
+#include "stamps.hpp"
 
 namespace otter_nav::nodes {
 namespace {
@@ -36,6 +37,7 @@ using ros_bridge::frames;
 using Level = ros_bridge::Diagnostics::Level;
 
 constexpr int kQueue = 50;
+constexpr double kScanLateS = 10.0;
 
 }  // namespace
 
@@ -47,6 +49,7 @@ class MapNode {
  private:
   explicit MapNode(map::OccupancyMap map);
 
+  void watchScans();
   void onScan(const sensor_msgs::LaserScanConstPtr& message);
   void onGhosts(const sensor_msgs::PointCloud& message);
   void onLying(const sensor_msgs::PointCloud& message);
@@ -61,6 +64,7 @@ class MapNode {
   // been dealt with.
   void publishUpdate(map::CellRectangle changed, const ros::Time& stamp);
   void publishMapTo(const ros::SingleSubscriberPublisher& subscriber) const;
+  void publishAllTo(const ros::SingleSubscriberPublisher& subscriber) const;
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
@@ -68,6 +72,7 @@ class MapNode {
   map::OccupancyMap map_;
   ros::Time load_time_;  // wall time, whatever the clock
   ros::Time last_scan_;
+  ros::Time told_;  // of the last update; zero before
 
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener transform_listener_{transforms_};
@@ -80,6 +85,7 @@ class MapNode {
   ros::Publisher update_publisher_;
   ros::ServiceServer save_service_;
   ros::ServiceServer reset_service_;
+  ros::WallTimer scan_timer_;
 };
 
 Result<std::unique_ptr<MapNode>> MapNode::create(config::Section section) {
@@ -118,7 +124,9 @@ MapNode::MapNode(map::OccupancyMap map)
           [this](const ros::SingleSubscriberPublisher& subscriber) { publishMapTo(subscriber); },
           ros::SubscriberStatusCallback(), ros::VoidConstPtr(), true)),
       chart_publisher_(node_.advertise<nav_msgs::OccupancyGrid>("chart", 1, true)),
-      update_publisher_(node_.advertise<map_msgs::OccupancyGridUpdate>("map_updates", kQueue)),
+      update_publisher_(node_.advertise<map_msgs::OccupancyGridUpdate>(
+          "map_updates", kQueue,
+          [this](const ros::SingleSubscriberPublisher& subscriber) { publishAllTo(subscriber); })),
       save_service_(private_node_.advertiseService("save", &MapNode::onSave, this)),
       reset_service_(private_node_.advertiseService("reset", &MapNode::onReset, this)) {
   map_publisher_.publish(
@@ -132,6 +140,18 @@ MapNode::MapNode(map::OccupancyMap map)
   lying_subscriber_ =
       node_.subscribe("lying", kQueue, &MapNode::onLying, this, ros::TransportHints().tcpNoDelay());
   diagnostics_.setState(Level::kOk, "chart loaded");
+  scan_timer_ = node_.createWallTimer(ros::WallDuration(1.0),
+                                      [this](const ros::WallTimerEvent&) { watchScans(); });
+}
+
+// Of ROS time, which in lockstep stands still without scans.
+void MapNode::watchScans() {
+  const bool none = last_scan_.isZero() && diagnostics_.silence("scan") > kScanLateS;
+  const bool late = !last_scan_.isZero() && (ros::Time::now() - last_scan_).toSec() > kScanLateS;
+  diagnostics_.setState(none || late ? Level::kWarning : Level::kOk,
+                        none   ? "chart loaded, but no scan has come"
+                        : late ? "no scan for a while"
+                               : "chart loaded");
 }
 
 // A late subscriber gets the map as it is now, not as it was when it was latched.
@@ -139,6 +159,16 @@ void MapNode::publishMapTo(const ros::SingleSubscriberPublisher& subscriber) con
   if (!last_scan_.isZero()) {
     subscriber.publish(
         ros_bridge::toMessage(map_.projection(), frames().map, last_scan_, load_time_));
+  }
+}
+
+// What changed before is its first update: a node that keeps a copy of the map has the latched
+// chart first, and whatever comes between map and updates would be lost to it.
+void MapNode::publishAllTo(const ros::SingleSubscriberPublisher& subscriber) const {
+  if (!told_.isZero()) {
+    const map::GridGeometry& all = map_.projection().geometry;
+    subscriber.publish(ros_bridge::updateMessage(map_.projection(), {0, 0, all.width, all.height},
+                                                 frames().map, told_));
   }
 }
 
@@ -155,6 +185,9 @@ Result<map::CellRectangle> MapNode::insert(const sensor_msgs::LaserScan& message
 
 void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   diagnostics_.received("scan");
+  if (message->header.stamp < last_scan_ && isAhead(last_scan_, ros::Time::now())) {
+    last_scan_ = ros::Time();  // the clock was set back
+  }
   if (message->header.stamp <= last_scan_) {
     if (message->header.stamp == last_scan_) {
       publishUpdate({}, last_scan_);
@@ -217,6 +250,7 @@ void MapNode::publishUpdate(map::CellRectangle changed, const ros::Time& stamp) 
   if (changed.empty()) {
     changed = {0, 0, 1, 1};
   }
+  told_ = stamp;
   update_publisher_.publish(
       ros_bridge::updateMessage(map_.projection(), changed, frames().map, stamp));
 }

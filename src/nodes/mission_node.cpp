@@ -59,6 +59,19 @@ constexpr double kArrivalSlackRad = 0.025;
 constexpr char kPlannerOptions[] = "planner_node/supervisor/";
 constexpr char kPlannerService[] = "planner_node/set_parameters";
 
+// Of wall time: ROS time may stand still meanwhile.
+bool waitForService(const char* name) {
+  constexpr double kPatienceS = 5.0;
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatienceS);
+  while (ros::ok() && ros::WallTime::now() < end) {
+    if (ros::service::exists(name, false)) {
+      return true;
+    }
+    ros::WallDuration(0.05).sleep();
+  }
+  return false;
+}
+
 // Whether roslaunch started this process: it is asked to end the launch, as by Ctrl-C.
 bool isUnderRoslaunch() {
   std::ifstream file("/proc/" + std::to_string(getppid()) + "/cmdline");
@@ -148,6 +161,7 @@ class MissionNode {
 };
 
 Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section) {
+  const std::string where = section.where();
   Result<MissionNodeOptions> options = config::read<MissionNodeOptions>(std::move(section));
   if (!options) {
     return failure(options.error().message);
@@ -161,6 +175,10 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
   }
   std::optional<scenario::TableWriter> track;
   if (!options->result.empty()) {
+    if (trackPath(options->result) == options->result) {
+      return failure(where + ": parameter 'result' = '" + options->result +
+                     "' is where its track will be written: give a file that doesn't end in .csv");
+    }
     Result<scenario::TableWriter> opened =
         scenario::TableWriter::open(trackPath(options->result), scenario::kTrackColumns);
     if (!opened) {
@@ -274,8 +292,7 @@ Status MissionNode::limitSpeed() {
   call.request.config.doubles[0].name = "speed_max_mps";
   call.request.config.doubles[0].value = *mission_.speed_mps;
   const std::string why = "the mission's speed limit can't be set";
-  if (!ros::service::waitForService(kPlannerService, ros::Duration(-1)) ||
-      !ros::service::call(kPlannerService, call)) {
+  if (!waitForService(kPlannerService) || !ros::service::call(kPlannerService, call)) {
     return failure(why + ": no answer from " + kPlannerService);
   }
   for (const auto& number : call.response.config.doubles) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "otter_nav/ros/conversions.hpp"
+#include "stamps.hpp"
 
 namespace otter_nav::nodes {
 
@@ -20,6 +21,13 @@ class OdometryHistory {
       samples_.pop_front();
     }
     return true;
+  }
+
+  // The clock was set back: what was stamped before is void.
+  void forgetWhatIsAhead(const ros::Time& now) {
+    if (!samples_.empty() && isAhead(ros_bridge::toRosTime(samples_.back().stamp_s), now)) {
+      samples_.clear();
+    }
   }
 
   [[nodiscard]] bool empty() const { return samples_.empty(); }

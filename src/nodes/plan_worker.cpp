@@ -41,6 +41,7 @@ PlanWorker::~PlanWorker() {
   }
   changed_.notify_all();
   thread_.join();
+  ros::getGlobalCallbackQueue()->removeByID(deliveryId());
 }
 
 void PlanWorker::start(mission::PlanRequest request, const map::DistanceField& field,
@@ -88,7 +89,8 @@ void PlanWorker::plan(Task& task) {
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   ros::getGlobalCallbackQueue()->addCallback(
       boost::make_shared<Delivery>([this, request = std::move(task.request), plan = std::move(plan),
-                                    ms = taken.count()] { on_done_(request, plan, ms); }));
+                                    ms = taken.count()] { on_done_(request, plan, ms); }),
+      deliveryId());
 }
 
 std::vector<Eigen::Vector2d> PlanWorker::guidePath(const Task& task) {

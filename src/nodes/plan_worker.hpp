@@ -46,6 +46,8 @@ class PlanWorker {
     ros::Time map_stamp;
   };
   void run();
+  // Of the results on their way into the node's thread, which none outlives this.
+  [[nodiscard]] std::uint64_t deliveryId() const { return reinterpret_cast<std::uint64_t>(this); }
   void plan(Task& task);
   [[nodiscard]] std::vector<Eigen::Vector2d> guidePath(const Task& task);
 

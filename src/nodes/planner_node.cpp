@@ -11,6 +11,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <memory>
@@ -35,6 +36,7 @@
 #include "plan_worker.hpp"
 #include "planner_node_options.hpp"
 #include "planner_publisher.hpp"
+#include "stamps.hpp"
 #include "tracker_watch.hpp"
 
 namespace otter_nav::nodes {
@@ -50,6 +52,7 @@ constexpr double kDecisionPeriodS = 0.05;  // of wall time, when not in lockstep
 // then.
 constexpr double kTrackerAgeS = 0.2;
 constexpr double kInputPeriodS = 0.5;
+constexpr double kInputLateS = 5.0;       // of wall time: then it is missed
 constexpr double kInputPatienceS = 20.0;  // of wall time a goal waits for map and odometry
 constexpr char kStopped[] = "stopped by the operator";
 
@@ -122,6 +125,7 @@ class PlannerNode {
   // What follows from the supervisor's phase: results of the goal, status, acknowledgement.
   void settle();
   void checkInputs();
+  void showState();
   [[nodiscard]] mission::Situation situation() const;
   [[nodiscard]] feasibility::Obstacles obstacles() const;
 
@@ -192,7 +196,7 @@ PlannerNode::PlannerNode(const Setup& setup)
       map_(setup.node.distance_field),
       supervisor_(mission::Supervisor::create(setup.supervisor, setup.vessel,
                                               static_cast<std::uint64_t>(setup.node.seed))),
-      publisher_(node_, setup.vessel),
+      publisher_(node_, setup.vessel, setup.node.lockstep ? 0 : ros::WallTime::now().sec),
       acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", kQueue)),
       goals_(
           node_, [this](const vessel::Pose& goal) { return onGoal(goal); }, [this] { onCancel(); }),
@@ -246,8 +250,14 @@ void PlannerNode::onOdometry(const nav_msgs::Odometry& message) {
   diagnostics_.received("odom");
   const Result<ros_bridge::OdometrySample> sample = ros_bridge::odometrySample(
       message, ros_bridge::odometryFrame(setup_.node.odometry_frame), frames().base);
+  const ros::Time now = ros::Time::now();
+  if (!setup_.node.lockstep) {
+    odometry_.forgetWhatIsAhead(now);
+  }
   if (!sample) {
     diagnostics_.refuse("odom", sample.error().message);
+  } else if (!setup_.node.lockstep && isAhead(message.header.stamp, now)) {
+    diagnostics_.refuse("odom", kStampedAhead);
   } else if (!odometry_.add(*sample)) {
     diagnostics_.refuse("odom", "its stamp goes backwards");
   }
@@ -262,9 +272,24 @@ void PlannerNode::onTrackerStatus(const TrackerStatus& message) {
 }
 
 void PlannerNode::onTracks(const Tracks& message) {
+  diagnostics_.received("tracks");
   Result<std::vector<traffic::Track>> tracks = ros_bridge::toTracks(message);
   if (!tracks) {
     diagnostics_.refuse("tracks", tracks.error().message);
+    return;
+  }
+  if (!setup_.node.lockstep) {
+    const ros::Time now = ros::Time::now();
+    if (isAhead(message.header.stamp, now)) {
+      diagnostics_.refuse("tracks", kStampedAhead);
+      return;
+    }
+    if (isAhead(ros_bridge::toRosTime(tracks_stamp_s_), now)) {  // the clock was set back
+      tracks_stamp_s_ = 0.0;
+    }
+  }
+  if (message.header.stamp.toSec() < tracks_stamp_s_) {
+    diagnostics_.refuse("tracks", "its stamp goes backwards");
     return;
   }
   tracks_ = std::move(*tracks);
@@ -299,11 +324,13 @@ void PlannerNode::decideInTurn() {
 }
 
 void PlannerNode::decide() {
+  const ros::Time now = ros::Time::now();
+  odometry_.forgetWhatIsAhead(now);
   if (!map_.ready() || odometry_.empty()) {
     return;
   }
   vessel_ = odometry_.latest();
-  now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
+  now_s_ = std::max(now.toSec(), vessel_.stamp_s);
   tracker_.countUntil(std::numeric_limits<double>::infinity());
   execute(supervisor_->update(now_s_, situation(), obstacles()));
   goals_.setReady(true);
@@ -373,7 +400,7 @@ void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner:
   if (plan_under_way_ == request.id) {
     plan_under_way_ = 0;
   }
-  if (!setup_.node.lockstep) {
+  if (!setup_.node.lockstep && !odometry_.empty()) {
     vessel_ = odometry_.latest();
     now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
   }
@@ -420,9 +447,7 @@ void PlannerNode::settle() {
   } else if (phase == Phase::kFailed) {
     goals_.abort(supervisor_->reason());
   }
-  diagnostics_.setState(phase == Phase::kFailed ? Level::kError : Level::kOk,
-                        std::string(mission::name(phase)) +
-                            (supervisor_->reason().empty() ? "" : ": " + supervisor_->reason()));
+  showState();
   diagnostics_.setValue("replans", supervisor_->replans().all);
   diagnostics_.setValue("replans for the weather", supervisor_->replans().for_weather);
   diagnostics_.setValue("stops", supervisor_->stops());
@@ -445,6 +470,36 @@ void PlannerNode::checkInputs() {
                         : odometry_.empty() ? "there is no odometry"
                                             : "there are no map updates");
   }
+  showState();
+}
+
+void PlannerNode::showState() {
+  const Phase phase = supervisor_->phase();
+  const bool under_way =
+      phase != Phase::kIdle && phase != Phase::kArrived && phase != Phase::kFailed;
+  // In lockstep time stands still without inputs.
+  const auto late = [&](const char* topic) {
+    return !setup_.node.lockstep && diagnostics_.silence(topic) > kInputLateS;
+  };
+  const char* lacks = !map_.ready() && diagnostics_.silence("map") > kInputLateS        ? "map"
+                      : odometry_.empty() && diagnostics_.silence("odom") > kInputLateS ? "odometry"
+                      : late("odom")                                                    ? "odometry"
+                      : under_way && late("map_updates") ? "map updates"
+                                                         : nullptr;
+  const bool stopped = phase == Phase::kStopping || phase == Phase::kStopped;
+  const Level level =
+      phase == Phase::kFailed ? Level::kError
+      : lacks != nullptr || (stopped && !supervisor_->reason().empty()) || tracker_.gaveUp()
+          ? Level::kWarning
+          : Level::kOk;
+  std::string told(mission::name(phase));
+  if (!supervisor_->reason().empty()) {
+    told += ": " + supervisor_->reason();
+  }
+  if (lacks != nullptr) {
+    told += std::string("; no ") + lacks;
+  }
+  diagnostics_.setState(level, told);
 }
 
 std::vector<config::NumberField> PlannerNode::live() const {
@@ -486,7 +541,7 @@ mission::Situation PlannerNode::situation() const {
   situation.tracker_reason = tracker_.reason();
   situation.foreseen = tracker_.foreseen();
   constexpr double kTracksS = 5.0;  // older ones tell nothing of where others are
-  if (now_s_ - tracks_stamp_s_ < kTracksS) {
+  if (std::abs(now_s_ - tracks_stamp_s_) < kTracksS) {  // ahead if the clock was set back
     situation.tracks = tracks_;
   }
   return situation;

@@ -18,12 +18,15 @@ namespace {
 using ros_bridge::frames;
 
 constexpr int kKept = 100;
+constexpr std::size_t kPlansTold = 1000;  // by the median of their times
 constexpr double kPathStepS = 0.25;
 
 }  // namespace
 
-PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel)
+PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel,
+                                   std::uint32_t ids_after)
     : vessel_(std::move(vessel)),
+      last_id_(ids_after),
       trajectory_(node.advertise<Trajectory>("trajectory", kKept, true)),
       path_(node.advertise<nav_msgs::Path>("path", 1, true)),
       status_publisher_(node.advertise<PlannerStatus>("planner_status", kKept)),
@@ -60,6 +63,9 @@ void PlannerPublisher::show(const mission::Supervisor& supervisor,
 void PlannerPublisher::publishPlan(const planner::Plan& plan, double wall_ms) {
   const planner::Figures& figures = plan.figures;
   planning_ms_.push_back(wall_ms);
+  if (planning_ms_.size() > kPlansTold) {
+    planning_ms_.erase(planning_ms_.begin());
+  }
   status_.outcome = planner::toString(plan.outcome);
   status_.plans += 1;
   status_.length = figures.length_m;
@@ -71,7 +77,7 @@ void PlannerPublisher::publishPlan(const planner::Plan& plan, double wall_ms) {
   status_.first_solution_ms = figures.first_solution_ms;
   status_.planning_ms = wall_ms;
   status_.planning_ms_median = quantile(planning_ms_, 0.5);
-  status_.planning_ms_max = *std::max_element(planning_ms_.begin(), planning_ms_.end());
+  status_.planning_ms_max = std::max(status_.planning_ms_max, wall_ms);
   tree_markers_.publish(ros_bridge::treeMarkers(plan));
 }
 

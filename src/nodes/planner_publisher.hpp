@@ -15,7 +15,8 @@ namespace otter_nav::nodes {
 
 class PlannerPublisher {
  public:
-  PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel);
+  // Trajectories' ids rise from `ids_after` on.
+  PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel, std::uint32_t ids_after);
 
   // Publishes the order under a new id and returns that.
   std::uint32_t publish(const trajectory::TimedTrajectory& order, const vessel::Pose& goal);
@@ -29,9 +30,9 @@ class PlannerPublisher {
 
  private:
   vessel::Parameters vessel_;
-  std::uint32_t last_id_ = 0;
+  std::uint32_t last_id_;
   PlannerStatus status_;
-  std::vector<double> planning_ms_;
+  std::vector<double> planning_ms_;  // of the last plans
   ros::Publisher trajectory_;
   ros::Publisher path_;
   ros::Publisher status_publisher_;

@@ -2,6 +2,7 @@
 // speed; what is lost without is an error that says what. The bag is closed and indexed however the
 // run ends. Parameters: launch/record.launch.
 #include <ros/callback_queue.h>
+#include <ros/names.h>
 #include <ros/node_handle.h>
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
@@ -90,6 +91,15 @@ Result<std::unique_ptr<RecorderNode>> RecorderNode::create(config::Section secti
   }
   if (options->file.empty()) {
     return failure(where + ": parameter 'file' is empty: there is no bag to write");
+  }
+  for (const std::string& topic : options->topics) {
+    std::string why;
+    if (topic.empty() || topic[0] == '~') {
+      why = "it is empty or begins with ~";
+    }
+    if (!why.empty() || !ros::names::validate(topic, why)) {
+      return failure(where + ": parameter 'topics': '" + topic + "' is no topic's name: " + why);
+    }
   }
   for (const std::string& topic : options->paced) {
     if (std::find(options->topics.begin(), options->topics.end(), topic) == options->topics.end()) {

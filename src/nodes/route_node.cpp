@@ -322,6 +322,11 @@ void RouteNode::publish() {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "route_node");
+  const ros::NodeHandle keep_alive;
+  if (const auto frames = otter_nav::ros_bridge::readFrames(); !frames) {
+    ROS_FATAL_STREAM(frames.error().message);
+    return 1;
+  }
   const otter_nav::nodes::RouteNode node;
   ros::spin();
   return 0;

@@ -28,6 +28,7 @@
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/run_node.hpp"
 #include "otter_nav/ros/trajectories.hpp"
+#include "stamps.hpp"
 #include "tracker_node_options.hpp"
 
 namespace otter_nav::nodes {
@@ -39,6 +40,7 @@ using Level = ros_bridge::Diagnostics::Level;
 constexpr int kQueue = 100;
 constexpr int kPredictionInterval = 10;  // steps
 constexpr double kStatusRateHz = 10.0;   // of simulated time
+constexpr double kOdometryLateS = 5.0;
 constexpr double kLockstepStatusPeriodS = 1.0 / kStatusRateHz;
 
 Level levelOf(const tracker::Command& command) {
@@ -96,6 +98,8 @@ class TrackerNode {
   void publishPrediction(const tracker::Prediction& prediction);
   void publishStatus();
   [[nodiscard]] TrackerStatus status() const;
+  // For long; in lockstep time stands still without.
+  [[nodiscard]] bool lacksOdometry() const;
 
   TrackerNodeOptions options_;
   ros::NodeHandle node_;
@@ -120,6 +124,7 @@ class TrackerNode {
 
   bool begun_ = false;  // not before it is recorded, where it shall be
   ros::Time last_odometry_;
+  ros::WallTime started_ = ros::WallTime::now();
   int lockstep_steps_ = 0;
   ros::WallTime next_turn_;
 
@@ -216,6 +221,10 @@ void TrackerNode::onTrajectory(const Trajectory& message) {
     if (taken) {
       accepted_id_ = message.id;
       accepted_start_s_ = start_s;
+      if (refused_id_ == message.id) {
+        refused_id_ = 0;
+        refused_reason_.clear();
+      }
     } else {
       refused_id_ = message.id;
       refused_reason_ = taken.error().message;
@@ -235,6 +244,16 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
   const Result<ros_bridge::OdometrySample> sample = ros_bridge::odometrySample(
       message, ros_bridge::odometryFrame(options_.odometry_frame), frames().base);
   const ros::Time stamp = message.header.stamp;
+  if (!options_.lockstep) {
+    const ros::Time now = ros::Time::now();
+    if (isAhead(stamp, now)) {
+      diagnostics_.refuse("odom", kStampedAhead);
+      return;
+    }
+    if (isAhead(last_odometry_, now)) {  // the clock was set back
+      last_odometry_ = ros::Time();
+    }
+  }
   if (stamp < last_odometry_) {
     diagnostics_.refuse("odom", "its stamp goes backwards");
     return;
@@ -244,7 +263,9 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
     cycle_publisher_.publish(cycle_message_);
     return;
   }
-  last_odometry_ = stamp;
+  if (sample || options_.lockstep) {
+    last_odometry_ = stamp;
+  }
   if (sample) {
     tracker_->addOdometry(sample->stamp_s, sample->state, -sample->pitch_rad);
   } else {
@@ -353,18 +374,32 @@ void TrackerNode::publishPrediction(const tracker::Prediction& prediction) {
 void TrackerNode::publishStatus() {
   const TrackerStatus message = status();
   status_publisher_.publish(message);
-  diagnostics_.setState(levelOf(last_command_), message.reason.empty()
-                                                    ? message.state
-                                                    : message.state + ": " + message.reason);
+  tracker::Command command;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    command = last_command_;
+  }
+  if (command.mode == tracker::Mode::kIdle && lacksOdometry()) {
+    diagnostics_.setState(Level::kWarning, message.state + ": no odometry");
+  } else {
+    diagnostics_.setState(levelOf(command), message.reason.empty()
+                                                ? message.state
+                                                : message.state + ": " + message.reason);
+  }
   diagnostics_.setValue("cycles on time, share", message.cycles_on_time);
-  diagnostics_.setValue("solver", std::string(tracker::name(last_command_.solver)));
-  diagnostics_.setValue("solver iterations", last_command_.solver_iterations);
+  diagnostics_.setValue("solver", std::string(tracker::name(command.solver)));
+  diagnostics_.setValue("solver iterations", command.solver_iterations);
   diagnostics_.setValue("solver median, ms", message.solver_ms_median);
   diagnostics_.setValue("solver p99, ms", message.solver_ms_p99);
   diagnostics_.setValue("position error, m", message.position_error);
   diagnostics_.setValue("cross error, m", message.cross_error);
   diagnostics_.setValue("heading error, rad", message.heading_error);
   diagnostics_.setValue("time left, s", message.time_left);
+}
+
+bool TrackerNode::lacksOdometry() const {
+  return last_odometry_.isZero() ? (ros::WallTime::now() - started_).toSec() > kOdometryLateS
+                                 : (ros::Time::now() - last_odometry_).toSec() > kOdometryLateS;
 }
 
 TrackerStatus TrackerNode::status() const {

@@ -27,6 +27,10 @@ class TrackerWatch {
       latest_s_ = stamp_s;
       waiting_.push_back(status);
     }
+    if (waiting_.size() > kMostWaiting) {  // nobody decides, without a map
+      count(waiting_.front());
+      waiting_.pop_front();
+    }
   }
 
   // Whether everything stamped `until_s` or before has come, from a tracker that stamps at all.
@@ -78,6 +82,7 @@ class TrackerWatch {
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
   static constexpr int kFaults = 3;
+  static constexpr std::size_t kMostWaiting = 1000;
 
   std::uint32_t accepted_id_ = 0;
   std::uint32_t refused_id_ = 0;

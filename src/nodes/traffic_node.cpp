@@ -14,6 +14,7 @@
 #include <tf2_ros/transform_listener.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -33,6 +34,7 @@
 #include "otter_nav/ros/scans.hpp"
 #include "otter_nav/ros/tracks.hpp"
 #include "otter_nav/traffic/tracker.hpp"
+#include "stamps.hpp"
 #include "traffic_node_options.hpp"
 
 namespace otter_nav::nodes {
@@ -60,7 +62,6 @@ class TrafficNode {
   void onScan(const sensor_msgs::LaserScanConstPtr& message);
   void onRadar(const geometry_msgs::PoseArray& message);
   void onAis(const std_msgs::String& message);
-  void takeOthers();
   static void publishPoints(const ros::Publisher& publisher, const ros::Time& stamp,
                             const std::vector<Eigen::Vector3d>& points);
   void publish(const ros::Time& stamp);
@@ -69,9 +70,12 @@ class TrafficNode {
   struct Heard {
     ros::Time stamp;
     bool is_radar = false;
+    bool before_scans = false;
     std::vector<Eigen::Vector2d> radar_in_base;
     std::string ais;
   };
+  void keep(Heard heard);
+  void takeOthers(const ros::Time& scan);
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
@@ -150,6 +154,10 @@ void TrafficNode::onRadar(const geometry_msgs::PoseArray& message) {
   Heard heard;
   heard.stamp = message.header.stamp;
   heard.is_radar = true;
+  if (isAhead(heard.stamp, ros::Time::now())) {
+    diagnostics_.refuse("radar", kStampedAhead);
+    return;
+  }
   for (const geometry_msgs::Pose& pose : message.poses) {
     if (!std::isfinite(pose.position.x) || !std::isfinite(pose.position.y)) {
       diagnostics_.refuse("radar", "a position is not finite");
@@ -157,25 +165,34 @@ void TrafficNode::onRadar(const geometry_msgs::PoseArray& message) {
     }
     heard.radar_in_base.emplace_back(pose.position.x, pose.position.y);
   }
-  heard_.push_back(std::move(heard));
+  keep(std::move(heard));
 }
 
 void TrafficNode::onAis(const std_msgs::String& message) {
   Heard heard;
-  heard.stamp = last_scan_;
+  heard.stamp = last_scan_.isZero() ? ros::Time::now() : last_scan_;
+  heard.before_scans = last_scan_.isZero();
   heard.ais = message.data;
+  keep(std::move(heard));
+}
+
+void TrafficNode::keep(Heard heard) {
   heard_.push_back(std::move(heard));
   if (heard_.size() > kMostHeard) {  // no scans
     heard_.pop_front();
   }
 }
 
-// Up to the scan before.
-void TrafficNode::takeOthers() {
-  while (!heard_.empty() && heard_.front().stamp <= last_scan_) {
+// Up to the scan before the one stamped `scan`.
+void TrafficNode::takeOthers(const ros::Time& scan) {
+  const ros::Time now = ros::Time::now();
+  while (!heard_.empty() && isAhead(heard_.front().stamp, now)) {  // the clock was set back
+    heard_.pop_front();
+  }
+  while (!heard_.empty() && (heard_.front().before_scans || heard_.front().stamp <= last_scan_)) {
     const Heard heard = std::move(heard_.front());
     heard_.pop_front();
-    const double stamp_s = heard.stamp.toSec();
+    const double stamp_s = std::min(heard.stamp, scan).toSec();
     if (!heard.is_radar) {
       if (const Status status = tracker_.addAis(stamp_s, heard.ais); !status) {
         diagnostics_.refuse("ais", status.error().message);
@@ -193,6 +210,9 @@ void TrafficNode::takeOthers() {
 
 void TrafficNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   const ros::Time& stamp = message->header.stamp;
+  if (stamp < last_scan_ && isAhead(last_scan_, ros::Time::now())) {  // the clock was set back
+    last_scan_ = ros::Time();
+  }
   if (stamp <= last_scan_) {
     if (stamp == last_scan_) {
       still_publisher_.publish(last_still_);  // sent again: whoever asked missed the answer
@@ -201,15 +221,19 @@ void TrafficNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
     }
     return;
   }
-  takeOthers();
+  takeOthers(stamp);
   sensor_msgs::LaserScan still = *message;
   const auto sensor = ros_bridge::poseInMap(transforms_, message->header.frame_id, stamp);
   const auto own = ros_bridge::hullInMap(transforms_, stamp);
+  const Scan scan = ros_bridge::toScan(*message);
+  // What the map would refuse has to be refused here too: it tells nothing of others either.
+  const std::string unusable = whyUnusable(scan);
   if (const Status status = firstFailure(sensor, own); !status) {
     diagnostics_.refuse("scan", status.error().message);
+  } else if (!unusable.empty()) {
+    diagnostics_.refuse("scan", unusable);
   } else {
-    const traffic::ScanVerdict& verdict =
-        tracker_.addScan(stamp.toSec(), *sensor, *own, ros_bridge::toScan(*message));
+    const traffic::ScanVerdict& verdict = tracker_.addScan(stamp.toSec(), *sensor, *own, scan);
     for (std::size_t i = 0; i < still.ranges.size(); ++i) {
       if (verdict.on_vessel[i]) {
         still.ranges[i] = std::numeric_limits<float>::quiet_NaN();

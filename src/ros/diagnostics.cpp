@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPeriodS = 1.0;
 constexpr double kLogPeriodS = 5.0;
+constexpr double kRefusalsCountS = 10.0;
 
 std::uint8_t toLevel(Diagnostics::Level level) {
   switch (level) {
@@ -54,11 +55,18 @@ void Diagnostics::received(const std::string& topic) {
   stream.last = ros::WallTime::now();
 }
 
+double Diagnostics::silence(const std::string& topic) const {
+  const auto stream = streams_.find(topic);
+  return (ros::WallTime::now() - (stream != streams_.end() ? stream->second.last : started_))
+      .toSec();
+}
+
 void Diagnostics::refuse(const std::string& topic, const std::string& reason) {
   Refusals& refusals = refusals_[topic];
   ++refusals.count;
   refusals.last_reason = reason;
   const ros::WallTime now = ros::WallTime::now();
+  refusals.last = now;
   if ((now - refusals.last_logged).toSec() > kLogPeriodS) {
     refusals.last_logged = now;
     ROS_WARN_STREAM("Refused a message of '" << topic << "': " << reason << " (" << refusals.count
@@ -68,13 +76,16 @@ void Diagnostics::refuse(const std::string& topic, const std::string& reason) {
 
 void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(toLevel(level_), message_);
-  if (level_ == Level::kOk && !refusals_.empty()) {
+  const ros::WallTime now = ros::WallTime::now();
+  const bool refuses = std::any_of(refusals_.begin(), refusals_.end(), [&](const auto& one) {
+    return (now - one.second.last).toSec() < kRefusalsCountS;
+  });
+  if (level_ == Level::kOk && refuses) {
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, "some messages were refused");
   }
   for (const auto& [key, value] : values_) {
     status.add(key, value);
   }
-  const ros::WallTime now = ros::WallTime::now();
   const double since_s = std::max(1e-3, (now - reported_).toSec());
   reported_ = now;
   for (auto& [topic, stream] : streams_) {

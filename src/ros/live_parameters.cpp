@@ -84,8 +84,8 @@ void leaves(XmlRpcValue& tree, const std::string& path, std::map<std::string, Xm
 LiveParameters::LiveParameters(std::vector<config::NumberField> live, Apply apply,
                                const ros::Publisher& in_force)
     : live_(std::move(live)), apply_(std::move(apply)), told_(in_force) {
-  node_.getParam(node_.getNamespace(), current_);
-  in_force_ = current_;
+  node_.getParam(node_.getNamespace(), in_force_);
+  seen_ = in_force_;
   tell();
   if (!live_.empty()) {
     advertise();
@@ -131,7 +131,7 @@ void LiveParameters::advertise() {
 
 dynamic_reconfigure::Config LiveParameters::values() const {
   dynamic_reconfigure::Config config;
-  XmlRpcValue tree = current_;
+  XmlRpcValue tree = in_force_;
   for (const config::NumberField& field : live_) {
     XmlRpcValue* value = find(tree, field.path);
     dynamic_reconfigure::DoubleParameter number;
@@ -177,28 +177,28 @@ void LiveParameters::poll() {
   leaves(now, "", all);
   std::vector<Change> changes;
   for (auto& [path, value] : all) {
-    XmlRpcValue* before = find(current_, path);
+    XmlRpcValue* before = find(seen_, path);
     if (before == nullptr) {
       warnOfUnknown(path);
       continue;
     }
-    if (same(*before, value)) {
-      continue;
-    }
     const bool is_live = std::any_of(live_.begin(), live_.end(),
                                      [&key = path](const auto& one) { return one.path == key; });
+    XmlRpcValue* in_force = find(in_force_, path);
     if (is_live && isNumber(value)) {
-      changes.push_back({path, numberOf(value)});
-    } else {
+      if (in_force == nullptr || !same(*in_force, value)) {
+        changes.push_back({path, numberOf(value)});
+      }
+    } else if (!same(*before, value)) {
       warnOf(path);
-      *before = value;  // said once
     }
+    *before = value;
   }
   change(changes);
 }
 
 void LiveParameters::change(const std::vector<Change>& changes) {
-  XmlRpcValue wanted = current_;
+  XmlRpcValue wanted = in_force_;
   std::string told;
   for (const Change& one : changes) {
     XmlRpcValue* value = find(wanted, one.path);
@@ -214,12 +214,7 @@ void LiveParameters::change(const std::vector<Change>& changes) {
   const Status status = toYaml(wanted).and_then(
       [&](const YAML::Node& node) { return apply_(config::Section(node, node_.getNamespace())); });
   if (status) {
-    current_ = wanted;
-    for (const Change& one : changes) {
-      if (XmlRpcValue* value = find(in_force_, one.path)) {
-        *value = XmlRpcValue(one.value);
-      }
-    }
+    in_force_ = wanted;
     tell();
     ROS_INFO_STREAM("Changed while running: " << told);
   } else {
@@ -232,7 +227,7 @@ void LiveParameters::change(const std::vector<Change>& changes) {
     if (isIndex(parts.back())) {
       path.resize(path.rfind('/'));
     }
-    if (XmlRpcValue* value = find(current_, path)) {
+    if (XmlRpcValue* value = find(in_force_, path)) {
       node_.setParam(path, *value);
     }
   }

@@ -7,6 +7,11 @@
 #include "otter_nav/ros/grids.hpp"
 
 namespace otter_nav::ros_bridge {
+namespace {
+
+constexpr std::size_t kMostWaiting = 1000;
+
+}  // namespace
 
 Status MapMirror::take(const nav_msgs::OccupancyGrid& message) {
   Result<map::OccupancyGrid> grid = toGrid(message, frames().map);
@@ -21,12 +26,22 @@ Status MapMirror::take(const nav_msgs::OccupancyGrid& message) {
     known_ = map::DistanceField(grid_, {map::kKnownWaterDistanceM, true});
     load_time_ = message.info.map_load_time;
   }
-  return {};
+  Status status;
+  for (; !waiting_.empty(); waiting_.pop_front()) {
+    if (const auto changed = take(waiting_.front()); !changed && status) {
+      status = failure("an update before it: " + changed.error().message);
+    }
+  }
+  return status;
 }
 
 Result<map::CellRectangle> MapMirror::take(const map_msgs::OccupancyGridUpdate& update) {
   if (!ready()) {
-    return failure("came before the map");
+    if (waiting_.size() >= kMostWaiting) {
+      return failure("there is no map yet");
+    }
+    waiting_.push_back(update);
+    return map::CellRectangle{};
   }
   Result<map::CellRectangle> changed = applyUpdate(update, frames().map, grid_);
   if (changed) {

@@ -114,11 +114,16 @@ Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
     track.sources = one.sources;
     const bool finite = track.position.allFinite() && track.velocity.allFinite() &&
                         std::isfinite(one.heading) && std::isfinite(one.turn_rate) &&
+                        std::isfinite(one.turn_time) && std::isfinite(one.length) &&
+                        std::isfinite(one.beam) && std::isfinite(one.met_deviation) &&
                         track.covariance.allFinite() && track.met.position.allFinite();
     if (!finite || !(one.met_deviation >= 0.0) || !(one.length >= 0.0) || !(one.beam >= 0.0) ||
         !(one.turn_time > 0.0)) {
       return failure("track " + std::to_string(one.id) +
                      " holds a figure that is not finite, or a negative size or time");
+    }
+    if (!(one.existence >= 0.0 && one.existence <= 1.0)) {
+      return failure("track " + std::to_string(one.id) + " has an existence outside [0, 1]");
     }
     tracks.push_back(track);
   }

@@ -128,11 +128,11 @@ void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
     reason_ = {};
     return;
   }
-  if (stamp <= stamp_s_) {
+  if (stamp <= stamp_s_ && !ahead_) {
     reason_ = "odometry is out of order";
     return;
   }
-  const bool gap = stamp - stamp_s_ > options_.predict_through_s;
+  const bool gap = ahead_ || stamp - stamp_s_ > options_.predict_through_s;
   if (!gap) {
     forEachPiece(stamp, acting_, [&](const vessel::Thrusts& thrusts, double dt) {
       estimator_.predict(thrusts, dt);
@@ -141,9 +141,10 @@ void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
       }
     });
   }
-  const double since = stamp - stamp_s_;
+  const double since = std::max(0.0, stamp - stamp_s_);
   stamp_s_ = stamp;
   if (gap) {
+    ahead_ = false;
     reset(state);
   } else if (believable(stamp, state)) {
     if (jumping_) {
@@ -165,8 +166,8 @@ Fix Navigator::fix(double now_s) const {
   if (!started_) {
     return Fix::kNone;
   }
-  const double silent = jumping_ ? now_s - jump_since_s_ : now_s - stamp_s_;
-  if (silent > options_.predict_through_s) {
+  const double silent = silence(now_s);
+  if (silent > options_.predict_through_s || isAhead(silent)) {
     return Fix::kLost;
   }
   return silent > 3.0 * period_s_ ? Fix::kBridging : Fix::kGood;

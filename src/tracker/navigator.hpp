@@ -21,6 +21,10 @@ class Navigator {
  public:
   Navigator(const Options& options, const vessel::Parameters& vessel);
 
+  // The clock stands at `now_s`: what is stamped farther ahead of it than the model predicts
+  // (wrongly, or before the clock was set back) is lost, and the next odometry is taken whatever
+  // its stamp.
+  void forgetWhatIsAhead(double now_s) { ahead_ = started_ && isAhead(silence(now_s)); }
   // In order of arrival. The state of a refusal is in reason().
   void addOdometry(double stamp_s, const vessel::State& state);
   // What was sent to the thrusters at `stamp_s`.
@@ -53,6 +57,13 @@ class Navigator {
   void forEachPiece(double until_s, vessel::Thrusts& acting, Step step) const;
   [[nodiscard]] bool believable(double stamp_s, const vessel::State& state);
   void reset(const vessel::State& measured);
+  // Since the last odometry that was believed; negative when it is stamped ahead of `now_s`.
+  [[nodiscard]] double silence(double now_s) const {
+    return now_s - (jumping_ ? jump_since_s_ : stamp_s_);
+  }
+  [[nodiscard]] bool isAhead(double silence_s) const {
+    return silence_s < -options_.predict_through_s;
+  }
   // What is steered by, after `since_s` under what was felt last.
   void weighCurrents(double since_s);
 
@@ -71,6 +82,7 @@ class Navigator {
   vessel::Thrusts acting_ = vessel::Thrusts::Zero();
   double stamp_s_ = 0.0;
   bool started_ = false;
+  bool ahead_ = false;
   double jump_since_s_ = 0.0;
   bool jumping_ = false;
   std::string_view reason_;

@@ -70,7 +70,7 @@ class PredictiveTracker final : public Tracker {
     double bow_up_rad = 0.0;
   };
 
-  void takeOdometry();
+  void takeOdometry(double now_s);
   void takeAssignment(double now_s, const vessel::State& state);
   void beginTracking(double now_s, const vessel::State& state);
   void beginStop(std::string_view reason, double now_s, const vessel::State& state);
@@ -161,7 +161,8 @@ void PredictiveTracker::addOdometry(double stamp_s, const vessel::State& state, 
   odometry_.push({stamp_s, state, bow_up_rad});
 }
 
-void PredictiveTracker::takeOdometry() {
+void PredictiveTracker::takeOdometry(double now_s) {
+  navigator_.forgetWhatIsAhead(now_s);
   Measurement m;
   while (odometry_.pop(m)) {
     navigator_.addOdometry(m.stamp_s, m.state);
@@ -290,6 +291,7 @@ void PredictiveTracker::watchFix(Fix fix, double now_s, const vessel::State& sta
     return;
   }
   lost_ = true;
+  lost_since_s_ = std::min(lost_since_s_, now_s);  // the clock may have been set back
   if (mode_ == Mode::kTracking || mode_ == Mode::kHolding) {
     beginStop("odometry lost", now_s, state);
   }
@@ -319,7 +321,7 @@ Command PredictiveTracker::step(double now_s) {
   last_now_s_.store(now_s);
   Command command;
   command.stamp_s = now_s;
-  takeOdometry();
+  takeOdometry(now_s);
   if (new_weights_.take(weights_)) {
     controller_.setWeights(*weights_);
   }

@@ -2,6 +2,7 @@
 import importlib.util
 import math
 import os
+import tempfile
 import unittest
 
 import numpy as np
@@ -55,6 +56,24 @@ class Judge(unittest.TestCase):
         self.assertAlmostEqual(judge.outline_distance(still, (2, 1), aside, (2, 4), t)[0],
                                math.hypot(3.0, 4.0))
         self.assertEqual(judge.outline_distance(still, (2, 1), still, (6, 2), t)[0], 0.0)
+
+    def test_files_that_make_no_sense_are_named(self):
+        entry = {"mission": 0, "track": "/elsewhere/own.csv", "outcome": "arrived"}
+        scenario = {"missions": [MISSION]}
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(SystemExit, "/elsewhere/own.csv"):
+                judge.judge_mission(entry, scenario, folder, (2.0, 1.08))
+            os.mkdir(os.path.join(folder, "tracks"))
+            track = os.path.join(folder, "tracks", "own.csv")
+            for rows in ("", "t,x,y,psi\n", "t,x,y,psi\n0,0,-200,1.57\n", "t,x,y,psi\n0,0\n1,0\n", "t,x,y\n"):
+                with open(track, "w") as file:
+                    file.write(rows)
+                with self.assertRaisesRegex(SystemExit, track):
+                    judge.judge_mission(entry, scenario, folder, (2.0, 1.08))
+            with open(track, "w") as file:
+                file.write("t,x,y,psi\n0,0,-200,1.57\n200,0,-199,1.57\n")
+            arrived = judge.judge_mission(entry, scenario, folder, (2.0, 1.08))[1]
+            self.assertTrue(arrived)
 
     def test_scores(self):
         for r, score in ((12, 1.0), (10, 1.0), (6, 0.625), (3, 0.0), (8, 0.8125), (0, 0.0)):

@@ -126,13 +126,27 @@ class ReportTest(unittest.TestCase):
         self.assertAlmostEqual(figures["missions"]["tracking_error_max_m"], 0.3)
         self.assertIn("no way <left>", " ".join(page.text))
 
+    def test_campaign_with_a_mission_of_which_nothing_was_measured(self):
+        path = synthetic.write_result(self.folder, 2)
+        with open(path) as file:
+            result = json.load(file)
+        result["missions"][1].update(tracking_error_max_m=None, min_clearance_m=None)
+        with open(path, "w") as file:
+            json.dump(result, file)
+        self.make("--campaign", self.folder)
+
     def test_campaign_of_benchmarks(self):
+        dumps = ["", "t,x,y,u,v\n", "t,x,y,u,v\n0,0,0,0,0\n"]
+        for k, content in enumerate(dumps):  # without a way to draw
+            with open(os.path.join(self.folder, f"way_{k}.csv"), "w") as file:
+                file.write(content)
+
         def case(k):
             return {"scenario": "pond", "mission": k, "kind": "cross", "seed": 1, "method": "proposed",
                     "success": k != 3, "reason": "time up" if k == 3 else "",
                     "first_solution_ms": None if k == 3 else 4.0, "total_ms": 10.0 * (k + 1),
                     "length_m": 100.0, "duration_s": 30.0, "cost": 300.0, "node_utilization": 0.4,
-                    "shortest_m": 95.0, "dump": ""}
+                    "shortest_m": 95.0, "dump": f"way_{k}.csv"}
         summary = {"cases": 4, "success_rate_100ms": 0.75, "success_rate_1s": 0.75,
                    "length_m_mean": 100.0, "duration_s_mean": 30.0, "cost_mean": 300.0,
                    "node_utilization_mean": 0.4, "total_ms_mean": 25.0, "total_ms_median": 20.0,

@@ -77,6 +77,11 @@ class Live(unittest.TestCase):
         rospy.set_param("planner_node/planner/sigma", 20.0)
         self.assertTrue(self.until(lambda: any("planner/sigma" in line and "no effect" in line for line in self.log)),
                         self.log[-5:])
+        # Nor does it come along with, or stand in the way of, what is changed later.
+        rospy.set_param("planner_node/planner/sigma", -1.0)
+        self.assertTrue(self.until(lambda: sum("planner/sigma" in line and "no effect" in line
+                                               for line in self.log) >= 2), self.log[-5:])
+        self.assertEqual(client.update_configuration({"speed_max_mps": 1.4})["speed_max_mps"], 1.4)
         rospy.set_param("planner_node/speed_max_mps", 1.2)
         self.assertTrue(self.until(lambda: any("'speed_max_mps'" in line and "no effect" in line
                                                and "supervisor/speed_max_mps" in line for line in self.log)),

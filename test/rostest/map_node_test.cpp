@@ -1,5 +1,6 @@
 // map_node alone: chart in, map out; a scan adds to it, and so do vessels that lie; save and reset
 // work.
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
@@ -11,10 +12,12 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/ros/grids.hpp"
+#include "otter_nav/ros/map_mirror.hpp"
 #include "support.hpp"
 
 namespace otter_nav::rostest {
@@ -110,6 +113,45 @@ TEST_F(MapNode, PublishesItsChartAddsEchoesSavesAndResets) {
   }));
 }
 
+// A node that starts later has what was sensed before, though no further scan comes.
+TEST_F(MapNode, TellsWhoComesLateWhatItHasSensed) {
+  ASSERT_TRUE(maps_.waitFor([](const auto& message) { return message.info.width == 240U; }));
+  ASSERT_TRUE(updates_.connected());
+  map::OccupancyGrid grid = *ros_bridge::toGrid(maps_.messages.back(), ros_bridge::frames().map);
+  ASSERT_TRUE(scanUntil(grid, map::Cell::kOccupied));
+
+  maps_.close();
+  updates_.close();
+  ros_bridge::MapMirror mirror({});
+  const ros::Subscriber map = node_.subscribe<nav_msgs::OccupancyGrid>(
+      "map", 1,
+      [&](const nav_msgs::OccupancyGridConstPtr& message) { EXPECT_TRUE(mirror.take(*message)); });
+  const ros::Subscriber updates = node_.subscribe<map_msgs::OccupancyGridUpdate>(
+      "map_updates", 100, [&](const map_msgs::OccupancyGridUpdateConstPtr& message) {
+        EXPECT_TRUE(mirror.take(*message).has_value());
+      });
+  EXPECT_TRUE(waitUntil(
+      [&] { return mirror.ready() && cellAhead(mirror.grid()) == map::Cell::kOccupied; }, 5.0));
+}
+
+// Which of the two topics is quicker is not known.
+TEST_F(MapNode, ItsUpdatesMayComeBeforeTheMap) {
+  ASSERT_TRUE(maps_.waitFor([](const auto& message) { return message.info.width == 240U; }));
+  const nav_msgs::OccupancyGrid chart = maps_.messages.back();
+  map::OccupancyGrid grid = *ros_bridge::toGrid(chart, ros_bridge::frames().map);
+  const Eigen::Vector2i cell = grid.geometry.cellAt({kEast + 5.0, 0.0});
+  grid.cells[grid.geometry.index(cell.x(), cell.y())] = map::Cell::kOccupied;
+  ros_bridge::MapMirror mirror({});
+  EXPECT_TRUE(mirror
+                  .take(ros_bridge::updateMessage(grid, {cell.x(), cell.y(), 1, 1},
+                                                  ros_bridge::frames().map, ros::Time(10.0)))
+                  .has_value());
+  EXPECT_FALSE(mirror.ready());
+  EXPECT_TRUE(mirror.take(chart));
+  EXPECT_EQ(cellAhead(mirror.grid()), map::Cell::kOccupied);
+  EXPECT_EQ(mirror.stamp(), ros::Time(10.0));
+}
+
 // What traffic_node tells of hulls that have come to lie, and of those that have moved on.
 TEST_F(MapNode, FillsInWhoLiesAndForgetsWhoHasMovedOn) {
   ros::Publisher lying = node_.advertise<sensor_msgs::PointCloud>("lying", 10);
@@ -163,6 +205,36 @@ TEST_F(MapNode, RefusesAScanThatGoesBackInTime) {
   scans_.publish(late);
   EXPECT_FALSE(updates_.waitFor(
       [&](const auto& update) { return update.header.stamp == late.header.stamp; }, 1.0));
+}
+
+// For as long as somebody may want to look, not for ever.
+TEST_F(MapNode, WarnsOfWhatItRefusedForAWhile) {
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics{node_, "/diagnostics"};
+  ASSERT_TRUE(diagnostics.connected() && updates_.connected());
+  ASSERT_TRUE(waitUntil([&] { return scans_.getNumSubscribers() > 0; }));
+  const auto isAt = [&](std::uint8_t level, const std::string& word) {
+    diagnostics.messages.clear();
+    return waitUntil([&] {
+      scans_.publish(scan());
+      ros::WallDuration(0.1).sleep();
+      ros::spinOnce();
+      for (const auto& message : diagnostics.messages) {
+        for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
+          if (status.level == level && status.name.find("map_node") != std::string::npos &&
+              status.message.find(word) != std::string::npos) {
+            return true;
+          }
+        }
+      }
+      return false;
+    });
+  };
+  EXPECT_TRUE(isAt(diagnostic_msgs::DiagnosticStatus::OK, "chart"));
+  sensor_msgs::LaserScan early = scan();
+  early.header.stamp -= ros::Duration(5.0);
+  scans_.publish(early);
+  EXPECT_TRUE(isAt(diagnostic_msgs::DiagnosticStatus::WARN, "refused"));
+  EXPECT_TRUE(isAt(diagnostic_msgs::DiagnosticStatus::OK, "chart"));
 }
 
 }  // namespace

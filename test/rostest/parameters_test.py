@@ -92,6 +92,17 @@ class Parameters(unittest.TestCase):
         self.assert_refused("plant_node", lambda v: v.update(scenario=scenario, mission=7),
                             "mission", "7")
 
+    def test_result_that_is_its_own_track(self):
+        scenario = os.path.join(DATA, "pond.yaml")
+        self.assert_refused("mission_node", lambda v: v.update(scenario=scenario, result="/tmp/a.csv"),
+                            "'result'", "/tmp/a.csv")
+
+    def test_topic_that_is_none(self):
+        output = self.outcome("recorder_node", {"file": "/tmp/otter_nav_never.bag", "topics": ["odom,scan"],
+                                                "paced": []})
+        self.assertIn("'odom,scan'", output)
+        self.assertNotIn("InvalidName", output)
+
     def test_unknown_vessel_and_disturbance(self):
         self.assert_refused("tracker_node", lambda v: v.update(vessel="raft"), "raft")
         self.assert_refused("plant_node", lambda v: v.update(disturbance="flood"), "flood")

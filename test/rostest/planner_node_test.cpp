@@ -186,6 +186,22 @@ TEST_F(PlannerNode, TakesGoalsFromRviz) {
   }));
 }
 
+// Else the vessel would lie, for the planner, where that says.
+TEST_F(PlannerNode, GoesOnBehindOdometryStampedAhead) {
+  const Eigen::Vector2d elsewhere(10.0, 10.0);
+  odometry_.publish(odometryAt(elsewhere, 0.2, ros::Time::now() + ros::Duration(1000.0)));
+  int told = 0;
+  client_.sendGoal(goal(22.0, 8.0), Client::SimpleDoneCallback(), Client::SimpleActiveCallback(),
+                   [&](const move_base_msgs::MoveBaseFeedbackConstPtr& feedback) {
+                     const geometry_msgs::Point& p = feedback->base_position.pose.position;
+                     EXPECT_LT(std::hypot(p.x - kStart.x(), p.y - kStart.y()), 0.1);
+                     ++told;
+                   });
+  EXPECT_TRUE(waitUntil([&] { return told > 10; }));
+  client_.cancelGoal();
+  ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
+}
+
 }  // namespace
 }  // namespace otter_nav::rostest
 

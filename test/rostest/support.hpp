@@ -55,6 +55,7 @@ class Inbox {
   bool connected() {
     return waitUntil([this] { return subscriber_.getNumPublishers() > 0; });
   }
+  void close() { subscriber_.shutdown(); }
 
   std::deque<Message> messages;
 

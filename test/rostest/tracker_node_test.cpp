@@ -2,6 +2,7 @@
 // what it does when the odometry is not a number or ends.
 #include <gtest/gtest.h>
 #include <otter_nav/ThrusterCommand.h>
+#include <otter_nav/TrackerCycle.h>
 #include <otter_nav/TrackerStatus.h>
 #include <otter_nav/Trajectory.h>
 
@@ -104,6 +105,7 @@ class TrackerNode : public testing::Test {
   double x_ = 0.0;
   Inbox<ThrusterCommand> commands_{node_, "thruster_command"};
   Inbox<TrackerStatus> statuses_{node_, "tracker_status"};
+  Inbox<TrackerCycle> cycles_{node_, "tracker_cycle"};
 };
 
 TEST_F(TrackerNode, CommandsEachHundredthOfASecond) {
@@ -149,6 +151,21 @@ TEST_F(TrackerNode, SailsATrajectoryThenStopsWhenTheOdometryEnds) {
       [](const auto& command) { return command.left == 0.0 && command.right == 0.0; }));
 }
 
+// Else all that comes after it would be older, and the vessel sailed by the model alone.
+TEST_F(TrackerNode, GoesOnBehindOdometryStampedAhead) {
+  const double at = 3.0;
+  ASSERT_TRUE(statuses_.waitFor([](const auto&) { return true; }));
+  odometry_.publish(odometryAt({x_, 0.0}, 0.0, ros::Time::now() + ros::Duration(1000.0)));
+  x_ = at;
+  ASSERT_TRUE(cycles_.waitFor([&](const auto& cycle) {
+    return cycle.estimate[0] > at - 0.1 && std::abs(cycle.time - cycle.odometry_time) < 0.5;
+  }));
+  x_ = 0.0;
+  ASSERT_TRUE(cycles_.waitFor([&](const auto& cycle) {
+    return cycle.time > cycles_.messages.front().time + 1.0 && cycle.estimate[0] < 0.1;
+  }));
+}
+
 TEST_F(TrackerNode, RefusesMalformedTrajectories) {
   const auto refused = [&](const Trajectory& message, const std::string& word) {
     statuses_.messages.clear();
@@ -172,6 +189,12 @@ TEST_F(TrackerNode, RefusesMalformedTrajectories) {
   refused(message, "pieces[1]");
   message = straight(25, ros::Time::now() - ros::Duration(100.0));
   refused(message, "ended");
+  // What came under the same id and was taken is not refused any more.
+  statuses_.messages.clear();
+  trajectory_.publish(straight(25, ros::Time::now()));
+  EXPECT_TRUE(statuses_.waitFor([](const auto& status) {
+    return status.accepted_id == 25U && status.refused_id != 25U && status.refused_reason.empty();
+  }));
 }
 
 }  // namespace

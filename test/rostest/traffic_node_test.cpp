@@ -37,6 +37,22 @@ TEST(TracksMessage, CarriesWhereTheyWereMet) {
   EXPECT_FALSE(ros_bridge::toTracks(message));
 }
 
+TEST(TracksMessage, IsRefusedForAnyFigureThatMakesNoSense) {
+  const auto refuses = [](const auto& spoil) {
+    Tracks message = ros_bridge::toMessage({traffic::Track()}, ros::Time(13.0));
+    spoil(message.tracks[0]);
+    return !ros_bridge::toTracks(message).has_value();
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(refuses([](Track&) {}));
+  EXPECT_TRUE(refuses([&](Track& one) { one.turn_time = infinite; }));
+  EXPECT_TRUE(refuses([&](Track& one) { one.length = infinite; }));
+  EXPECT_TRUE(refuses([&](Track& one) { one.beam = infinite; }));
+  EXPECT_TRUE(refuses([&](Track& one) { one.met_deviation = infinite; }));
+  EXPECT_TRUE(refuses([&](Track& one) { one.existence = std::nan(""); }));
+  EXPECT_TRUE(refuses([&](Track& one) { one.existence = 1.5; }));
+}
+
 // A hull along x, 5 m by 2 m.
 struct Hull {
   Eigen::Vector2d middle;
@@ -96,6 +112,9 @@ class TrafficNode : public testing::Test {
         scan.ranges[k] = range;
       }
     }
+    if (no_range_) {
+      scan.ranges.clear();
+    }
     scans_.publish(scan);
   }
   // Sent again like the plant does it: the first may go out before all are listening.
@@ -113,6 +132,7 @@ class TrafficNode : public testing::Test {
     radar_.publish(plot);
   }
 
+  bool no_range_ = false;
   ros::NodeHandle node_;
   ros::Publisher scans_ = node_.advertise<sensor_msgs::LaserScan>("scan", 10);
   ros::Publisher radar_ = node_.advertise<geometry_msgs::PoseArray>("radar", 10);
@@ -146,6 +166,42 @@ TEST_F(TrafficNode, TracksWhatTheRadarAndAisTell) {
   EXPECT_NEAR(track.met_position.y, 20.0, 1.5);
   EXPECT_GT(track.met_deviation, 0.0);
   EXPECT_EQ(tracks_.messages.back().header.frame_id, ros_bridge::frames().map);
+}
+
+// What can't be true of a message keeps none behind it waiting.
+TEST_F(TrafficNode, GoesOnBehindARadarStampedAhead) {
+  ros::Time stamp(150.0);
+  radarAt(ros::Time::now() + ros::Duration(1000.0), 80.0, 20.0);
+  for (int k = 0; k < 12; ++k) {
+    stamp += ros::Duration(0.5);
+    if (k % 2 == 0) {
+      radarAt(stamp, 80.0 - stamp.toSec() + 150.0, 20.0);
+    }
+    ros::WallDuration(0.05).sleep();
+    ASSERT_TRUE(isAnswered(stamp)) << k;
+  }
+  EXPECT_TRUE(tracks_.waitFor([&](const Tracks& message) {
+    return message.header.stamp > ros::Time(150.0) && !message.tracks.empty() &&
+           message.tracks.back().stamp > ros::Time(150.0);
+  }));
+}
+
+// A scan that the map refuses is none for the tracks either; it is handed on for the map to say so.
+TEST_F(TrafficNode, HandsOnAScanThatMakesNoSense) {
+  ros::Time stamp(180.0);
+  ASSERT_TRUE(isAnswered(stamp));
+  const auto told = [&] {
+    return std::count_if(tracks_.messages.begin(), tracks_.messages.end(),
+                         [&](const Tracks& message) { return message.header.stamp == stamp; });
+  };
+  stamp += ros::Duration(0.5);
+  no_range_ = true;
+  ASSERT_TRUE(isAnswered(stamp));
+  EXPECT_TRUE(waitUntil([&] { return told() > 0; }));
+  EXPECT_TRUE(still_.messages.back().ranges.empty());
+  no_range_ = false;
+  stamp += ros::Duration(0.5);
+  EXPECT_TRUE(isAnswered(stamp));
 }
 
 // She passes by abeam at 2 m/s, and stops there.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace otter_nav {
@@ -30,5 +31,8 @@ struct Scan {
     return std::isinf(ranges_m[i]) && ranges_m[i] > 0.0F;
   }
 };
+
+// Why its figures can't be those of a scan; empty if they can.
+[[nodiscard]] std::string whyUnusable(const Scan& scan);
 
 }  // namespace otter_nav

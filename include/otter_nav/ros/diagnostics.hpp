@@ -22,7 +22,10 @@ class Diagnostics {
   void setValue(const std::string& key, double value);
   // Counts a message of `topic`: its rate and the last one's age, of wall time, are told.
   void received(const std::string& topic);
-  // Counts a refused message of `topic`, and logs the first and then at most one each 5 s.
+  // Wall time since the last message of `topic`, or since the start, s.
+  [[nodiscard]] double silence(const std::string& topic) const;
+  // Counts a refused message of `topic`, and logs the first and then at most one each 5 s. A node
+  // that is well otherwise warns for 10 s.
   void refuse(const std::string& topic, const std::string& reason);
 
  private:
@@ -31,6 +34,7 @@ class Diagnostics {
   struct Refusals {
     std::uint64_t count = 0;
     std::string last_reason;
+    ros::WallTime last;
     ros::WallTime last_logged;
   };
   struct Stream {
@@ -43,7 +47,8 @@ class Diagnostics {
   std::string message_ = "starting";
   std::map<std::string, std::string> values_;
   std::map<std::string, Stream> streams_;
-  ros::WallTime reported_ = ros::WallTime::now();
+  ros::WallTime started_ = ros::WallTime::now();
+  ros::WallTime reported_ = started_;
   std::map<std::string, Refusals> refusals_;
 };
 

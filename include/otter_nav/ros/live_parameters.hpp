@@ -51,7 +51,7 @@ class LiveParameters {
   ros::NodeHandle node_{"~"};
   std::vector<config::NumberField> live_;
   Apply apply_;
-  XmlRpc::XmlRpcValue current_;    // as the node has them, but for what has no effect
+  XmlRpc::XmlRpcValue seen_;       // as the server had them when last looked at, and warned of
   XmlRpc::XmlRpcValue in_force_;   // as the node has them
   std::set<std::string> unknown_;  // set by somebody, and said
   ros::Publisher told_;

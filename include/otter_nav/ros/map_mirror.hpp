@@ -5,6 +5,8 @@
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 
+#include <deque>
+
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/map/distance_field.hpp"
 
@@ -17,7 +19,7 @@ class MapMirror {
   // A map of another load time or size replaces what is here. The same map sent again is ignored:
   // the updates have it all.
   [[nodiscard]] Status take(const nav_msgs::OccupancyGrid& message);
-  // The cells that changed. An update before the map is an error.
+  // The cells that changed. Updates that come before the map wait for it.
   [[nodiscard]] Result<map::CellRectangle> take(const map_msgs::OccupancyGridUpdate& update);
 
   [[nodiscard]] bool ready() const { return !grid_.cells.empty(); }
@@ -35,6 +37,7 @@ class MapMirror {
   map::DistanceField known_;
   ros::Time load_time_;
   ros::Time stamp_;
+  std::deque<map_msgs::OccupancyGridUpdate> waiting_;  // for the map
 };
 
 }  // namespace otter_nav::ros_bridge

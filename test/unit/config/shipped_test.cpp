@@ -115,7 +115,8 @@ TEST(ShippedConfig, HasFewerThan140Keys) {
 TEST(ShippedConfig, IsDocumented) {
   std::string text =
       "# Parameters\n\nWhat can be set, by file of `config/`; generated from the "
-      "structs that read them.\n";
+      "structs that read them. `excitation.yaml` is a list of manoeuvres, which it explains "
+      "itself.\n";
   for (const Shipped& s : allShipped()) {
     text += "\n## " + s.file + "\n| key | default | range | effect |\n| --- | --- | --- | --- |\n" +
             s.table;

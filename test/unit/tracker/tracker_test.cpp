@@ -100,6 +100,33 @@ TEST_F(TrackerTest, TurnsOnlyAsFarAsThePlaceCanBeKept) {
   }
 }
 
+// Nothing that is measured afterwards may be taken for older than it.
+TEST_F(TrackerTest, StopsForOdometryStampedAheadAndTakesWhatComesNext) {
+  ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 30.0), now_s_}));
+  sail(10.0);
+  tracker_->addOdometry(now_s_ + 1000.0, state_);
+  Command command = tracker_->step(now_s_);
+  EXPECT_EQ(command.mode, Mode::kStopping);
+  EXPECT_EQ(command.reason, "odometry lost");
+  now_s_ += 0.01;
+  sail(8.0);
+  state_[0] += 3.0;  // which is seen
+  command = sail(1.0);
+  EXPECT_EQ(command.mode, Mode::kStopped);
+  EXPECT_LT((command.estimate - state_).head<2>().norm(), 0.1);
+}
+
+TEST_F(TrackerTest, StopsWhenTheClockIsSetBackAndTakesOdometryOfItsNewTime) {
+  ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 30.0), now_s_}));
+  sail(10.0);
+  now_s_ -= 50.0;
+  EXPECT_EQ(sail(0.1, false).reason, "odometry lost");
+  EXPECT_EQ(sail(6.0, false).mode, Mode::kFault);
+  EXPECT_EQ(sail(2.0).mode, Mode::kStopped);
+  ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 30.0), now_s_}));
+  EXPECT_EQ(sail(1.0).mode, Mode::kTracking);
+}
+
 TEST_F(TrackerTest, BridgesAShortGapAndStopsOnALongOne) {
   ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 30.0), now_s_}));
   sail(10.0);
