@@ -696,7 +696,7 @@ class Planner::Pipeline {
         std::min(run.samples_left, std::min(most, options_.attempt_samples) - before.samples);
     int improving = options_.improve_samples;
     const auto work = [&] {
-      const SearchCounts now = search_.counts();
+      const SearchCounts& now = search_.counts();
       return kWorkOfASample * (now.samples - before.samples) +
              kWorkOfARepair * (now.tried - before.tried);
     };
@@ -709,7 +709,7 @@ class Planner::Pipeline {
         run.plan.figures.first_solution_ms = 1e3 * run.now();
       }
     }
-    const SearchCounts counts = search_.counts();
+    const SearchCounts& counts = search_.counts();
     Figures& figures = run.plan.figures;
     figures.samples += counts.samples - before.samples;
     figures.nodes += counts.joined - before.joined;
