@@ -15,19 +15,6 @@ namespace {
 // In the order of ManoeuvreKind.
 constexpr std::array<const char*, 4> kKindNames = {"speed_step", "zigzag", "circle", "spiral"};
 
-}  // namespace
-
-vessel::Thrusts thrustsOf(double ahead, double turn, const vessel::Thrusters& thrusters) {
-  const double least = -thrusters.astern_max_n / thrusters.ahead_max_n;
-  const double mean = ahead < 0.0 ? -ahead * least : ahead;
-  const double half = std::clamp(turn, -0.5 * (1.0 - least), 0.5 * (1.0 - least));
-  const double kept = std::clamp(mean, least + std::abs(half), 1.0 - std::abs(half));
-  vessel::Thrusts thrusts;
-  thrusts[vessel::kLeft] = (kept - half) * thrusters.ahead_max_n;
-  thrusts[vessel::kRight] = (kept + half) * thrusters.ahead_max_n;
-  return vessel::clampThrusts(thrusts, thrusters);
-}
-
 Result<ManoeuvreOptions> readManoeuvre(config::Section section) {
   ManoeuvreOptions o;
   std::string kind;
@@ -52,6 +39,19 @@ Result<ManoeuvreOptions> readManoeuvre(config::Section section) {
     return failure(status.error().message);
   }
   return o;
+}
+
+}  // namespace
+
+vessel::Thrusts thrustsOf(double ahead, double turn, const vessel::Thrusters& thrusters) {
+  const double least = -thrusters.astern_max_n / thrusters.ahead_max_n;
+  const double mean = ahead < 0.0 ? -ahead * least : ahead;
+  const double half = std::clamp(turn, -0.5 * (1.0 - least), 0.5 * (1.0 - least));
+  const double kept = std::clamp(mean, least + std::abs(half), 1.0 - std::abs(half));
+  vessel::Thrusts thrusts;
+  thrusts[vessel::kLeft] = (kept - half) * thrusters.ahead_max_n;
+  thrusts[vessel::kRight] = (kept + half) * thrusters.ahead_max_n;
+  return vessel::clampThrusts(thrusts, thrusters);
 }
 
 Result<std::vector<ManoeuvreOptions>> readExcitation(config::Section section) {

@@ -33,8 +33,7 @@ Eigen::Matrix<double, 6, 1> powers(double T) {
 
 }  // namespace
 
-LocalOptimizer::LocalOptimizer(const vessel::Parameters& vessel)
-    : vessel_(vessel), jerk_(trajectory::quinticJerk()) {
+LocalOptimizer::LocalOptimizer() : jerk_(trajectory::quinticJerk()) {
   for (int i = 0; i < kPoints; ++i) {
     basis_[static_cast<std::size_t>(i)] = trajectory::quinticBasis((i + 0.5) / kPoints);
   }

@@ -85,6 +85,14 @@ int workFor(const feasibility::Obstacles& obstacles, const Query& query) {
   return in_two_steps && !moves ? kWorkInTwoSteps : kWorkUnderWay;
 }
 
+// Under limits that no plan can be made for; else empty.
+std::string whyNothingMoves(const feasibility::SafetyLimits& limits) {
+  if (!(limits.speed_max_mps > 0.0)) {
+    return "the limits allow no speed";
+  }
+  return limits.thrust_share > 0.0 ? "" : "the limits allow no thrust";
+}
+
 KinoState stateOf(const trajectory::Boundary& end) {
   return {end.flat.position, end.flat.velocity, end.flat.acceleration};
 }
@@ -104,6 +112,11 @@ class Planner::Pipeline {
 
   Plan plan(const feasibility::Obstacles& obstacles, const Query& query,
             const Termination& termination) {
+    if (std::string why = whyNothingMoves(query.limits); !why.empty()) {
+      Plan none;
+      none.reason = std::move(why);
+      return none;
+    }
     const int work = workFor(obstacles, query);
     work_left_ = work;
     Plan plan = planOffShores(obstacles, query, termination);
@@ -265,12 +278,13 @@ class Planner::Pipeline {
       }
       Query part = query;
       part.warm_start = {};
+      part.guide_path.clear();
       part.goal = {};
       part.goal.flat.position = best->position;
       part.goal.psi_rad = best->course_rad;
       Plan plan = planAmong(obstacles, part, *once);
       if (plan.outcome == Outcome::kSolved && leadsOn(query, termination, *best)) {
-        plan.left_m = length - best->along_m;
+        plan.left_m = leftAfter(*best, places, query);
         return plan;
       }
     }
@@ -316,8 +330,7 @@ class Planner::Pipeline {
         trajectory::Boundary there;
         there.flat.position = last->position;
         there.psi_rad = last->course_rad;
-        none = creepTo(there, places.back().along_m - last->along_m, query, termination,
-                       std::move(none));
+        none = creepTo(there, leftAfter(*last, places, query), query, termination, std::move(none));
       }
     }
     return none;
@@ -368,6 +381,13 @@ class Planner::Pipeline {
       before += length;
     }
     return places;
+  }
+
+  // The last place on the guide path lies short of the goal.
+  static double leftAfter(const OnGuide& place, const std::vector<OnGuide>& places,
+                          const Query& query) {
+    return places.back().along_m - place.along_m +
+           (query.goal.flat.position - places.back().position).norm();
   }
 
   // Down to `share` of the limit, in `longer` times what the drag alone would take.
@@ -493,7 +513,8 @@ class Planner::Pipeline {
   bool findGuide(Run& run) {
     const Query& query = run.query;
     const vessel::FlatPoint& from = query.start.flat;
-    if (query.guide_path.size() >= 2) {
+    const bool has_dead_ends = !query.dead_ends.empty();
+    if (query.guide_path.size() >= 2 && !has_dead_ends) {
       guide_.points = query.guide_path;
       guide_.points.front() = from.position;
       guide_.points.back() = query.goal.flat.position;
@@ -504,7 +525,6 @@ class Planner::Pipeline {
     const auto findIn = [&](const map::DistanceField& field) {
       return finder_.find(field, query.guideStart(), goal, guide_, query.limits.clearance_m);
     };
-    const bool has_dead_ends = !query.dead_ends.empty();
     auto found = findIn(has_dead_ends ? withoutDeadEnds(run) : run.obstacles.field());
     if (!found && has_dead_ends && query.may_end_early) {
       found = findIn(run.obstacles.field());
@@ -676,7 +696,7 @@ class Planner::Pipeline {
         std::min(run.samples_left, std::min(most, options_.attempt_samples) - before.samples);
     int improving = options_.improve_samples;
     const auto work = [&] {
-      const SearchCounts now = search_.counts();
+      const SearchCounts& now = search_.counts();
       return kWorkOfASample * (now.samples - before.samples) +
              kWorkOfARepair * (now.tried - before.tried);
     };
@@ -689,7 +709,7 @@ class Planner::Pipeline {
         run.plan.figures.first_solution_ms = 1e3 * run.now();
       }
     }
-    const SearchCounts counts = search_.counts();
+    const SearchCounts& counts = search_.counts();
     Figures& figures = run.plan.figures;
     figures.samples += counts.samples - before.samples;
     figures.nodes += counts.joined - before.joined;

@@ -19,7 +19,6 @@ Search::Search(const SearchOptions& options, const vessel::Parameters& vessel)
       vessel_(vessel),
       check_(vessel),
       still_(vessel),
-      local_(vessel),
       from_start_(Direction::kFromRoot, options.max_nodes),
       to_goal_(Direction::kToRoot, options.max_nodes) {
   pieces_.reserve(static_cast<std::size_t>(options.max_nodes) * kPiecesPerNode);
@@ -277,12 +276,6 @@ std::vector<trajectory::Piece> Search::recall() const {
     return pieces;
   }
   return pieces;
-}
-
-SearchCounts Search::counts() const {
-  SearchCounts counts = counts_;
-  counts.nodes = from_start_.size() + to_goal_.size();
-  return counts;
 }
 
 }  // namespace otter_nav::planner

@@ -22,7 +22,6 @@ struct SearchOptions {
 struct SearchCounts {
   int samples = 0;
   int joined = 0;   // samples that became nodes of one tree or both
-  int nodes = 0;    // of both trees, roots included
   int repairs = 0;  // edges bent into feasibility
   int tried = 0;    // and those tried
 };
@@ -45,7 +44,7 @@ class Search {
   // Recall: the cheapest path's edges, start to goal. Empty without one.
   [[nodiscard]] std::vector<trajectory::Piece> recall() const;
 
-  [[nodiscard]] SearchCounts counts() const;
+  [[nodiscard]] const SearchCounts& counts() const { return counts_; }
   [[nodiscard]] const Tree& fromStart() const { return from_start_; }
   [[nodiscard]] const Tree& toGoal() const { return to_goal_; }
   // The pieces of a node's edge, in sailing order.
@@ -65,7 +64,7 @@ class Search {
 
   // By which check an edge is judged, and when it begins. In the start's tree obstacles are where
   // they will be by then; what leads to the goal is sailed at a time not known yet, so there only
-  // what lies still counts, and the verifier judges the whole.
+  // the map counts, and the verifier judges the whole.
   struct Occasion {
     const feasibility::EdgeCheck& check;
     double start_s;
@@ -87,7 +86,7 @@ class Search {
   vessel::Parameters vessel_;
   double sigma_ = 0.0;  // of the query's speed limit
   feasibility::EdgeCheck check_;
-  feasibility::EdgeCheck still_;  // without what moves
+  feasibility::EdgeCheck still_;  // the map alone
   optimizer::LocalOptimizer local_;
   Tree from_start_;
   Tree to_goal_;

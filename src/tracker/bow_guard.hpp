@@ -11,6 +11,8 @@ class BowGuard {
  public:
   // At each odometry; what isn't finite is taken as level.
   void add(double stamp_s, double bow_up_rad);
+  // As level as at first: what was seen long ago says nothing.
+  void forget() { *this = {}; }
   // What the thrusters push together is cut down, what they turn the hull with is kept.
   [[nodiscard]] vessel::Thrusts cut(const vessel::Thrusts& wanted,
                                     const vessel::Thrusters& thrusters) const;

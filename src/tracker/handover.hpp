@@ -4,49 +4,45 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <mutex>
 
 namespace otter_nav::tracker {
 
-// The latest value from any thread to one taker that neither waits nor allocates nor frees: what
-// the taker lets go of is freed by the next giver.
+// The latest value from any thread to one taker that neither waits nor allocates nor frees. There
+// is one place: the taker swaps what it lets go of for what is new, the next giver finds either
+// there and frees it. So nothing is lost, whenever the two meet.
 template <typename T>
 class Handover {
  public:
   Handover() = default;
   Handover(const Handover&) = delete;
   Handover& operator=(const Handover&) = delete;
-  ~Handover() {
-    delete pending_.load();
-    delete retired_.load();
-  }
+  ~Handover() { free(place_.load()); }
 
   void give(std::unique_ptr<T> value) {
-    const std::lock_guard<std::mutex> lock(givers_);
-    delete retired_.exchange(nullptr);
-    delete pending_.exchange(value.release());
+    free(place_.exchange(reinterpret_cast<std::uintptr_t>(value.release()) | kNew));
   }
 
-  // Replaces `current` by the latest value given since the last call, if any. Between two givings
-  // at most one value is retired, and giving empties the place first.
+  // Replaces `current` by the latest value given since the last call, if any.
   bool take(std::unique_ptr<T>& current) {
-    if (pending_.load(std::memory_order_relaxed) == nullptr || retired_.load() != nullptr) {
+    if ((place_.load(std::memory_order_relaxed) & kNew) == 0) {
       return false;
     }
-    T* latest = pending_.exchange(nullptr);
-    if (latest == nullptr) {
-      return false;
-    }
-    retired_.store(current.release());
-    current.reset(latest);
+    // Another giver may have come in between, with something newer still.
+    current.reset(pointer(place_.exchange(reinterpret_cast<std::uintptr_t>(current.release()))));
     return true;
   }
 
  private:
-  std::mutex givers_;
-  std::atomic<T*> pending_{nullptr};
-  std::atomic<T*> retired_{nullptr};
+  // In the last bit of an address, which is zero in all: the value has not been taken yet.
+  static constexpr std::uintptr_t kNew = 1;
+  static_assert(alignof(T) > kNew, "the last bit of its address is free");
+
+  static T* pointer(std::uintptr_t place) { return reinterpret_cast<T*>(place & ~kNew); }
+  static void free(std::uintptr_t place) { delete pointer(place); }
+
+  std::atomic<std::uintptr_t> place_{0};
 };
 
 // Values in sequence from one thread to one other. A full ring refuses.

@@ -3,15 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/rk4.hpp"
+#include "otter_nav/vessel/manoeuvring_motion.hpp"
+#include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::tracker {
 namespace {
 
+constexpr double kSameTimeS = 1e-9;
 // A step this far off the prediction is not believed until it has stayed for a while.
 constexpr double kJumpM = 1.0;
 constexpr double kJumpRad = 0.5;
 constexpr double kBelieveJumpAfterS = 0.3;
+// Currents, gusts and seas carry a hull faster than its thrusters do, and turn it: of that speed
+// and rate, and besides.
+constexpr double kImpossibleShare = 3.0;
+constexpr double kImpossibleMps = 5.0;
+constexpr double kImpossibleRadps = 3.0;
 // The water that waves carry to and fro looks like a current at first: what the first seconds tell
 // of one is steered by in proportion to how much of this has been felt.
 constexpr double kCurrentComesS = 5.0;
@@ -28,47 +37,76 @@ void blend(double share, const vessel::Disturbance& other, vessel::Disturbance& 
   d.current_mps += share * (other.current_mps - d.current_mps);
 }
 
+// For what is sent as long as the model alone is steered by, from the last odometry on.
+std::size_t historyOf(const Options& options) {
+  const double s = options.odometry.latency_s + options.odometry.predict_through_s + kBlindS;
+  return static_cast<std::size_t>(std::ceil(s / options.period_s)) + 2;
+}
+
 }  // namespace
 
 Navigator::Navigator(const Options& options, const vessel::Parameters& vessel)
     : options_(options.odometry),
       period_s_(options.period_s),
       vessel_(vessel),
+      impossible_mps_(kImpossibleMps + kImpossibleShare * vessel.top_speed_mps),
+      impossible_radps_(
+          kImpossibleRadps +
+          kImpossibleShare *
+              vessel::turnLaw(vessel, vessel::greatestMoment(vessel.thrusters)).r_full),
       estimator_(options.estimator, vessel),
       seaway_(options.estimator, vessel, Waves::kInTheWater),
+      new_estimator_(estimator_),
+      new_seaway_(seaway_),
       foresees_waves_(options.estimator.enabled && options.estimator.wave_velocity_mps > 0.0 &&
-                      estimator_.estimatesCurrent()) {}
+                      estimator_.estimatesCurrent()),
+      sent_(historyOf(options)) {}
+
+long Navigator::oldest() const {
+  return std::max(0L, sent_count_ - static_cast<long>(sent_.size()));
+}
+
+const Navigator::Sent& Navigator::sent(long index) const {
+  return sent_[static_cast<std::size_t>(index) % sent_.size()];
+}
+
+Navigator::Sent& Navigator::sent(long index) {
+  return sent_[static_cast<std::size_t>(index) % sent_.size()];
+}
 
 void Navigator::addCommand(double stamp_s, const vessel::Thrusts& thrusts) {
-  sent_[static_cast<std::size_t>(sent_count_ % kHistory)] = {stamp_s, thrusts};
+  sent(sent_count_) = {stamp_s, thrusts};
   ++sent_count_;
 }
 
 void Navigator::replaceCommand(const vessel::Thrusts& thrusts) {
   if (sent_count_ > 0) {
-    sent_[static_cast<std::size_t>((sent_count_ - 1) % kHistory)].thrusts = thrusts;
+    sent(sent_count_ - 1).thrusts = thrusts;
   }
 }
 
-// The command in force just after `time_s`; null when none was sent by then.
-const Navigator::Sent* Navigator::sentAt(double time_s) const {
-  const long oldest = std::max(0L, sent_count_ - kHistory);
-  for (long i = sent_count_ - 1; i >= oldest; --i) {
-    const Sent& sent = sent_[static_cast<std::size_t>(i % kHistory)];
-    if (sent.stamp_s <= time_s + 1e-9) {
-      return &sent;
-    }
+long Navigator::sentBy(double time_s) const {
+  long i = sent_count_ - 1;
+  while (i >= oldest() && sent(i).stamp_s > time_s + kSameTimeS) {
+    --i;
   }
-  return nullptr;
+  return i;
+}
+
+vessel::Thrusts Navigator::thrustsOf(long index) const {
+  return index >= oldest() && index < sent_count_ ? sent(index).thrusts : vessel::Thrusts::Zero();
 }
 
 template <typename Step>
 void Navigator::forEachPiece(double until_s, vessel::Thrusts& acting, Step step) const {
   double t = stamp_s_;
-  while (t < until_s - 1e-9) {
+  long in_force = sentBy(t);
+  while (t < until_s - kSameTimeS) {
     const double dt = std::min(period_s_, until_s - t);
-    const Sent* sent = sentAt(t);
-    const vessel::Thrusts command = sent != nullptr ? sent->thrusts : vessel::Thrusts::Zero();
+    while (in_force + 1 < sent_count_ && sent(in_force + 1).stamp_s <= t + kSameTimeS) {
+      ++in_force;
+    }
+    const vessel::Thrusts command = thrustsOf(in_force);
     const double lag = vessel_.thrusters.lag_s;
     const vessel::Thrusts before = acting;
     if (lag > 0.0) {
@@ -79,6 +117,11 @@ void Navigator::forEachPiece(double until_s, vessel::Thrusts& acting, Step step)
     step(lag > 0.0 ? vessel::Thrusts(0.5 * (before + acting)) : acting, dt);
     t += dt;
   }
+}
+
+bool Navigator::possible(const vessel::State& state) const {
+  return std::hypot(state[vessel::kSurge], state[vessel::kSway]) <= impossible_mps_ &&
+         std::abs(state[vessel::kYawRate]) <= impossible_radps_;
 }
 
 bool Navigator::believable(double stamp_s, const vessel::State& state) {
@@ -96,10 +139,26 @@ bool Navigator::believable(double stamp_s, const vessel::State& state) {
 }
 
 void Navigator::reset(const vessel::State& measured) {
-  estimator_.reset(measured);
-  seaway_.reset(measured);
+  vessel::State state = measured;
+  double& psi = state[vessel::kPsi];
+  const double before = estimator_.state()[vessel::kPsi];
+  psi = before + wrapAngle(psi - before);
+  estimator_.reset(state);
+  seaway_.reset(state);
   under_way_s_ = 0.0;
   jumping_ = false;
+}
+
+bool Navigator::isFinite() const {
+  return estimator_.state().allFinite() && (!foresees_waves_ || seaway_.state().allFinite());
+}
+
+void Navigator::beginAnew(const vessel::State& measured) {
+  estimator_ = new_estimator_;
+  seaway_ = new_seaway_;
+  acting_ = thrustsOf(sentBy(stamp_s_));
+  felt_s_ = 0.0;
+  reset(measured);
 }
 
 void Navigator::weighCurrents(double since_s) {
@@ -118,6 +177,10 @@ void Navigator::weighCurrents(double since_s) {
 void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
   if (!std::isfinite(stamp_s) || !state.allFinite()) {
     reason_ = "odometry is not finite";
+    return;
+  }
+  if (!possible(state)) {
+    reason_ = "odometry is too fast to be true";
     return;
   }
   const double stamp = stamp_s - options_.latency_s;
@@ -141,10 +204,11 @@ void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
       }
     });
   }
-  const double since = std::max(0.0, stamp - stamp_s_);
+  const double felt_s = gap ? 0.0 : std::max(0.0, stamp - stamp_s_);
   stamp_s_ = stamp;
   if (gap) {
     ahead_ = false;
+    acting_ = thrustsOf(sentBy(stamp));
     reset(state);
   } else if (believable(stamp, state)) {
     if (jumping_) {
@@ -158,7 +222,10 @@ void Navigator::addOdometry(double stamp_s, const vessel::State& state) {
     reason_ = "odometry jumps";
     return;
   }
-  weighCurrents(since);
+  if (!isFinite()) {
+    beginAnew(state);
+  }
+  weighCurrents(felt_s);
   reason_ = {};
 }
 
@@ -177,7 +244,7 @@ vessel::State Navigator::predict(double time_s) const {
   vessel::State x = estimator_.steered();
   x += seaway_share_ * (seaway_.steered() - x);
   vessel::Thrusts acting = acting_;
-  const double until = std::min(time_s, stamp_s_ + 5.0);
+  const double until = std::min(time_s, stamp_s_ + kBlindS);
   double t = stamp_s_;
   forEachPiece(until, acting, [&](const vessel::Thrusts& thrusts, double dt) {
     const WaterMotion moved = water(t + 0.5 * dt);

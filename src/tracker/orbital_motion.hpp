@@ -35,7 +35,7 @@ class OrbitalMotion {
   // Still water again; what was learned of the sea stays.
   void reset() { state_.setZero(); }
   void add(const Vector& step) { state_ += step; }
-  // `dt_s` on; `variance` is that of the state before.
+  // `dt_s` on; `variance` is the state's by then, but for what drives it meanwhile.
   void advance(double dt_s, const Vector& variance);
 
   // In `in_s` from now.

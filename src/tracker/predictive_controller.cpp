@@ -162,9 +162,12 @@ std::optional<vessel::Thrusts> PredictiveController::step(double now_s, const ve
 }
 
 std::optional<vessel::Thrusts> PredictiveController::fromLastPlan(double now_s) const {
+  if (prediction_.size == 0 || now_s - last_good_s_ > kKeepPlanS) {
+    return std::nullopt;
+  }
   const double since = now_s + lag_s_ - prediction_.start_s;
   const int stage = static_cast<int>(since / prediction_.step_s);
-  if (prediction_.size == 0 || now_s - last_good_s_ > kKeepPlanS || stage < 0 || stage >= stages_) {
+  if (stage < 0 || stage >= stages_) {
     return std::nullopt;
   }
   return plan_thrusts_[static_cast<std::size_t>(stage)];

@@ -42,8 +42,6 @@ class ReferenceSource {
   void wait(double now_s, const Eigen::Vector2d& position);
   // Its headings are meant, whatever the wind.
   [[nodiscard]] bool isRolledOut() const { return rolled_out_ && !rests_; }
-  // How far the reference is behind the trajectory's own time, s.
-  [[nodiscard]] double lag() const { return lag_s_; }
 
  private:
   struct Course;
@@ -62,7 +60,7 @@ class ReferenceSource {
   vessel::InverseDynamics inverse_;  // of the paper's model in still water
   const trajectory::Trajectory* trajectory_ = nullptr;
   double start_s_ = 0.0;
-  double lag_s_ = 0.0;
+  double lag_s_ = 0.0;  // of the reference behind the trajectory's own time
   double speed_max_mps_ = std::numeric_limits<double>::infinity();
   double waited_at_s_ = 0.0;
   trajectory::Piece joining_;

@@ -26,8 +26,8 @@ using vessel::kSurge;
 using vessel::kSway;
 using vessel::kYawRate;
 
-constexpr double kRestMps = 0.2;
-constexpr double kRestRadps = 0.2;
+constexpr double kStoppedMps = 0.2;
+constexpr double kStoppedRadps = 0.2;
 constexpr double kBrakingShare = 0.6;  // of the thrust astern: how far ahead a stop ends
 // A reference farther from the vessel than this is approached along a curve, on which the offset
 // shrinks at this mean speed.
@@ -35,7 +35,6 @@ constexpr double kJoinLengths = 1.5;
 constexpr double kJoinSpeedMps = 0.7;
 constexpr double kJoinSpeedShare = 0.3;    // of the speed limit, where that is less
 constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts the next one
-constexpr double kBrakeBlindS = 5.0;  // braking by the model alone without odometry; then no thrust
 
 Vector2d velocityOverGround(const vessel::State& x) {
   const Vector2d e = unitVector(x[kPsi]);
@@ -86,6 +85,10 @@ class PredictiveTracker final : public Tracker {
 
   void finish(double now_s, const vessel::State& state, Command& command);
   [[nodiscard]] vessel::Thrusts slew(const vessel::Thrusts& wanted) const;
+  // The same with the bow kept from rising or diving too far.
+  [[nodiscard]] vessel::Thrusts onEvenKeel(const vessel::Thrusts& wanted) const;
+  // In the other modes nothing is pushed, for whatever reason.
+  [[nodiscard]] bool sails() const { return mode_ != Mode::kIdle && mode_ != Mode::kFault; }
 
   Options options_;
   vessel::Parameters vessel_;
@@ -220,9 +223,12 @@ void PredictiveTracker::restAhead(double now_s, const vessel::State& state) {
   const Vector2d velocity = velocityOverGround(state);
   const double braking_mps2 =
       kBrakingShare * 2.0 * vessel_.thrusters.astern_max_n / vessel_.manoeuvring.surge_inertia_kg;
-  const Vector2d ahead = braking_mps2 > 0.0
-                             ? (velocity * (0.5 * velocity.norm() / braking_mps2)).eval()
-                             : Vector2d::Zero().eval();
+  // Sooner rather than far away, should the speed be wrong.
+  const double speed_mps = std::min(velocity.norm(), vessel_.top_speed_mps);
+  const Vector2d ahead =
+      braking_mps2 > 0.0
+          ? (0.5 * speed_mps * speed_mps / braking_mps2 * velocity.stableNormalized()).eval()
+          : Vector2d::Zero().eval();
   keeper_.start(state.head<2>() + ahead, state[kPsi], state[kPsi], now_s);
   controller_.start(false);
 }
@@ -263,8 +269,8 @@ vessel::Thrusts PredictiveTracker::hold(double now_s, const vessel::State& state
 
 vessel::Thrusts PredictiveTracker::stop(double now_s, const vessel::State& state, Fix fix,
                                         Command& command) {
-  const bool rests =
-      std::hypot(state[kSurge], state[kSway]) < kRestMps && std::abs(state[kYawRate]) < kRestRadps;
+  const bool rests = std::hypot(state[kSurge], state[kSway]) < kStoppedMps &&
+                     std::abs(state[kYawRate]) < kStoppedRadps;
   if (mode_ == Mode::kStopping && rests && fix != Fix::kLost) {
     mode_ = Mode::kStopped;
   }
@@ -292,10 +298,11 @@ void PredictiveTracker::watchFix(Fix fix, double now_s, const vessel::State& sta
   }
   lost_ = true;
   lost_since_s_ = std::min(lost_since_s_, now_s);  // the clock may have been set back
+  bow_.forget();
   if (mode_ == Mode::kTracking || mode_ == Mode::kHolding) {
     beginStop("odometry lost", now_s, state);
   }
-  if (mode_ != Mode::kIdle && now_s - lost_since_s_ > kBrakeBlindS) {
+  if (mode_ != Mode::kIdle && now_s - lost_since_s_ > kBlindS) {
     mode_ = Mode::kFault;
   }
 }
@@ -306,13 +313,19 @@ vessel::Thrusts PredictiveTracker::slew(const vessel::Thrusts& wanted) const {
   return vessel::clampThrusts(last_thrusts_ + change, vessel_.thrusters);
 }
 
+// Cut before the slew, so that what turns the hull is slewed; after it, since the bow doesn't wait.
+vessel::Thrusts PredictiveTracker::onEvenKeel(const vessel::Thrusts& wanted) const {
+  const vessel::Thrusters& t = vessel_.thrusters;
+  return bow_.cut(slew(bow_.cut(wanted, t)), t);
+}
+
 void PredictiveTracker::replaceCommand(const vessel::Thrusts& sent) {
   last_thrusts_ = sent;
   navigator_.replaceCommand(sent);
 }
 
 void PredictiveTracker::prepare(double next_s) {
-  if (mode_ != Mode::kIdle && mode_ != Mode::kFault) {
+  if (sails()) {
     controller_.prepare(next_s, last_thrusts_, navigator_, reference_source_);
   }
 }
@@ -355,9 +368,7 @@ Command PredictiveTracker::step(double now_s) {
     case Mode::kIdle:
       break;
   }
-  // Before the slew, so that what turns the hull is slewed; after it, since the bow doesn't wait.
-  const vessel::Thrusters& t = vessel_.thrusters;
-  command.thrusts = bow_.cut(slew(bow_.cut(wanted, t)), t);
+  command.thrusts = sails() ? onEvenKeel(wanted) : slew(wanted);
   finish(now_s, state, command);
   return command;
 }

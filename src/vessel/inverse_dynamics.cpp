@@ -136,7 +136,8 @@ FlatGradient InverseDynamics::gradient(const FlatPoint& z, double floor_n) const
   const Air air = this->air(b.ahead);
   const double per_d = 1.0 / b.firmness_n;
   const bool floored = b.firmness_n <= floor_n;
-  // d psi = n . dw / D, d D = (e + (Y + Y'') n / D) . dw. A floored D stands still, and e = w / D.
+  // d psi = n . dw / D, d D = (e + (Y + Y'') n / D) . dw. A floored D stands still, and without
+  // wind e = w / D.
   const Vector2d n = across(b.ahead);
   const Vector2d psi_w = per_d * n;
   const Vector2d d_w = floored ? Vector2d(0.0, 0.0) : Vector2d(b.ahead + (air.y + air.y2) * psi_w);
@@ -148,8 +149,9 @@ FlatGradient InverseDynamics::gradient(const FlatPoint& z, double floor_n) const
     return x;
   };
   const auto byHeading = [&](double value, double by_psi) { return dual(value, by_psi * psi_w); };
-  const Vector2d ex_w = floored ? Vector2d(per_d, 0.0) : Vector2d(n.x() * psi_w);
-  const Vector2d ey_w = floored ? Vector2d(0.0, per_d) : Vector2d(n.y() * psi_w);
+  const bool scaled = floored && !windy_;
+  const Vector2d ex_w = scaled ? Vector2d(per_d, 0.0) : Vector2d(n.x() * psi_w);
+  const Vector2d ey_w = scaled ? Vector2d(0.0, per_d) : Vector2d(n.y() * psi_w);
   const Vector e{dual(b.ahead.x(), ex_w), dual(b.ahead.y(), ey_w)};
   const auto per_d_dual = dual(per_d, -per_d * per_d * d_w);
   const auto w1 = seeded<kByW1>(headingForceRate(z.acceleration, z.jerk));

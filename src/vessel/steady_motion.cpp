@@ -23,8 +23,7 @@ SteadyMotion steadyOn(double psi_rad, const Eigen::Vector2d& velocity, const Par
   SteadyMotion motion;
   motion.psi_rad = wrapAngle(psi_rad);
   motion.thrusts = thrustsFromTau(demand.tau, vessel.thrusters);
-  motion.thrust_share = std::max(shareOfLimit(motion.thrusts[kLeft], vessel.thrusters),
-                                 shareOfLimit(motion.thrusts[kRight], vessel.thrusters));
+  motion.thrust_share = shareOfLimit(motion.thrusts, vessel.thrusters);
   motion.sway_n = demand.sway_n;
   return motion;
 }

@@ -31,9 +31,8 @@ struct ManoeuvreOptions {
   double seconds = 0.0;  // of a speed step or of each spiral step; else the longest it may take
 };
 
-// The mapping of one manoeuvre: kind and the kind's own keys, angles in degrees (`angle_deg`).
-[[nodiscard]] Result<ManoeuvreOptions> readManoeuvre(config::Section section);
-// config/excitation.yaml: the list `manoeuvres`.
+// config/excitation.yaml: the list `manoeuvres`, a mapping each of kind and the kind's own keys,
+// angles in degrees (`angle_deg`).
 [[nodiscard]] Result<std::vector<ManoeuvreOptions>> readExcitation(config::Section section);
 
 class Manoeuvre;

@@ -23,7 +23,7 @@ struct SplineEnds;
 
 struct SpinLimits {
   double thrust_share = 0.9;        // of the weaker of ahead and astern, on both sides
-  double yaw_rate_max_radps = 0.0;  // as the vessel can
+  double yaw_rate_max_radps = 0.0;  // to be set: at 0 nothing turns
   double ramp_s = 0.12;             // in which the moment goes from one value to the next
 };
 
@@ -40,7 +40,7 @@ void appendSpin(const Eigen::Vector2d& position, double psi_start_rad, double tu
 
 struct ManoeuvreLimits {
   double thrust_share = 0.94;       // of each thruster's limits
-  double yaw_rate_max_radps = 0.0;  // as the vessel can
+  double yaw_rate_max_radps = 0.0;  // to be set: at 0 nothing turns
   double speed_max_mps = 1e3;
   double ramp_s = 0.12;       // in which the moment goes from one value to the next
   double drift_mps = 0.3;     // speed left when the arrival's turn begins; 0: it turns at rest

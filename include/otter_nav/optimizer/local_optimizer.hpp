@@ -28,7 +28,7 @@ struct RepairedEdge {
 // Allocation-free; const and thread-safe.
 class LocalOptimizer {
  public:
-  explicit LocalOptimizer(const vessel::Parameters& vessel);
+  LocalOptimizer();
 
   // Bends the failing edge `edge` (degree 5 or less), which begins at `start_s`, between its own
   // end states. True, with the result in `repaired`, if it passes checkBent().
@@ -58,7 +58,6 @@ class LocalOptimizer {
                                             double start_s, double step_s,
                                             RepairedEdge& repaired) const;
 
-  vessel::Parameters vessel_;
   // Quintic Hermite basis at each point: rows are derivatives, columns p, v, a at both ends.
   std::array<trajectory::QuinticBasis, kPoints> basis_;
   Eigen::Matrix<double, 6, 6> jerk_;  // integral of the squared third derivative, unit time

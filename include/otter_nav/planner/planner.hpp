@@ -43,7 +43,8 @@ struct Query {
   // Where a way led to nowhere before: a guide path keeps away from there, unless there is no other
   // and the plan may end early.
   std::vector<Eigen::Vector2d> dead_ends;
-  // Key points from start to goal found elsewhere (a topology node); empty: found here.
+  // Key points from start to goal found elsewhere (a topology node); empty, or with dead ends:
+  // found here.
   std::vector<Eigen::Vector2d> guide_path;
 
   // What a guide path is looked for from: moving, along the velocity.

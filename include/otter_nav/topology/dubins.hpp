@@ -22,14 +22,12 @@ class DubinsCurve {
   // The pose `s_m` along the curve, clamped to its ends.
   [[nodiscard]] Pose at(double s_m) const;
   [[nodiscard]] const std::array<Turn, 3>& turns() const { return turns_; }
-  // Lengths of the three arcs in turning radii.
-  [[nodiscard]] const std::array<double, 3>& arcs() const { return arcs_; }
 
  private:
   Pose start_;
   double radius_m_;
   std::array<Turn, 3> turns_{Turn::kLeft, Turn::kStraight, Turn::kLeft};
-  std::array<double, 3> arcs_{};
+  std::array<double, 3> arcs_{};  // lengths in turning radii
 };
 
 }  // namespace otter_nav::topology

@@ -11,13 +11,19 @@ namespace {
 
 constexpr double kShortestS = 1e-6;
 
-TurnProfile profileOf(double turn_rad, const vessel::Parameters& vessel, const SpinLimits& limits) {
+struct Turn {
+  TurnProfile profile;
+  double lag_s;
+};
+
+Turn turnBy(double turn_rad, const vessel::Parameters& vessel, const SpinLimits& limits) {
   const vessel::Thrusters& t = vessel.thrusters;
   const double moment =
       2.0 * t.lever_arm_m * limits.thrust_share * std::min(t.ahead_max_n, t.astern_max_n);
   const vessel::TurnLaw law = vessel::turnLaw(vessel, moment);
-  return turnToRest(std::abs(turn_rad), law.r_full, limits.yaw_rate_max_radps, law.lag_s,
-                    limits.ramp_s);
+  return {turnToRest(std::abs(turn_rad), law.r_full, limits.yaw_rate_max_radps, law.lag_s,
+                     limits.ramp_s),
+          law.lag_s};
 }
 
 vessel::FlatPoint headingPoint(const Eigen::Vector4d& turned, double psi_start_rad, double sign) {
@@ -32,14 +38,13 @@ vessel::FlatPoint headingPoint(const Eigen::Vector4d& turned, double psi_start_r
 }  // namespace
 
 double spinDuration(double turn_rad, const vessel::Parameters& vessel, const SpinLimits& limits) {
-  return profileOf(turn_rad, vessel, limits).end();
+  return turnBy(turn_rad, vessel, limits).profile.end();
 }
 
 void appendSpin(const Eigen::Vector2d& position, double psi_start_rad, double turn_rad,
                 const vessel::Parameters& vessel, const SpinLimits& limits,
                 std::vector<trajectory::Piece>& pieces) {
-  const TurnProfile profile = profileOf(turn_rad, vessel, limits);
-  const double lag_s = vessel.paper.m2_kgm2 / vessel.paper.d3_kgm2ps;
+  const auto [profile, lag_s] = turnBy(turn_rad, vessel, limits);
   const double sign = turn_rad < 0.0 ? -1.0 : 1.0;
   const std::vector<double> joints = profile.joints();
   for (std::size_t k = 0; k + 1 < joints.size(); ++k) {

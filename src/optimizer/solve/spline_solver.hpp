@@ -20,7 +20,6 @@ class SplineSolver {
   void restart() { damping_ = kFirstDamping; }
   // Improves `spline` in place; returns the number of closed-form solutions made.
   int improve(const SplineProblem& problem, const Stop& stop, Spline& spline);
-  [[nodiscard]] double cost() const { return cost_; }
 
  private:
   static constexpr double kFirstDamping = 1e-2;

@@ -33,7 +33,7 @@ feasibility::EdgeCheck checkOn(const map::DistanceField& field) {
 }
 
 TEST(LocalOptimizer, BendsAnEdgeAroundARock) {
-  const LocalOptimizer local{vessel::Parameters()};
+  const LocalOptimizer local;
   const map::DistanceField field = rockField();
   const trajectory::Piece failing = edge(20.5);
   RepairedEdge repaired;

@@ -39,6 +39,22 @@ TEST(Spin, TurnsFromRestToRestWithinLimits) {
   }
 }
 
+// What the paper's model says of another lag doesn't count where the hull turns by its own law.
+TEST(Spin, IsCutByTheLawThatItTurnsBy) {
+  SpinLimits limits;
+  limits.yaw_rate_max_radps = 1.8;
+  const auto piecesOf = [&](double paper_m2_kgm2) {
+    vessel::Parameters vessel;
+    vessel.manoeuvring.sway_inertia_kg = 60.0;
+    vessel.paper.m2_kgm2 = paper_m2_kgm2;
+    std::vector<Piece> pieces;
+    appendSpin({1.0, 2.0}, 0.7, 3.0, vessel, limits, pieces);
+    return pieces.size();
+  };
+  EXPECT_EQ(piecesOf(110.0), piecesOf(11.0));
+  EXPECT_EQ(piecesOf(1.1), piecesOf(11.0));
+}
+
 // m2 r' = tau - d3 r under full moment ahead, then back: integrated and searched for the switch.
 TEST(Spin, IsTheTimeOptimalTurn) {
   const vessel::Parameters vessel;

@@ -309,6 +309,57 @@ TEST_F(TrackerTest, PushesNothingAheadWithTheBowHigh) {
   EXPECT_GT(high[vessel::kRight] - high[vessel::kLeft], 5.0);
 }
 
+// A bow that is high, on a trailer or when it was seen last, starts no thrusters.
+TEST_F(TrackerTest, PushesNothingIdleOrBlindWhateverTheBowDoes) {
+  const auto step = [&](bool odometry, double bow_up_rad) {
+    if (odometry) {
+      tracker_->addOdometry(now_s_, state_, bow_up_rad);
+    }
+    const Command command = tracker_->step(now_s_);
+    now_s_ += 0.01;
+    return command;
+  };
+  Command command;
+  for (int i = 0; i < 50; ++i) {
+    command = step(true, 0.9);
+  }
+  EXPECT_EQ(command.mode, Mode::kIdle);
+  EXPECT_EQ(command.thrusts, vessel::Thrusts::Zero());
+  ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 25.0), now_s_}));
+  step(true, 0.9);
+  for (int i = 0; i < 80; ++i) {
+    command = step(false, 0.0);
+  }
+  EXPECT_EQ(command.mode, Mode::kStopping);
+  EXPECT_GT(command.thrusts.minCoeff(), -1.0) << "the bow isn't known any more";
+  for (int i = 0; i < 1000; ++i) {
+    command = step(false, 0.0);
+  }
+  EXPECT_EQ(command.mode, Mode::kFault);
+  EXPECT_EQ(command.thrusts, vessel::Thrusts::Zero());
+}
+
+// A speed that isn't true leads no farther than one that the vessel has.
+TEST_F(TrackerTest, StopsNearWhateverSpeedItIsTold) {
+  sail(0.1);
+  vessel::State told = state_;
+  told[vessel::kSurge] = 3.0 * vessel_.top_speed_mps;
+  for (int i = 0; i < 20; ++i) {
+    tracker_->addOdometry(now_s_, told);
+    tracker_->step(now_s_);
+    now_s_ += 0.01;
+  }
+  tracker_->requestStop("asked");
+  tracker_->addOdometry(now_s_, told);
+  tracker_->step(now_s_);
+  now_s_ += 0.01;
+  const double braking_mps2 =
+      2.0 * vessel_.thrusters.astern_max_n / vessel_.manoeuvring.surge_inertia_kg;
+  const double top_speed_mps = vessel_.top_speed_mps;
+  sail(40.0);
+  EXPECT_LT(state_.head<2>().norm(), 1.5 * top_speed_mps * top_speed_mps / braking_mps2);
+}
+
 // Weights come in from the next step on.
 TEST_F(TrackerTest, TakesNewWeights) {
   const auto offset = [&](double position) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "otter_nav/base/angles.hpp"
@@ -117,6 +118,35 @@ TEST(InverseDynamics, GradientMatchesDifferences) {
           }
         }
       }
+    }
+  }
+}
+
+// A floored D leaves the search of the bow in wind unfinished: its slopes are near, not the same.
+TEST(InverseDynamics, TheFlooredGradientInWindIsNear) {
+  constexpr double kStep = 1e-5;
+  constexpr double kFloorN = 200.0;
+  Random random(3);
+  for (const Disturbance& weather : weathers()) {
+    const InverseDynamics inverse(someVessel(), weather);
+    std::vector<double> errors;
+    for (int trial = 0; trial < 200 && !weather.wind_mps.isZero(); ++trial) {
+      const FlatPoint z = underWay(random);
+      const FlatGradient g = inverse.gradient(z, kFloorN);
+      for (int axis = 0; axis < 2; ++axis) {
+        const auto surgeAt = [&](double off) {
+          FlatPoint moved = z;
+          moved.acceleration[axis] += off;
+          return inverse.gradient(moved, kFloorN).surge_n;
+        };
+        const double slope = (surgeAt(kStep) - surgeAt(-kStep)) / (2.0 * kStep);
+        errors.push_back(std::abs(g.surge(axis, 1) - slope) / (1.0 + std::abs(slope)));
+      }
+    }
+    if (!errors.empty()) {
+      const auto middle = errors.begin() + static_cast<long>(errors.size() / 2);
+      std::nth_element(errors.begin(), middle, errors.end());
+      EXPECT_LT(*middle, 0.06);
     }
   }
 }
