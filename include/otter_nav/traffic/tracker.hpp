@@ -22,12 +22,16 @@
 namespace otter_nav::traffic {
 
 struct Options {
-  double radar_range_m = 145.0;  // nearer vessels ought to be seen
-  double radar_noise_m = 1.0;    // standard deviation, each axis
+  double radar_range_m = 145.0;
+  double radar_noise_m = 1.0;
   ais::Datum datum;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
+    fields("radar_range_m", o.radar_range_m, {1.0, 100000.0},
+           "a vessel nearer than this that the radar doesn't see casts doubt on her track");
+    fields("radar_noise_m", o.radar_noise_m, {0.01, 100.0},
+           "of its positions: standard deviation, each axis");
     fields.group("datum", o.datum, "the map's origin on the globe");
   }
 };
@@ -53,7 +57,8 @@ class Tracker {
   Tracker(Tracker&&) noexcept;
   Tracker& operator=(Tracker&&) noexcept;
 
-  // The reference stays valid until the next scan.
+  // The reference stays valid, and what it refers to the same, until the next scan: what radar and
+  // AIS tell meanwhile is in that one's verdict.
   const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor, const vessel::Pose& own,
                              const Scan& scan);
   // All positions seen at once, from a sensor at `own`.
