@@ -22,16 +22,12 @@
 namespace otter_nav::traffic {
 
 struct Options {
-  double radar_range_m = 145.0;
-  double radar_noise_m = 1.0;
+  double radar_range_m = 145.0;  // who is nearer and not seen is doubted
+  double radar_noise_m = 1.0;    // standard deviation, each axis
   ais::Datum datum;
 
   template <typename Self, typename Fields>
   static void describe(Self& o, Fields& fields) {
-    fields("radar_range_m", o.radar_range_m, {1.0, 100000.0},
-           "a vessel nearer than this that the radar doesn't see casts doubt on her track");
-    fields("radar_noise_m", o.radar_noise_m, {0.01, 100.0},
-           "of its positions: standard deviation, each axis");
     fields.group("datum", o.datum, "the map's origin on the globe");
   }
 };
