@@ -31,6 +31,10 @@ class BitReader {
   void scaledSigned(double& value, std::size_t width, double unit, std::int64_t none) {
     set(value, takeSigned(width), unit, none);
   }
+  void bearing(double& value, std::size_t width, double unit, std::int64_t none) {
+    scaled(value, width, unit, none);
+    value = value < 360.0 - 0.5 * unit ? value : kNotAvailable;
+  }
   void flag(bool& value) { value = take(1) != 0; }
   void text(std::string& value, std::size_t letters) {
     value.clear();
@@ -105,6 +109,9 @@ class BitWriter {
                 ? std::clamp<std::int64_t>(std::llround(value / unit), 1 - none, none - 1)
                 : none),
         width);
+  }
+  void bearing(double value, std::size_t width, double unit, std::int64_t none) {
+    scaled(value < 360.0 - 0.5 * unit ? value : value - 360.0, width, unit, none);
   }
   void flag(bool value) { put(value ? 1U : 0U, 1); }
   void text(const std::string& value, std::size_t letters) {

@@ -9,6 +9,7 @@ namespace otter_nav::ais {
 //   number(value, width)                      unsigned; signedNumber() two's complement
 //   scaled(value, width, unit, none)          value / unit as a whole number, `none` for unknown
 //   scaledSigned(...)                         the same in two's complement
+//   bearing(...)                              degrees, 0 up to 360: from there on unknown
 //   flag(value), text(value, letters), spare(width), rest(value, letters)
 template <typename Bits>
 void position(Message& m, Bits& bits) {
@@ -22,8 +23,8 @@ template <typename Bits>
 void motion(Message& m, Bits& bits) {
   bits.scaled(m.speed_knots, 10, 0.1, 1023);
   position(m, bits);
-  bits.scaled(m.course_deg, 12, 0.1, 3600);
-  bits.scaled(m.heading_deg, 9, 1.0, 511);
+  bits.bearing(m.course_deg, 12, 0.1, 3600);
+  bits.bearing(m.heading_deg, 9, 1.0, 511);
   bits.number(m.second, 6);
 }
 

@@ -7,6 +7,7 @@
 
 #include "bits.hpp"
 #include "layout.hpp"
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/text.hpp"
 
 namespace otter_nav::ais {
@@ -144,6 +145,10 @@ Result<std::optional<Message>> messageOf(std::string_view payload, int fill) {
 }
 
 }  // namespace
+
+double radiansFromEast(double degrees_from_north) {
+  return wrapAngle((90.0 - degrees_from_north) * kPi / 180.0);
+}
 
 bool Message::hasPosition() const {
   return std::abs(longitude_deg) <= 180.0 && std::abs(latitude_deg) <= 90.0;

@@ -9,12 +9,6 @@
 namespace otter_nav::encounter {
 namespace {
 
-Eigen::Vector2d toStarboard(const Eigen::Vector2d& v, double turn_rad) {
-  const double c = std::cos(turn_rad);
-  const double s = std::sin(turn_rad);
-  return {c * v.x() + s * v.y(), -s * v.x() + c * v.y()};
-}
-
 std::size_t legAt(const Course& course, double t) {
   std::size_t k = 0;
   while (k + 1 < course.legs.size() && course.legs[k + 1].from_s <= t) {
@@ -131,12 +125,11 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
     at = {end, velocity};
     return true;
   };
-  if (!sail(intent.share * water.cruise_mps * toStarboard(direction, intent.turn_rad),
-            intent.hold_s)) {
+  if (!sail(intent.share * water.cruise_mps * turned(direction, -intent.turn_rad), intent.hold_s)) {
     return false;
   }
   if (intent.then_s > 0.0 &&
-      !sail(water.cruise_mps * toStarboard(direction, intent.then_turn_rad), intent.then_s)) {
+      !sail(water.cruise_mps * turned(direction, -intent.then_turn_rad), intent.then_s)) {
     return false;
   }
   std::size_t next = backToThePath(at.position);

@@ -15,9 +15,8 @@ constexpr double kDeviationM = 0.3;
 constexpr double kDeviationMostM = 4.0;
 // Whoever is near may turn towards us at once; she comes the farther the faster she is.
 constexpr double kMayTurn = 0.1;
-constexpr double kSteadyTurnS = 40.0;  // in which a steady turn dies out
-constexpr double kDoubted = 0.9;       // existence: reported, but seen no more
-constexpr double kFromHabit = 0.8;     // go on as before, and
+constexpr double kDoubted = 0.9;    // existence: reported, but seen no more
+constexpr double kFromHabit = 0.8;  // go on as before, and
 constexpr double kNotFromHabit = 0.2;
 constexpr double kMayTurnFromHabit = 0.04;
 constexpr double kGrownShare = 0.6;  // of what a track itself says it may stray
@@ -43,7 +42,7 @@ Foretold::Foretold(const std::vector<traffic::Track>& tracks, const Habits& habi
     traffic::Track turning = track;
     if (const std::optional<double> turn = habits.steadyTurn(track)) {
       turning.turn_rate_radps = *turn;
-      turning.turn_time_s = kSteadyTurnS;
+      turning.turn_time_s = traffic::kSteadyTurnS;
     }
     const traffic::PredictedPath path(turning, options);
     Mover mover;

@@ -39,9 +39,7 @@ void Habits::observe(const std::vector<traffic::Track>& tracks) {
   if (records_.size() > kMostRecords) {
     forgetOldest();
   }
-  if (!tracks.empty()) {
-    forgetWhoIsGone(tracks.front().stamp_s);
-  }
+  forgetWhoIsGone(tracks);
 }
 
 void Habits::remember(const traffic::Track& track) {
@@ -66,11 +64,19 @@ void Habits::remember(const traffic::Track& track) {
   smoothBefore(known.last);
 }
 
-// A track's number comes once: who is gone for a while comes back as another.
-void Habits::forgetWhoIsGone(double now_s) {
+// A track's number comes once: who is gone for a while comes back as another. Who is told of isn't
+// gone, however long ago she was heard.
+void Habits::forgetWhoIsGone(const std::vector<traffic::Track>& tracks) {
   constexpr double kGoneS = 30.0;
+  double now_s = 0.0;
+  for (const traffic::Track& track : tracks) {
+    now_s = std::max(now_s, track.stamp_s);
+  }
+  for (const traffic::Track& track : tracks) {
+    known_[track.id].told_s = now_s;
+  }
   for (auto it = known_.begin(); it != known_.end();) {
-    it = now_s - it->second.place.stamp_s > kGoneS ? known_.erase(it) : std::next(it);
+    it = now_s - it->second.told_s > kGoneS ? known_.erase(it) : std::next(it);
   }
 }
 

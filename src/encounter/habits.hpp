@@ -77,6 +77,7 @@ class Habits {
     MetMotion motion;
     int last = -1;  // record
     Place place;
+    double told_s = 0.0;  // when she was last among the tracks
   };
   void remember(const traffic::Track& track);
   void follow(const traffic::Track& track);
@@ -103,7 +104,7 @@ class Habits {
   }
   [[nodiscard]] double varianceAhead(const Match& at) const;
   void forgetOldest();
-  void forgetWhoIsGone(double now_s);
+  void forgetWhoIsGone(const std::vector<traffic::Track>& tracks);
 
   std::vector<Record> records_;
   std::map<int, Known> known_;  // by the tracks' numbers

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <utility>
 
 #include "otter_nav/base/angles.hpp"
 
@@ -14,6 +15,15 @@ constexpr double kUnderWayS = 15.0;  // at most, until the cruising speed is rea
 constexpr double kSteadiesS = 8.0;   // at least, until a course is kept
 constexpr double kPastS = 40.0;      // between two reports of a slow vessel, and some
 constexpr double kPastStepS = 0.5;
+
+// How near she comes while courses are kept, in the time that counts.
+double comesWithin(const Motion& own, const Other& other) {
+  if (other.record.role != Role::kNone) {
+    return 0.0;  // a rule holds between us
+  }
+  const double t = std::clamp(nearestApproach(own, other.motion).time_s, 0.0, kRiskS);
+  return (other.motion.after(t).position - own.after(t).position).norm();
+}
 
 // She turns, and has done so for a while.
 bool goesRound(const traffic::Track& track) {
@@ -109,6 +119,19 @@ std::vector<Other> Lookout::others(const map::DistanceField& field) const {
     other.record = memory.record;
     other.record.since_s = memory.began_s - now_s_;
     others.push_back(other);
+  }
+  if (others.size() > kMostOthers) {
+    std::vector<std::pair<double, std::size_t>> near;  // by how near they may come soon
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      near.emplace_back(comesWithin(own_, others[k]), k);
+    }
+    std::sort(near.begin(), near.end());
+    near.resize(kMostOthers);
+    std::vector<Other> nearest;
+    for (const auto& [distance_m, k] : near) {
+      nearest.push_back(std::move(others[k]));
+    }
+    return nearest;
   }
   return others;
 }

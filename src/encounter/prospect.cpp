@@ -303,9 +303,8 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
   constexpr double kSoonS = 90.0;
   constexpr double kDistantS = 150.0;
   constexpr double kContactM = 0.8;
-  constexpr std::size_t kMost = 32;
-  Outlook looks[kMost];
-  const std::size_t count = std::min(others.size(), kMost);
+  Outlook looks[kMostOthers];
+  const std::size_t count = std::min(others.size(), kMostOthers);
   double price = 0.0;
   for (std::size_t j = 0; j < count && price <= give_up_above; ++j) {
     const Other& other = others[j];

@@ -57,6 +57,9 @@ struct Other {
   Record record;
 };
 
+// A course is priced among no more of them.
+constexpr std::size_t kMostOthers = 32;
+
 // Rules that a course breaks, bits.
 enum Broken : unsigned {
   kLate = 1U,         // 8 a, 16
@@ -88,6 +91,7 @@ class Prospect {
   void feel(double swing_mps) { swing_mps_ = swing_mps; }
   [[nodiscard]] Outlook look(const Course& own, const Other& other) const;
   // The price of a course, in seconds that it would be worth sailing longer to avoid it.
+  // Of at most kMostOthers.
   [[nodiscard]] double price(const Course& own, const std::vector<Other>& others,
                              double give_up_above) const;
 

@@ -163,8 +163,8 @@ class Verifier {
     }
   }
 
-  // What in-place spins are set aside by meanwhile, which nothing of theirs says: the next piece's
-  // room grows by it.
+  // What in-place spins, one after another, are set aside by up to the end of this one, which
+  // nothing of theirs says: this one needs that much more room. From any other piece on it is none.
   void slide(const trajectory::Piece& piece, const PieceReport& report) {
     if (piece.kind != trajectory::PieceKind::kSpin || report.sway_n <= 0.0) {
       slide_mps_ = slide_m_ = 0.0;

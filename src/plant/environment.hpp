@@ -31,7 +31,6 @@ class Environment {
   // Wind and current as advanced to; waves at `time_s` under a hull at this pose.
   [[nodiscard]] Conditions at(double time_s, const vessel::State& planar,
                               const PlantModel& model) const;
-  [[nodiscard]] const WaveField& waves() const { return waves_; }
 
  private:
   EnvironmentOptions options_;

@@ -253,9 +253,13 @@ double MotionFilter::gateDistance2(const Measurement& measurement) const {
 }
 
 void MotionFilter::update(const std::vector<Candidate>& candidates) {
+  // A candidate that no model makes possible at all tells nothing of where she is.
   double none = 1.0;
+  std::vector<double> likely;  // by all models
+  likely.reserve(candidates.size());
   for (const Candidate& candidate : candidates) {
-    none -= candidate.probability;
+    likely.push_back(likelihood(candidate.likelihoods));
+    none -= likely.back() > 0.0 ? candidate.probability : 0.0;
   }
   none = std::max(0.0, none);
   double sum = 0.0;
@@ -266,17 +270,25 @@ void MotionFilter::update(const std::vector<Candidate>& candidates) {
     Model& model = models_[m];
     // How much more probable this model makes what was seen than all models together do.
     double evidence = none;
-    for (const Candidate& candidate : candidates) {
-      evidence += candidate.probability * candidate.likelihoods[m] /
-                  std::max(likelihood(candidate.likelihoods), 1e-300);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      evidence += likely[k] > 0.0
+                      ? candidates[k].probability * candidates[k].likelihoods[m] / likely[k]
+                      : 0.0;
     }
-    evidence = std::max(evidence, 1e-12);
+    model.weight *= std::max(evidence, 1e-12);
+    sum += model.weight;
+    if (evidence <= 0.0) {
+      continue;  // stays where it is, and hardly counts
+    }
     const Model before = model;
     MotionState x = none / evidence * before.x;
     MotionCovariance p = none / evidence * (before.P + before.x * before.x.transpose());
-    for (const Candidate& candidate : candidates) {
-      const double share = candidate.probability * candidate.likelihoods[m] /
-                           std::max(likelihood(candidate.likelihoods), 1e-300) / evidence;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (likely[k] <= 0.0) {
+        continue;
+      }
+      const Candidate& candidate = candidates[k];
+      const double share = candidate.probability * candidate.likelihoods[m] / likely[k] / evidence;
       MotionState one = before.x;
       MotionCovariance its = before.P;
       if (candidate.measurement.has_velocity) {
@@ -290,13 +302,16 @@ void MotionFilter::update(const std::vector<Candidate>& candidates) {
     p -= x * x.transpose();
     model.x = x;
     model.P = 0.5 * (p + p.transpose());
-    model.weight *= evidence;
-    sum += model.weight;
   }
+  double clamped = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
     if (isUsed(m)) {
       models_[m].weight = std::clamp(models_[m].weight / sum, kLeastWeight, 1.0 - kLeastWeight);
+      clamped += models_[m].weight;
     }
+  }
+  for (Model& model : models_) {
+    model.weight /= clamped;
   }
 }
 

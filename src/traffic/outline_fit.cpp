@@ -67,28 +67,4 @@ double rectangleDeviation(const std::vector<Eigen::Vector2d>& points, double dir
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-// |p|^2 = 2 c.p + (r^2 - |c|^2), linear in c and the bracket.
-Circle circleThrough(const std::vector<Eigen::Vector2d>& points) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  const Eigen::Vector2d& near = points.front();
-  for (const Eigen::Vector2d& point : points) {
-    const Eigen::Vector2d p = point - near;
-    const Eigen::Vector3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
-    normal += row * row.transpose();
-    right += p.squaredNorm() * row;
-  }
-  const Eigen::Vector3d solution = (normal + 1e-9 * Eigen::Matrix3d::Identity()).inverse() * right;
-  Circle circle;
-  circle.radius_m = std::sqrt(std::max(0.0, solution[2] + solution.head<2>().squaredNorm()));
-  circle.centre = near + solution.head<2>();
-  double sum = 0.0;
-  for (const Eigen::Vector2d& p : points) {
-    const double off = (p - circle.centre).norm() - circle.radius_m;
-    sum += off * off;
-  }
-  circle.deviation_m = std::sqrt(sum / static_cast<double>(points.size()));
-  return circle;
-}
-
 }  // namespace otter_nav::traffic

@@ -38,13 +38,6 @@ struct Span {
 // scanners, IV 2017: search over directions by closeness).
 [[nodiscard]] double rectangleDirection(const std::vector<Eigen::Vector2d>& points);
 
-// A circle through the points (Kasa's least squares). `deviation_m` is of the distances to it.
-struct Circle {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  double radius_m = 0.0;
-  double deviation_m = 0.0;
-};
-[[nodiscard]] Circle circleThrough(const std::vector<Eigen::Vector2d>& points);
 // Of the points' distances to the nearer pair of sides of a rectangle in direction `direction_rad`.
 [[nodiscard]] double rectangleDeviation(const std::vector<Eigen::Vector2d>& points,
                                         double direction_rad);

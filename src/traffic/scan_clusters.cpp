@@ -1,11 +1,13 @@
 #include "scan_clusters.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/vessel/hull.hpp"
 
@@ -163,7 +165,7 @@ void ScanClusters::findCuts(Cluster& cluster) const {
 const std::vector<Cluster>& ScanClusters::gather(double stamp_s, const map::SensorPose& sensor,
                                                  const vessel::Pose& own, const Scan& scan) {
   eye_ = sensor.position.head<2>();
-  yaw_rad_ = sensor.yaw_rad;
+  sensor_from_level_ = sensor.rotation().topLeftCorner<2, 2>().inverse();
   angle_min_rad_ = scan.angle_min_rad;
   increment_rad_ = scan.angle_increment_rad;
   range_max_m_ = scan.range_max_m;
@@ -186,12 +188,15 @@ double ScanClusters::inSight(const Eigen::Vector2d& position, double near_m, dou
     return 0.0;
   }
   const double half = std::atan2(0.25 * beam_m, std::max(range, 0.1));
-  const double bearing = std::atan2(off.y(), off.x()) - yaw_rad_;
+  const double bearing = std::atan2(off.y(), off.x());
   double most = 0.0;
   for (const double side : {-half, 0.0, half}) {
-    const double turns =
-        std::remainder(bearing + side - angle_min_rad_ - kPi, 2.0 * kPi) + kPi;  // 0 to 2 pi
-    const auto beam = static_cast<std::size_t>(std::lround(turns / increment_rad_));
+    // The beam that lies over this bearing, whichever way the lidar turns and stands.
+    const Eigen::Vector2d beam_ahead = sensor_from_level_ * unitVector(bearing + side);
+    const double angle = std::atan2(beam_ahead.y(), beam_ahead.x()) - angle_min_rad_;
+    const double turned = std::copysign(1.0, increment_rad_) * angle;
+    const double turns = std::remainder(turned - kPi, 2.0 * kPi) + kPi;  // 0 to 2 pi
+    const auto beam = static_cast<std::size_t>(std::lround(turns / std::abs(increment_rad_)));
     if (beam < free_m_.size() &&
         free_m_[beam] > range - near_m - (ends_at_standing_[beam] ? 0.0 : doubt_m)) {
       most = std::max(most, range + kMarginM < reach_m_[beam] ? 1.0 : 0.5);

@@ -58,7 +58,8 @@ class ScanClusters {
   std::vector<double> reach_m_;
   std::vector<bool> ends_at_standing_;
   Eigen::Vector2d eye_ = Eigen::Vector2d::Zero();
-  double yaw_rad_ = 0.0;
+  // A level direction to the lidar's plane, straight up or down.
+  Eigen::Matrix2d sensor_from_level_ = Eigen::Matrix2d::Identity();
   double angle_min_rad_ = 0.0;
   double increment_rad_ = 1.0;
   double range_max_m_ = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace otter_nav::traffic {
 namespace {
@@ -13,10 +14,11 @@ constexpr double kStepM = 0.4;      // along a beam
 constexpr double kStagger = 0.618;  // of a step, from scan to scan: no cell is left out for long
 constexpr int kMarginCells = 48;  // the square moves when the vessel is nearer to its middle's edge
 constexpr std::uint8_t kSeenFree = 5;  // scans
-constexpr float kNewForS = 3.0F;
-constexpr float kUnknownForS = 0.6F;  // the same where nobody knows whether it was free
-constexpr float kFreeHoldsS = 20.0F;  // what was free so long ago says nothing
-constexpr float kEchoHoldsS = 1.0F;   // what was met so long ago doesn't stand there any more
+constexpr std::int32_t kNewForMs = 3000;
+constexpr std::int32_t kUnknownForMs = 600;   // the same where nobody knows whether it was free
+constexpr std::int32_t kFreeHoldsMs = 20000;  // what was free so long ago says nothing
+constexpr std::int32_t kEchoHoldsMs =
+    1000;  // what was met so long ago doesn't stand there any more
 
 // Of negative ones too, for the side is a power of two.
 static_assert((kSide & (kSide - 1)) == 0);
@@ -41,7 +43,10 @@ std::size_t ScanMemory::indexOf(const Eigen::Vector2i& cell) const {
 }
 
 void ScanMemory::begin(double time_s, const Eigen::Vector2d& eye) {
-  now_s_ = static_cast<float>(time_s);
+  if (!placed_) {
+    first_s_ = time_s;
+  }
+  now_ms_ = static_cast<std::int32_t>(std::lround(1000.0 * (time_s - first_s_)));
   stagger_ = std::fmod(stagger_ + kStagger, 1.0);
   const Eigen::Vector2i middle = cellAt(eye) - Eigen::Vector2i::Constant(kSide / 2);
   if (!placed_) {
@@ -71,10 +76,10 @@ void ScanMemory::begin(double time_s, const Eigen::Vector2d& eye) {
 }
 
 bool ScanMemory::standsSince(const Cell& cell) const {
-  if (cell.met_since_s < 0.0F || now_s_ - cell.met_last_s > kEchoHoldsS) {
+  if (cell.met_since_ms < 0 || now_ms_ - cell.met_last_ms > kEchoHoldsMs) {
     return false;
   }
-  return now_s_ - cell.met_since_s > (cell.free_count < kSeenFree ? kUnknownForS : kNewForS);
+  return now_ms_ - cell.met_since_ms > (cell.free_count < kSeenFree ? kUnknownForMs : kNewForMs);
 }
 
 bool ScanMemory::isNew(const Eigen::Vector2d& point) const {
@@ -83,7 +88,7 @@ bool ScanMemory::isNew(const Eigen::Vector2d& point) const {
     return false;
   }
   const Cell& here = cells_[indexOf(at)];
-  if (here.free_count < kSeenFree || now_s_ - here.free_last_s > kFreeHoldsS) {
+  if (here.free_count < kSeenFree || now_ms_ - here.free_last_ms > kFreeHoldsMs) {
     return false;
   }
   for (int dy = -2; dy <= 2; ++dy) {
@@ -108,10 +113,10 @@ void ScanMemory::met(const Eigen::Vector2d& point) {
     return;
   }
   Cell& cell = cells_[indexOf(at)];
-  if (cell.met_since_s < 0.0F || now_s_ - cell.met_last_s > kEchoHoldsS) {
-    cell.met_since_s = now_s_;
+  if (cell.met_since_ms < 0 || now_ms_ - cell.met_last_ms > kEchoHoldsMs) {
+    cell.met_since_ms = now_ms_;
   }
-  cell.met_last_s = now_s_;
+  cell.met_last_ms = now_ms_;
 }
 
 // Every few tenths of a metre, at other places in the next scan; a cell that was met lately is left
@@ -133,20 +138,20 @@ void ScanMemory::passed(const Eigen::Vector2d& from, const Eigen::Vector2d& to) 
       return;
     }
     Cell& cell = cells_[indexOf(at)];
-    if (cell.free_last_s == now_s_) {
+    if (cell.free_last_ms == now_ms_) {
       continue;
     }
-    if (cell.met_since_s >= 0.0F) {
-      if (now_s_ - cell.met_last_s < kEchoHoldsS) {
+    if (cell.met_since_ms >= 0) {
+      if (now_ms_ - cell.met_last_ms < kEchoHoldsMs) {
         continue;
       }
-      cell.met_since_s = -1.0F;
+      cell.met_since_ms = -1;
       cell.free_count = 0;
     }
-    if (now_s_ - cell.free_last_s > kFreeHoldsS) {
+    if (now_ms_ - cell.free_last_ms > kFreeHoldsMs) {
       cell.free_count = 0;
     }
-    cell.free_last_s = now_s_;
+    cell.free_last_ms = now_ms_;
     cell.free_count = static_cast<std::uint8_t>(std::min<int>(cell.free_count + 1, 250));
   }
 }

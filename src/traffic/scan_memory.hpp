@@ -25,10 +25,12 @@ class ScanMemory {
   void passed(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
  private:
+  // Times are since the first scan: a float of an epoch clock would not tell scans apart.
   struct Cell {
-    float met_since_s = -1.0F;  // the first echo of those that have been met in a row; < 0: none
-    float met_last_s = -1.0F;
-    float free_last_s = -1.0F;
+    std::int32_t met_since_ms =
+        -1;  // the first echo of those that have been met in a row; < 0: none
+    std::int32_t met_last_ms = -1;
+    std::int32_t free_last_ms = -1;
     std::uint8_t free_count = 0;  // in a row, before the echoes
   };
   [[nodiscard]] Eigen::Vector2i cellAt(const Eigen::Vector2d& p) const;
@@ -36,7 +38,8 @@ class ScanMemory {
   [[nodiscard]] std::size_t indexOf(const Eigen::Vector2i& cell) const;
   [[nodiscard]] bool standsSince(const Cell& cell) const;
 
-  float now_s_ = 0.0F;
+  double first_s_ = 0.0;  // the first scan
+  std::int32_t now_ms_ = 0;
   double stagger_ = 0.0;
   Eigen::Vector2i corner_ = Eigen::Vector2i::Zero();  // of the square, cells of the whole plane
   bool placed_ = false;

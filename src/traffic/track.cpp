@@ -138,12 +138,6 @@ double PredictedPath::distanceBound(const Eigen::Vector2d& point, double time_s)
   return (from + share * (samples_[k + 1].position - from) - point).norm() - reaches_m_[k];
 }
 
-Eigen::Vector2d PredictedPath::velocityAt(double time_s) const {
-  double share = 0.0;
-  const std::size_t k = segmentAt(time_s, share);
-  return (samples_[k + 1].position - samples_[k].position) / kSampleS;
-}
-
 Track predicted(const Track& track, double time_s, const PredictionOptions& options) {
   const double t = std::max(0.0, time_s - track.stamp_s);
   PredictionOptions to_here = options;

@@ -21,9 +21,7 @@ constexpr int kYoungHits = 5;
 constexpr double kLeastCourseSpeedMps = 0.3;
 constexpr double kLeastUnderWayMps = 0.6;
 constexpr double kCourseSigmas = 2.5;
-// How long a turn goes on, one just begun and one that has been steady.
-constexpr double kBriefTurnS = 5.0;
-constexpr double kSteadyTurnS = 40.0;
+constexpr double kBriefTurnS = 5.0;  // in which a turn just begun dies out
 
 // A cluster in the axes of a hull: what is seen of it, and from where. A side is seen whole when
 // the line of sight doesn't graze it.
@@ -125,7 +123,7 @@ bool TrackedVessel::followCourse() {
   const std::optional<double> now = course();
   const bool first = now && !heading_rad;
   if (now) {
-    heading_rad = now;
+    heading_rad = wrapAngle(*now + leeway_rad);
     has_moved = true;
   }
   return first;
@@ -347,7 +345,7 @@ void TrackedVessel::takeDimensions(const ais::Message& message) {
 }
 
 Eigen::Vector2d TrackedVessel::middleFromReported() const {
-  if (!dimensions || !heading_rad) {
+  if (!dimensions || !heading_rad || !dimensions->hasReferencePoint()) {
     return Eigen::Vector2d::Zero();
   }
   const Eigen::Vector2d ahead = unitVector(*heading_rad);

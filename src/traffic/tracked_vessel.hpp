@@ -47,6 +47,7 @@ struct TrackedVessel {
   double length_m = 7.0;
   double beam_m = 2.5;
   std::optional<double> heading_rad;
+  double leeway_rad = 0.0;  // heading less course, by the last report of both
   // Along and athwart, as the last echoes showed it among many, and how often in a row alike.
   Eigen::Vector2d shown_m = Eigen::Vector2d::Zero();
   int shown_alike = 0;
@@ -85,7 +86,7 @@ struct TrackedVessel {
 
   // Course, if the motion tells one.
   [[nodiscard]] std::optional<double> course() const;
-  // Takes the course as the heading where there is one.
+  // Takes the course, with the leeway reported, as the heading where there is one.
   // Whether it is the first one.
   bool followCourse();
   [[nodiscard]] bool isUnderWay() const;

@@ -77,10 +77,6 @@ constexpr double kAisKeptCrowdedS = 1.0;
 
 constexpr double kSameM = 3.0;  // two tracks nearer than this, and alike, are one vessel
 
-double radiansFromEast(double degrees_from_north) {
-  return wrapAngle((90.0 - degrees_from_north) * kPi / 180.0);
-}
-
 Measurement positionMeasurement(const Eigen::Vector2d& position, double deviation_m) {
   Measurement measurement;
   measurement.value.head<2>() = position;
@@ -101,7 +97,6 @@ class Tracker::Impl {
         partedAmong(stamp_s, clusters_.gather(stamp_s, sensor, own, scan));
     const Eigen::Vector2d eye = sensor.position.head<2>();
     verdict_.on_vessel.assign(scan.ranges_m.size(), false);
-    verdict_.ghosts.clear();
     verdict_.lying.clear();
     lookRound(eye);
     Look look;
@@ -152,6 +147,7 @@ class Tracker::Impl {
     judge(stamp_s);
     giveToMap(stamp_s, sensor.position.z());
     findOnVessels();
+    verdict_.ghosts = std::exchange(ghosts_, {});
     return verdict_;
   }
 
@@ -166,11 +162,22 @@ class Tracker::Impl {
     look.measure = [&](const TrackedVessel& /*vessel*/, std::size_t k) {
       return positionMeasurement(positions[k], options_.radar_noise_m);
     };
-    look.canBe = [](const TrackedVessel& /*vessel*/, std::size_t /*k*/) { return true; };
+    // Who keeps her place is met there, however much she may have strayed by the filter.
+    const auto isHerPlace = [&](const TrackedVessel& vessel, std::size_t k) {
+      const double doubt_m = std::hypot(options_.radar_noise_m, kAisPositionM);
+      const double reach =
+          0.5 * std::max(vessel.length_m, vessel.beam_m) + std::sqrt(kGate2) * doubt_m;
+      return (positions[k] - vessel.motion.state().head<2>()).norm() < reach;
+    };
+    look.canBe = [&](const TrackedVessel& vessel, std::size_t k) {
+      return !vessel.keeps_place || isHerPlace(vessel, k);
+    };
     look.detection = [&](const TrackedVessel& vessel, const MotionFilter& now) {
       const double range = (now.state().head<2>() - own).norm();
+      // From seeing nothing out of range nothing follows, nor of a buoy; what is seen is
+      // somebody's.
       const bool reached = range < options_.radar_range_m && !vessel.keeps_place;
-      return reached ? Detection{kRadarDetection, kRadarDetection} : Detection{};
+      return Detection{kRadarDetection, reached ? kRadarDetection : 0.0};
     };
     look.seen = [](TrackedVessel& /*vessel*/, std::size_t /*k*/, bool /*first*/) {};
     const std::vector<double> taken = associate(look);
@@ -195,6 +202,9 @@ class Tracker::Impl {
     Result<std::optional<ais::Message>> decoded = decoder_.add(sentence);
     if (!decoded) {
       return failure("AIS: " + decoded.error().message);
+    }
+    if (*decoded && (*decoded)->mmsi == 0) {
+      return failure("AIS: a report without an MMSI");
     }
     if (*decoded) {
       take(stamp_s, **decoded);
@@ -329,11 +339,9 @@ class Tracker::Impl {
       if (chance.probability == 0.0) {
         continue;
       }
-      vessel.existence *= std::exp(-(look.stamp_s - vessel.motion.stamp()) / kLivesS);
-      vessel.motion = now;
-      of_track.push_back(v);
-      concluded.push_back(chance.concluded);
-      none.push_back(1.0 - vessel.existence * chance.concluded);
+      const MotionFilter before = std::exchange(vessel.motion, now);
+      const double existed = vessel.existence;
+      vessel.existence *= std::exp(-(look.stamp_s - before.stamp()) / kLivesS);
       links.emplace_back();
       candidates.emplace_back();
       for (std::size_t k = 0; k < look.detections; ++k) {
@@ -351,6 +359,16 @@ class Tracker::Impl {
                                        look.clutter_per_m2});
         candidates.back().push_back(std::move(candidate));
       }
+      if (links.back().empty() && chance.concluded == 0.0) {  // nothing is learnt of her
+        vessel.motion = before;
+        vessel.existence = existed;
+        links.pop_back();
+        candidates.pop_back();
+        continue;
+      }
+      of_track.push_back(v);
+      concluded.push_back(chance.concluded);
+      none.push_back(1.0 - vessel.existence * chance.concluded);
     }
     const Marginals marginals = jointMarginals(none, links, look.detections);
     std::vector<double> taken(look.detections, 0.0);
@@ -564,43 +582,81 @@ class Tracker::Impl {
                                     [&](const TrackedVessel& v) { return v.mmsi == m.mmsi; });
     if (!m.hasPosition()) {
       if (known != vessels_.end()) {
-        known->takeDimensions(m);
+        learnOutline(*known, m);
       } else if (m.hasDimensions()) {
         remember(m);
       }
       return;
     }
-    const bool fits = known != vessels_.end() && fitsReport(stamp_s, m, *known);
-    if (known != vessels_.end() && !fits) {
+    const bool is_known = known != vessels_.end();
+    const bool fits = is_known && fitsReport(stamp_s, m, *known);
+    const bool begins_anew = is_known && !fits && isHersAlone(*known);
+    const bool stays = fits || begins_anew;
+    if (is_known && !stays) {
       // Something else is tracked there, for sensors saw it; it has no name.
       known->mmsi = 0;
       known->reported.reset();
       known->last_ais_s = kLongAgoS;
     }
-    TrackedVessel& vessel = fits ? *known : matching(stamp_s, m);
-    vessel.takeDimensions(m);
+    const int next_id = next_id_;
+    TrackedVessel& vessel = stays ? *known : matching(stamp_s, m);
+    const bool is_new = next_id_ != next_id;
+    learnOutline(vessel, m);
     vessel.mmsi = m.mmsi;
     vessel.sources |= kAis;
     vessel.last_s = vessel.last_ais_s = stamp_s;
     vessel.existence = 0.9999;
-    vessel.confirmed = true;
-    const bool lies = m.type == 21 ||
-                      ((m.status == 1 || m.status == 5 || m.status == 6) && m.type <= 3) ||
-                      m.speed_knots < kAnchoredKnots;
+    confirm(vessel);
+    // At anchor, moored or aground, as set by hand: forgotten by who makes way.
+    const bool said_to_lie = m.type <= 3 && (m.status == 1 || m.status == 5 || m.status == 6) &&
+                             !(m.speed_knots > kSlowKnots);
+    const bool lies = m.type == 21 || said_to_lie || m.speed_knots < kAnchoredKnots;
     vessel.keeps_place = lies;
-    if (std::isfinite(m.heading_deg)) {
-      vessel.heading_rad = radiansFromEast(m.heading_deg);
-    }
     vessel.reported = measured(m, vessel);
-    if (vessel.motion.stamp() < stamp_s) {
+    if (begins_anew) {
+      vessel.motion = MotionFilter(*vessel.reported, stamp_s);
+    } else if (!is_new) {
       vessel.motion.predict(stamp_s);
       vessel.motion.update(*vessel.reported);
     }
+    // Between reports she turns with her course, which current and wind set off her heading.
+    const bool has_heading = std::isfinite(m.heading_deg);
+    const std::optional<double> course = vessel.course();
+    vessel.leeway_rad = has_heading && course ? wrapAngle(*vessel.heading_rad - *course) : 0.0;
     vessel.followCourse();
     vessel.findPlace(stamp_s);
     if (m.type == 21 && !m.hasDimensions()) {
       vessel.length_m = vessel.beam_m = kAidDiameterM;
     }
+  }
+
+  // Nothing tells of her but what she says herself.
+  static bool isHersAlone(const TrackedVessel& vessel) { return (vessel.sources & ~kAis) == 0; }
+
+  // What a report says of her outline. Who is followed by reports alone has been followed where the
+  // receiver stands until dimensions and heading are known; from then on it is the middle.
+  static void learnOutline(TrackedVessel& vessel, const ais::Message& m) {
+    const Eigen::Vector2d before = vessel.middleFromReported();
+    vessel.takeDimensions(m);
+    if (!vessel.heading_rad) {
+      vessel.heading_rad = headingOf(m);
+    }
+    if (isHersAlone(vessel)) {
+      vessel.motion.shift(vessel.middleFromReported() - before);
+    }
+    if (std::isfinite(m.heading_deg)) {
+      vessel.heading_rad = ais::radiansFromEast(m.heading_deg);
+    }
+  }
+  // Reported, or the course of who makes way.
+  static std::optional<double> headingOf(const ais::Message& m) {
+    if (std::isfinite(m.heading_deg)) {
+      return ais::radiansFromEast(m.heading_deg);
+    }
+    if (m.speed_knots > kAnchoredKnots && std::isfinite(m.course_deg)) {
+      return ais::radiansFromEast(m.course_deg);
+    }
+    return std::nullopt;
   }
 
   // The outline's middle, and velocity where the report has one.
@@ -613,7 +669,7 @@ class Tracker::Impl {
       return positionMeasurement(middle, deviation);
     }
     const double speed = lies ? 0.0 : m.speed_knots * ais::kKnotMps;
-    const double course = lies ? 0.0 : radiansFromEast(m.course_deg);
+    const double course = lies ? 0.0 : ais::radiansFromEast(m.course_deg);
     const Eigen::Vector2d velocity = speed * unitVector(course);
     Measurement measurement;
     measurement.has_velocity = true;
@@ -625,9 +681,6 @@ class Tracker::Impl {
 
   [[nodiscard]] bool fitsReport(double stamp_s, const ais::Message& m,
                                 const TrackedVessel& vessel) const {
-    if ((vessel.sources & ~kAis) == 0) {
-      return true;  // nothing but what she says herself
-    }
     MotionFilter moved = vessel.motion;
     moved.predict(stamp_s);
     return moved.distance2(measured(m, vessel)) < kAisGate2;
@@ -641,6 +694,7 @@ class Tracker::Impl {
         fresh.takeDimensions(dimensions);
       }
     }
+    learnOutline(fresh, m);
     const Measurement measurement = measured(m, fresh);
     TrackedVessel* best = nullptr;
     double best_distance2 = kAisGate2;
@@ -655,7 +709,7 @@ class Tracker::Impl {
     }
     if (best != nullptr) {
       if (fresh.dimensions) {
-        best->takeDimensions(*fresh.dimensions);
+        learnOutline(*best, *fresh.dimensions);
       }
       return *best;
     }
@@ -696,7 +750,12 @@ class Tracker::Impl {
           TrackedVessel& goes = second.mmsi != 0 ? first : second;
           stays.sources |= goes.sources;
           stays.plots += goes.plots;
-          stays.confirmed = stays.confirmed || goes.confirmed;
+          // Her echoes, and what the map has been given of her, go with her.
+          moveTo(stays.unconfirmed_points, goes.unconfirmed_points);
+          moveTo(stays.is_mapped ? stays.mapped_points : ghosts_, goes.mapped_points);
+          if (stays.confirmed || goes.confirmed) {
+            confirm(stays);
+          }
           goes.existence = 0.0;
         }
       }
@@ -758,6 +817,16 @@ class Tracker::Impl {
     return unseen > kLostS;
   }
 
+  // What the map was given of her while she wasn't known is a ghost.
+  void confirm(TrackedVessel& vessel) {
+    vessel.confirmed = true;
+    moveTo(ghosts_, vessel.unconfirmed_points);
+  }
+  static void moveTo(std::vector<Eigen::Vector2d>& all, std::vector<Eigen::Vector2d>& points) {
+    all.insert(all.end(), points.begin(), points.end());
+    points.clear();
+  }
+
   // Confirms, drops, and tells of what is left.
   void judge(double now_s) {
     for (TrackedVessel& vessel : vessels_) {
@@ -772,10 +841,7 @@ class Tracker::Impl {
                             vessel.last_new_s >= vessel.last_s;
       const bool moves = vessel.has_moved && comes_in && now_s - vessel.first_s >= kFewestSeconds;
       if (!isTheLidarsAlone(vessel) || moves) {
-        vessel.confirmed = true;
-        verdict_.ghosts.insert(verdict_.ghosts.end(), vessel.unconfirmed_points.begin(),
-                               vessel.unconfirmed_points.end());
-        vessel.unconfirmed_points = {};
+        confirm(vessel);
       }
     }
     vessels_.erase(std::remove_if(vessels_.begin(), vessels_.end(),
@@ -796,9 +862,7 @@ class Tracker::Impl {
       if (vessel.is_mapped && (vessel.isUnderWay() || !vessel.liesStill(now_s, 0.0))) {
         vessel.is_mapped = false;
         vessel.stands_since_s = kLongAgoS;
-        verdict_.ghosts.insert(verdict_.ghosts.end(), vessel.mapped_points.begin(),
-                               vessel.mapped_points.end());
-        vessel.mapped_points = {};
+        moveTo(ghosts_, vessel.mapped_points);
       } else if (vessel.confirmed && !vessel.is_mapped && vessel.looked_s == now_s &&
                  vessel.liesStill(now_s, kMappedS) &&
                  std::max(vessel.length_m, vessel.beam_m) < kLongestMappedM) {
@@ -840,6 +904,7 @@ class Tracker::Impl {
   std::vector<ais::Message> known_dimensions_;
   std::vector<Track> tracks_;
   ScanVerdict verdict_;
+  std::vector<Eigen::Vector2d> ghosts_;  // since the last verdict, for the next one
   double radar_clutter_per_m2_ = kRadarClutterPerM2;
   bool crowded_ = false;  // around us
   int next_id_ = 1;

@@ -21,6 +21,9 @@ namespace otter_nav::ais {
 constexpr double kNotAvailable = std::numeric_limits<double>::quiet_NaN();
 constexpr double kKnotMps = 1852.0 / 3600.0;
 
+// A bearing of AIS's, clockwise from north, as an angle of the map, counter-clockwise from east.
+[[nodiscard]] double radiansFromEast(double degrees_from_north);
+
 // All fields of all types; a type carries some of them, the others keep their "not available".
 // Courses and headings are degrees clockwise from true north, WGS 84.
 struct Message {
@@ -65,6 +68,9 @@ struct Message {
   [[nodiscard]] bool hasDimensions() const {
     return to_bow_m + to_stern_m > 0 && to_port_m + to_starboard_m > 0;
   }
+  // Whether the dimensions tell where in the outline the position is: bow and port of 0 say that
+  // they don't.
+  [[nodiscard]] bool hasReferencePoint() const { return to_bow_m > 0 || to_port_m > 0; }
 };
 
 // The sentences of a message, without line ends: one, or as many as it needs. `sequence` (0 to 9)

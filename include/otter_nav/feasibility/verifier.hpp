@@ -1,6 +1,7 @@
 // Whole-trajectory verification: what leaves the planner as solved has passed this, and what the
 // vessel brakes or backs off along. Continuity, clearance and limits are checked along the whole
-// time, not at samples alone:
+// time, not at samples alone, but for the hull turned into the wind (checkLeaning), which is looked
+// at each 0.05 s:
 //   clearance  by the one walk (clearance_walk.hpp), with a bound of the speed on the piece (the
 //              control polygon of its velocity) for the hull's centre and the discs that cover it
 //   thrusts    through the flatness map in steps of `step_s`, each step widened by the parabola

@@ -16,7 +16,6 @@ class OtherVessels {
   // Moves all to where they are at `time_s`.
   void advance(double time_s);
 
-  [[nodiscard]] const std::vector<vessel::ScriptedVessel>& scripts() const { return scripts_; }
   [[nodiscard]] const std::vector<OtherVessel>& now() const { return now_; }
 
   // Distance, m, along the unit vector to the first outline within `range_m`, or infinity; 0 from

@@ -14,6 +14,8 @@ enum Source : std::uint32_t { kLidar = 1U, kRadar = 2U, kAis = 4U };
 // broad, where no heading is known.
 enum class Shape { kBox, kDisc };
 
+constexpr double kSteadyTurnS = 40.0;  // in which a turn that has been steady dies out
+
 // Map frame (ENU), SI units, angles counter-clockwise from east.
 struct Track {
   int id = 0;              // of the tracker; the same for the track's whole life
@@ -88,7 +90,6 @@ class PredictedPath {
   [[nodiscard]] const Track& track() const { return track_; }
   // Times on the mission's clock.
   [[nodiscard]] Outline at(double time_s) const;
-  [[nodiscard]] Eigen::Vector2d velocityAt(double time_s) const;
   // A lower bound of the distance to the outline, quickly: the circle around it.
   [[nodiscard]] double distanceBound(const Eigen::Vector2d& point, double time_s) const;
   // Nothing of the outline comes nearer to a fixed point faster than this, m/s.

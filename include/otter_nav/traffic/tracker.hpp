@@ -22,7 +22,7 @@
 namespace otter_nav::traffic {
 
 struct Options {
-  double radar_range_m = 145.0;  // nearer vessels ought to be seen
+  double radar_range_m = 145.0;  // who is nearer and not seen is doubted
   double radar_noise_m = 1.0;    // standard deviation, each axis
   ais::Datum datum;
 
@@ -53,7 +53,8 @@ class Tracker {
   Tracker(Tracker&&) noexcept;
   Tracker& operator=(Tracker&&) noexcept;
 
-  // The reference stays valid until the next scan.
+  // The reference stays valid, and what it refers to the same, until the next scan: what radar and
+  // AIS tell meanwhile is in that one's verdict.
   const ScanVerdict& addScan(double stamp_s, const map::SensorPose& sensor, const vessel::Pose& own,
                              const Scan& scan);
   // All positions seen at once, from a sensor at `own`.

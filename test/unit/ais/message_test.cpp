@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "ais/bits.hpp"
 #include "otter_nav/base/random.hpp"
 
 namespace otter_nav::ais {
@@ -284,6 +285,29 @@ TEST(AisDecoder, BearsNoise) {
     std::snprintf(tail, sizeof(tail), "*%02X", sum);
     (void)decoder.add("!" + body + tail);
   }
+}
+
+// From 360 on a bearing is none: not a full turn and some more. What rounds up to 360 is north.
+TEST(AisMessage, TakesNoBearingBeyondAFullTurn) {
+  BitWriter writer;
+  writer.number(405, 9);
+  writer.number(3700, 12);
+  writer.number(359, 9);
+  BitReader reader(writer.bits());
+  double heading = 0.0;
+  double course = 0.0;
+  double known = 0.0;
+  reader.bearing(heading, 9, 1.0, 511);
+  reader.bearing(course, 12, 0.1, 3600);
+  reader.bearing(known, 9, 1.0, 511);
+  EXPECT_TRUE(std::isnan(heading));
+  EXPECT_TRUE(std::isnan(course));
+  EXPECT_EQ(known, 359.0);
+  BitWriter north;
+  north.bearing(359.7, 9, 1.0, 511);
+  BitReader back(north.bits());
+  back.bearing(known, 9, 1.0, 511);
+  EXPECT_EQ(known, 0.0);
 }
 
 }  // namespace

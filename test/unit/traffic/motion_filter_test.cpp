@@ -86,6 +86,31 @@ TEST(MotionFilter, IsConsistent) {
   EXPECT_NEAR(mean, 4.0, half_band) << mean;
 }
 
+// So far off that every model's density is nothing at all: she stays where she was.
+TEST(MotionFilter, KeepsHerWhereNoModelExplainsWhatWasSeen) {
+  MotionFilter filter(at({300.0, 200.0}, 0.5), 0.0);
+  for (int k = 1; k <= 10; ++k) {
+    filter.predict(k);
+    filter.update(at({300.0 + k, 200.0}, 0.5));
+  }
+  const MotionState before = filter.state();
+  const MotionCovariance covariance = filter.covariance();
+  filter.update(at({5000.0, -3000.0}, 0.5));
+  EXPECT_LT((filter.state() - before).norm(), 1e-6);
+  EXPECT_LT((filter.covariance() - covariance).norm(), 1e-6);
+}
+
+// What counts is a probability: a straight way makes all other models improbable, down to a limit.
+TEST(MotionFilter, SharesOutWhatIsProbable) {
+  MotionFilter filter(at({300.0, 200.0}, 0.1), 0.0);
+  for (int k = 1; k <= 200; ++k) {
+    filter.predict(0.05 * k, 0.1);
+    filter.update(at({300.0 + 0.1 * k, 200.0}, 0.1));
+    // A mean of models that are all there is where they all are.
+    EXPECT_NEAR(filter.state().y(), 200.0, 1e-4);
+  }
+}
+
 TEST(MotionFilter, FollowsATurnAndTheLegAfterIt) {
   MotionFilter filter(at({0.0, 0.0}, 0.5), 0.0);
   const auto truth = [](double t) {

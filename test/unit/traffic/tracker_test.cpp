@@ -439,8 +439,8 @@ TEST(TrafficTracker, LeavesToTheMapWhatHasComeToRest) {
   EXPECT_FALSE(on_vessel);
 }
 
-std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double knots,
-                   double course) {
+ais::Message messageOf(std::uint32_t mmsi, const Eigen::Vector2d& position, double knots,
+                       double course) {
   const Eigen::Vector2d degrees = ais::LocalFrame(ais::Datum{}).toDegrees(position);
   ais::Message m;
   m.type = 18;
@@ -450,7 +450,14 @@ std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double k
   m.speed_knots = knots;
   m.course_deg = course;
   m.accurate = true;
+  return m;
+}
+std::string sentenceOf(const ais::Message& m) {
   return encode(m, 'A', 0).value().front();
+}
+std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double knots,
+                   double course) {
+  return sentenceOf(messageOf(mmsi, position, knots, course));
 }
 
 // Half a degree a beam.
@@ -462,6 +469,165 @@ Scan nothingMet() {
   scan.range_max_m = 25.0;
   scan.ranges_m.assign(720, std::numeric_limits<float>::infinity());
   return scan;
+}
+
+// Nobody sees her but her own receiver: where it says she is, she is, and nowhere in between.
+TEST(TrafficTracker, BeginsAnewWhereAReportHasHerFarAway) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  const double knots = 2.0 / ais::kKnotMps;
+  for (int k = 0; k <= 3; ++k) {
+    ASSERT_TRUE(tracker.addAis(30.0 * k, report(257000011, {60.0 * k, 500.0}, knots, 90.0)));
+  }
+  ASSERT_TRUE(tracker.addAis(120.0, report(257000011, {-900.0, -400.0}, knots, 90.0)));
+  ASSERT_EQ(tracker.tracks().size(), 1U);
+  EXPECT_EQ(tracker.tracks()[0].mmsi, 257000011U);
+  EXPECT_LT((tracker.tracks()[0].position - Eigen::Vector2d(-900.0, -400.0)).norm(), 0.5);
+}
+
+// A report of the same instant as what a sensor saw tells as well.
+TEST(TrafficTracker, TakesAReportOfTheInstantOfAScan) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  for (int k = 0; k < 20; ++k) {
+    tracker.addRadar(k, {{100.0 - 2.0 * k, 30.0}}, {0.0, 0.0});
+  }
+  const double before = tracker.tracks()[0].covariance.trace();
+  ASSERT_TRUE(tracker.addAis(19.0, report(257000012, {62.0, 30.0}, 2.0 / ais::kKnotMps, 270.0)));
+  ASSERT_EQ(tracker.tracks().size(), 1U);
+  EXPECT_LT(tracker.tracks()[0].covariance.trace(), 0.9 * before);
+}
+
+// The status is set by hand, and forgotten.
+TEST(TrafficTracker, BelievesASpeedBeforeAStatus) {
+  for (const double knots : {1.5, 5.0}) {
+    Tracker tracker(Options{}, {}, {2.0, 1.08});
+    ais::Message m = messageOf(257000013, {200.0, 30.0}, knots, 270.0);
+    m.type = 1;
+    m.status = 5;
+    ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(m)));
+    ASSERT_EQ(tracker.tracks().size(), 1U);
+    EXPECT_EQ(tracker.tracks()[0].keeps_place, knots < 2.0);
+  }
+}
+
+// What the radar sees of her who lies by her own report is no second vessel, nor is a buoy gone
+// that it doesn't see.
+TEST(TrafficTracker, TakesPlotsOfWhoKeepsHerPlaceForHers) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  ASSERT_TRUE(tracker.addAis(0.0, report(257000014, {80.0, 30.0}, 0.0, 0.0)));
+  ASSERT_TRUE(tracker.addAis(0.0, report(257000015, {80.0, -50.0}, 0.0, 0.0)));
+  Random random(3);
+  for (int k = 1; k <= 90; ++k) {
+    const double east = 80.0 + random.normal();  // the order of arguments is the compiler's
+    tracker.addRadar(k, {{east, 30.0 + random.normal()}}, {0.0, 0.0});
+    ASSERT_EQ(tracker.tracks().size(), 2U) << k;
+  }
+  EXPECT_TRUE(tracker.tracks()[0].keeps_place);
+  EXPECT_TRUE(tracker.tracks()[1].keeps_place);
+  EXPECT_EQ(tracker.tracks()[0].sources, kRadar | kAis);
+}
+
+// A radar that sees farther than it is said to: beyond that she is followed all the same.
+TEST(TrafficTracker, FollowsWhomTheRadarSeesBeyondItsRange) {
+  Options options;
+  options.radar_range_m = 60.0;
+  Tracker tracker(options, {}, {2.0, 1.08});
+  for (int k = 0; k <= 40; ++k) {
+    tracker.addRadar(k, {{100.0 - 2.0 * k, 30.0}}, {0.0, 0.0});
+    ASSERT_LE(tracker.tracks().size(), 1U) << k;
+    ASSERT_TRUE(k < 3 || tracker.tracks().size() == 1U) << k;
+  }
+  EXPECT_NEAR(tracker.tracks()[0].position.x(), 20.0, 1.0);
+  EXPECT_EQ(tracker.tracks()[0].id, 1);
+}
+
+// The receiver stands at the stern of forty metres: the middle is 20 m ahead of it, from the first
+// report on, or from when she says so.
+TEST(TrafficTracker, FollowsTheMiddleOfWhoReports) {
+  const double knots = 2.0 / ais::kKnotMps;
+  ais::Message dimensions;
+  dimensions.type = 24;
+  dimensions.part = 1;
+  dimensions.mmsi = 257000016;
+  dimensions.to_bow_m = 40;
+  dimensions.to_stern_m = 0;
+  dimensions.to_port_m = dimensions.to_starboard_m = 4;
+  for (const bool first : {true, false}) {
+    for (const bool has_heading : {true, false}) {
+      Tracker tracker(Options{}, {}, {2.0, 1.08});
+      ais::Message m = messageOf(257000016, {200.0, 30.0}, knots, 90.0);
+      m.heading_deg = has_heading ? 90.0 : ais::kNotAvailable;
+      if (first) {
+        ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(dimensions)));
+        ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(m)));
+      } else {
+        ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(m)));
+        ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(dimensions)));
+      }
+      ASSERT_EQ(tracker.tracks().size(), 1U);
+      EXPECT_NEAR(tracker.tracks()[0].position.x(), 220.0, 0.2) << first << has_heading;
+    }
+  }
+  // Bow and port of 0: how large she is, but not where in her the receiver stands.
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  dimensions.to_bow_m = dimensions.to_port_m = 0;
+  dimensions.to_stern_m = 40;
+  dimensions.to_starboard_m = 8;
+  ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(dimensions)));
+  ASSERT_TRUE(tracker.addAis(0.0, report(257000016, {200.0, 30.0}, knots, 90.0)));
+  ASSERT_EQ(tracker.tracks().size(), 1U);
+  EXPECT_NEAR((tracker.tracks()[0].position - Eigen::Vector2d(200.0, 30.0)).norm(), 0.0, 0.2);
+  EXPECT_EQ(tracker.tracks()[0].length_m, 40.0);
+}
+
+// Set across by a current she lies as she says, and not along her course.
+TEST(TrafficTracker, KeepsTheHeadingThatIsReported) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  for (int k = 0; k <= 10; ++k) {
+    ais::Message m = messageOf(257000017, {80.0 - 2.0 * k, 30.0}, 2.0 / ais::kKnotMps, 270.0);
+    m.heading_deg = 300.0;
+    ASSERT_TRUE(tracker.addAis(k, sentenceOf(m)));
+  }
+  tracker.addRadar(11.0, {{58.0, 30.0}}, {0.0, 0.0});
+  ASSERT_EQ(tracker.tracks().size(), 1U);
+  EXPECT_NEAR(wrapAngle(tracker.tracks()[0].heading_rad - ais::radiansFromEast(300.0)), 0.0, 0.05);
+}
+
+TEST(TrafficTracker, RefusesWhoHasNoIdentity) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  EXPECT_FALSE(tracker.addAis(0.0, report(0, {80.0, 30.0}, 2.0, 90.0)));
+  EXPECT_TRUE(tracker.tracks().empty());
+}
+
+// Whoever confirms a vessel that the lidar was in doubt of: where it met her is named by the next
+// scan.
+TEST(TrafficTracker, NamesWhatSheLeftWhoeverConfirmsHer) {
+  for (const bool reports : {false, true}) {
+    Tracker tracker(Options{}, {}, {2.0, 1.08});
+    map::SensorPose sensor;
+    sensor.position = {0.0, 0.0, 0.8};
+    const auto scanAt = [&](double t, bool met) {
+      Scan scan = nothingMet();
+      for (std::size_t i = 350; met && i < 371; ++i) {
+        scan.ranges_m[i] = 15.0F;
+      }
+      return tracker.addScan(t, sensor, {{0.0, 0.0}, 0.0}, scan).ghosts.size();
+    };
+    std::size_t named = 0;
+    for (int k = 0; k <= 20; ++k) {
+      named += scanAt(0.1 * k, k >= 18);
+    }
+    EXPECT_EQ(named, 0U);
+    ASSERT_TRUE(tracker.tracks().empty());
+    if (reports) {
+      ASSERT_TRUE(tracker.addAis(2.01, report(257000018, {15.0, 0.0}, 0.0, 0.0)));
+    } else {
+      for (int k = 1; k <= 3; ++k) {
+        tracker.addRadar(2.0 + 0.01 * k, {{15.0, 0.0}}, {0.0, 0.0});
+      }
+    }
+    ASSERT_EQ(tracker.tracks().size(), 1U) << reports;
+    EXPECT_GT(scanAt(2.1, true), 40U) << reports;
+  }
 }
 
 // Of a hull that just comes into range two beams may tell: hers too, not a thing that stands.
