@@ -234,10 +234,12 @@ class Decider final : public Supervisor {
     return vessel::speedOf(m.situation.state) > kMovingMps;
   }
   bool hasFault(const Moment& m) { return !faultOf(m).empty(); }
-  // What comes into the way would not be seen.
+  // What comes into the way would not be seen. A vessel whose map never had a scan sails by the
+  // chart.
   bool isBlind(const Moment& m) {
+    constexpr double kPatienceS = 2.0;
     const std::optional<double>& scanned_s = m.situation.scanned_s;
-    return scanned_s && m.now_s - *scanned_s > options_.map_timeout_s;
+    return scanned_s && m.now_s - *scanned_s > kPatienceS;
   }
   bool isCancelled(const Moment& /*m*/) { return cancelled_; }
   bool isSuspended(const Moment& /*m*/) { return suspended_.has_value(); }

@@ -59,7 +59,6 @@ struct SupervisorOptions {
   int stops_max = 8;
   double tracking_error_max_m = 1.2;
   double odometry_timeout_s = 1.0;
-  double map_timeout_s = 2.0;
   double arrival_distance_m = 0.9;
   double arrival_heading_rad = 0.15;
   double improve_period_s = 0.0;
@@ -88,10 +87,6 @@ struct SupervisorOptions {
         "up to 1.25 times the hull's length");
     fields("odometry_timeout_s", o.odometry_timeout_s, {0.05, 60.0},
            "older odometry stops the vessel");
-    fields(
-        "map_timeout_s", o.map_timeout_s, {0.2, 600.0},
-        "so long after the last scan came into the map the vessel stops; one whose map never had "
-        "any sails by the chart");
     fields("arrival_distance_m", o.arrival_distance_m, {0.01, 100.0},
            "arrived: within this of the goal,");
     fields("arrival_heading_rad", o.arrival_heading_rad, {0.01, 3.2}, "this heading, and slow");

@@ -277,7 +277,7 @@ TEST(Supervisor, StopsWhereNoScanComesIntoTheMapAnyMore) {
   for (; m.supervisor->phase() == Phase::kSailing && blind_s < 5.0; blind_s += 0.1) {
     EXPECT_FALSE(m.update(0.1).stop);
   }
-  EXPECT_NEAR(blind_s, m.options.map_timeout_s, 0.25);
+  EXPECT_NEAR(blind_s, 2.0, 0.25);
   EXPECT_EQ(m.supervisor->phase(), Phase::kStopping);
   EXPECT_NE(m.supervisor->reason().find("no scan"), std::string::npos);
   for (int k = 0; k < 100 && m.supervisor->phase() == Phase::kStopping; ++k) {
