@@ -52,7 +52,8 @@ done
 
 number='^[0-9]+([.][0-9]+)?$'
 [[ $mission =~ ^[0-9]+$ ]] || die "--mission must be a whole number from 0, got '$mission'"
-[[ $seed =~ ^[0-9]+$ ]] || die "--seed must be a whole number from 0, got '$seed'"
+[[ $seed =~ ^[0-9]{1,10}$ && $((10#$seed)) -le 2147483647 ]] ||
+  die "--seed must be a whole number from 0 to 2147483647, got '$seed'"
 [[ $speed =~ $number ]] || die "--speed must be a number from 0, got '$speed'"
 [ -f "$scenario" ] || die "--scenario: no file '$scenario'"
 [ -f "$vessel" ] || [ -f "$top/config/vessels/$vessel.yaml" ] ||

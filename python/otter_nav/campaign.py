@@ -1,5 +1,6 @@
 """Pages of campaigns: what mission_benchmark, planner_benchmark and tracking_benchmark wrote."""
 import glob
+import math
 import os
 import sys
 
@@ -13,6 +14,8 @@ from .table import Table
 from .vessel import share_folder
 
 _WORST = 4          # cases with pictures
+_FIGURES = ("tracking_error_mean_m", "tracking_error_max_m", "min_clearance_m", "duration_s", "replans",
+            "planning_ms_max", "tracker_ms_p99")  # of each mission
 _HISTOGRAMS = (("tracking_error_mean_m", "mean tracking error, m"),
                ("tracking_error_max_m", "largest tracking error, m"),
                ("min_clearance_m", "least clearance, m"),
@@ -60,6 +63,10 @@ def _gather(folder):
         if not isinstance(data, dict):
             continue
         if isinstance(data.get("missions"), list):
+            lacking = _lacking(data["missions"])
+            if lacking:
+                print(f"left out: {path}: {lacking}", file=sys.stderr)
+                continue
             missions += [(path, mission) for mission in data["missions"]]
         elif isinstance(data.get("cases"), list) and "summary" in data:
             plans.append((path, data))
@@ -69,6 +76,22 @@ def _gather(folder):
         raise RecordingError(f"{folder}: no result of mission_benchmark, planner_benchmark or "
                              "tracking_benchmark (--out) in it")
     return missions, plans, tracking
+
+
+def _lacking(missions):
+    """What the first mission that can't be counted lacks; empty if all can. Null: there was nothing
+    to measure."""
+    for k, mission in enumerate(missions):
+        if not isinstance(mission, dict):
+            return f"mission {k} is no mapping"
+        missing = [name for name in _FIGURES if not _is_figure(mission.get(name, ""))]
+        if missing:
+            return f"mission {k} has no number for {', '.join(missing)}"
+    return ""
+
+
+def _is_figure(value):
+    return value is None or (isinstance(value, (int, float)) and math.isfinite(value))
 
 
 class _Charts:

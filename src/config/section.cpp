@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "otter_nav/base/text.hpp"
@@ -15,6 +16,32 @@ std::string describe(const Range& range) {
 
 bool inside(double value, const Range& range) {
   return std::isfinite(value) && value >= range.min && value <= range.max;
+}
+
+// Refuses keys that are no text, and those given twice: yaml-cpp takes both, and of two the first.
+// `walked` says by their places what has been looked at: an alias leads back to it.
+Status checkKeys(const YAML::Node& node, std::set<int>& walked) {
+  if ((!node.IsMap() && !node.IsSequence()) || !walked.insert(node.Mark().pos).second) {
+    return {};
+  }
+  std::set<std::string> keys;
+  for (const auto& entry : node) {
+    if (node.IsMap()) {
+      const YAML::Node& key = entry.first;
+      const std::string place = "line " + std::to_string(key.Mark().line + 1) + ": ";
+      if (!key.IsScalar()) {
+        return failure(place + "a key has to be a text");
+      }
+      if (!keys.insert(key.Scalar()).second) {
+        return failure(place + "'" + key.Scalar() + "' is there twice");
+      }
+    }
+    const YAML::Node& value = node.IsMap() ? entry.second : entry;
+    if (Status below = checkKeys(value, walked); !below) {
+      return below;
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -176,7 +203,10 @@ Status Section::finish() const {
     return failure(first_error_);
   }
   for (const auto& entry : node_) {
-    const std::string key = entry.first.as<std::string>();
+    if (!entry.first.IsScalar()) {
+      return failure(where_ + ": a key has to be a text");
+    }
+    const std::string& key = entry.first.Scalar();
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
       return failure(where_ + ": unknown parameter '" + key + "'");
     }
@@ -189,6 +219,10 @@ Result<YAML::Node> loadFile(const std::string& path) {
     YAML::Node node = YAML::LoadFile(path);
     if (!node.IsMap()) {
       return failure(path + ": expected a YAML mapping");
+    }
+    std::set<int> walked;
+    if (const Status keys = checkKeys(node, walked); !keys) {
+      return failure(path + ": " + keys.error().message);
     }
     return node;
   } catch (const YAML::Exception& e) {

@@ -30,6 +30,10 @@ Result<SupervisorOptions> readSupervisorOptions(config::Section section) {
                    ": parameter 'critical_side_clearance_m' must not be above the last of "
                    "'side_clearances_m'");
   }
+  const encounter::Options& encounter = options->encounter;
+  if (encounter.outline_least_m > encounter.outline_wanted_m) {
+    return failure(where + "/encounter: parameter 'outline_least_m' is above 'outline_wanted_m'");
+  }
   if (const Status status = checkSpeedMax(options->speed_max_mps); !status) {
     return failure(where + ": " + status.error().message);
   }

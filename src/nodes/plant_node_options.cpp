@@ -26,7 +26,7 @@ Result<PlantNodeSetup> readPlantNodeSetup(config::Section section) {
   PlantNodeSetup setup;
   PlantNodeOptions& node = setup.node;
   const Status fields = config::readFields(section, node);
-  Result<plant::Options> plant = config::read<plant::Options>(section.child("plant"));
+  Result<plant::Options> plant = plant::readOptions(section.child("plant"));
   if (const Status status = firstFailure(section.finish(), fields, plant); !status) {
     return failure(status.error().message);
   }

@@ -3,6 +3,8 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace otter_nav::ros_bridge {
@@ -32,6 +34,15 @@ Result<Frames> readFrames() {
       return failure("parameter '" + key + "/" + name + "' is no name");
     }
     *frame->second = static_cast<std::string>(value);
+  }
+  for (auto frame = known.begin(); frame != known.end(); ++frame) {
+    const auto same = std::find_if(std::next(frame), known.end(), [&](const auto& other) {
+      return *other.second == *frame->second;
+    });
+    if (same != known.end()) {
+      return failure("parameter '" + key + "': " + frame->first + " and " + same->first +
+                     " are both '" + *frame->second + "', but need names of their own");
+    }
   }
   return frames;
 }

@@ -21,8 +21,11 @@ Result<planner::Options> loadPlannerOptions(const std::string& path) {
 
 Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string& disturbance) {
   const auto own = vessel::loadParameters(vessel);
-  const auto plant = config::findFile("config/plant.yaml").and_then(config::load<plant::Options>);
-  const auto preset = plant::loadDisturbance(disturbance);
+  const auto plant = own.and_then([&](const vessel::Parameters& parameters) {
+    return config::findFile("config/plant.yaml").and_then([&](const std::string& path) {
+      return plant::loadOptions(parameters, path, disturbance);
+    });
+  });
   const auto planner = config::findFile("config/planner.yaml").and_then(loadPlannerOptions);
   const auto tracker =
       config::findFile("config/tracker.yaml").and_then(config::load<tracker::Options>);
@@ -31,16 +34,13 @@ Result<LoopOptions> loadLoopOptions(const std::string& vessel, const std::string
       config::findFile("config/mission.yaml").and_then(mission::loadSupervisorOptions);
   const auto traffic =
       config::findFile("config/traffic.yaml").and_then(config::load<traffic::Options>);
-  if (const Status status =
-          firstFailure(own, plant, preset, planner, tracker, map, supervisor, traffic);
+  if (const Status status = firstFailure(own, plant, planner, tracker, map, supervisor, traffic);
       !status) {
     return failure(status.error().message);
   }
   LoopOptions o;
   o.vessel = *own;
   o.plant = *plant;
-  o.plant.vessel = *own;
-  o.plant.disturbance = *preset;
   o.planner = *planner;
   o.tracker = *tracker;
   o.map = *map;

@@ -6,8 +6,12 @@
 namespace otter_nav::vessel {
 
 Result<Parameters> readParameters(config::Section section) {
+  const std::string where = section.where();
   const bool has_manoeuvring = section.has("manoeuvring_model");
   Result<Parameters> parameters = config::read<Parameters>(std::move(section));
+  if (parameters && parameters->name.empty()) {
+    return failure(where + ": parameter 'name' is empty");
+  }
   if (parameters && !has_manoeuvring) {
     parameters->manoeuvring = ManoeuvringModel::fromPaper(parameters->paper);
   }

@@ -1,5 +1,6 @@
 """Pages made of recordings: self-contained, readable by a parser, and their figures beside them."""
 import html.parser
+import io
 import json
 import os
 import re
@@ -126,6 +127,7 @@ class ReportTest(unittest.TestCase):
         self.assertAlmostEqual(figures["missions"]["tracking_error_max_m"], 0.3)
         self.assertIn("no way <left>", " ".join(page.text))
 
+<<<<<<< HEAD
     def test_campaign_with_a_mission_of_which_nothing_was_measured(self):
         path = synthetic.write_result(self.folder, 2)
         with open(path) as file:
@@ -134,6 +136,27 @@ class ReportTest(unittest.TestCase):
         with open(path, "w") as file:
             json.dump(result, file)
         self.make("--campaign", self.folder)
+=======
+    def test_campaign_leaves_out_missions_without_figures(self):
+        good = synthetic.write_result(self.folder, 2)
+        with open(good) as file:
+            whole = json.load(file)["missions"]
+        bad = {"other.json": ([{"scenario": 3}], "tracking_error_mean_m, tracking_error_max_m"),
+               "half.json": ([whole[0], {**whole[1], "replans": "few"}], "mission 1 has no number for replans"),
+               "nan.json": ([{**whole[0], "duration_s": float("nan")}], "duration_s"),
+               "list.json": ([3], "mission 0 is no mapping")}
+        for name, (missions, _) in bad.items():
+            with open(os.path.join(self.folder, name), "w") as file:
+                json.dump({"missions": missions}, file)
+        with mock.patch("sys.stderr", new_callable=io.StringIO) as told:
+            _, _, figures = self.make("--campaign", self.folder)
+        self.assertEqual(figures["missions"]["count"], 2)
+        lines = told.getvalue().splitlines()
+        for name, (_, missing) in bad.items():
+            line = [line for line in lines if os.path.join(self.folder, name) in line]
+            self.assertEqual(len(line), 1, lines)
+            self.assertIn(missing, line[0])
+>>>>>>> wE
 
     def test_campaign_of_benchmarks(self):
         dumps = ["", "t,x,y,u,v\n", "t,x,y,u,v\n0,0,0,0,0\n"]

@@ -42,15 +42,18 @@ def parameters(node):
 
 class Parameters(unittest.TestCase):
     def outcome(self, node, values):
-        """Exit code and output of the node started with the parameters under a name of its own."""
+        """Output of the node started with the parameters under a name of its own."""
         name = f"{node}_{self._testMethodName}"
         with tempfile.NamedTemporaryFile("w", suffix=".launch") as launch:
             launch.write(f'<launch><node pkg="otter_nav" type="{node}" name="{name}" '
                          'output="screen" required="true"><rosparam>\n'
                          f"{yaml.safe_dump(values)}</rosparam></node></launch>")
             launch.flush()
-            run = subprocess.run(["roslaunch", launch.name], timeout=PATIENCE_S, text=True,
-                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+            return self.launched(launch.name)
+
+    def launched(self, path):
+        run = subprocess.run(["roslaunch", path], timeout=PATIENCE_S, text=True,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         return run.stdout
 
     def assert_refused(self, node, change, *words):
@@ -102,6 +105,17 @@ class Parameters(unittest.TestCase):
                                                 "paced": []})
         self.assertIn("'odom,scan'", output)
         self.assertNotIn("InvalidName", output)
+
+    def test_frames_of_the_same_name(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".launch") as launch:
+            launch.write('<launch><group ns="crowded"><rosparam param="frames">'
+                         "{map: a, odom: world_odom, base: a}</rosparam>"
+                         '<node pkg="otter_nav" type="topology_node" name="topology_node" '
+                         'output="screen" required="true"/></group></launch>')
+            launch.flush()
+            output = self.launched(launch.name)
+        self.assertIn("exit code 1", output)
+        self.assertIn("'/crowded/frames': base and map are both 'a'", output)
 
     def test_unknown_vessel_and_disturbance(self):
         self.assert_refused("tracker_node", lambda v: v.update(vessel="raft"), "raft")

@@ -221,6 +221,8 @@ struct Options {
 
 // Reads config/disturbances/NAME.yaml or another file.
 [[nodiscard]] Result<EnvironmentOptions> loadDisturbance(const std::string& name_or_path);
+// config/plant.yaml: the vessel and the disturbance are left as they are.
+[[nodiscard]] Result<Options> readOptions(config::Section section);
 // The vessel, config/plant.yaml from `plant_yaml`, and the preset from `disturbance_yaml`.
 [[nodiscard]] Result<Options> loadOptions(const vessel::Parameters& vessel,
                                           const std::string& plant_yaml,

@@ -15,7 +15,8 @@ struct Frames {
   std::string lidar = "lidar";
 };
 
-// Those that are not set have the names above. An error names what is no frame or no name.
+// Those that are not set have the names above. An error names what is no frame, no name,
+// or the name of two.
 [[nodiscard]] Result<Frames> readFrames();
 
 // As they were when the process first asked.

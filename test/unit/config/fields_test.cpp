@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 namespace otter_nav::config {
 namespace {
 
@@ -74,6 +77,29 @@ TEST(Fields, RefuseByName) {
   EXPECT_NE(message(replaced(good, "  count: 3", "  number: 3")).find("'count' is missing"),
             std::string::npos);
   EXPECT_NE(message(good + "extra: 1\n").find("unknown parameter 'extra'"), std::string::npos);
+  EXPECT_NE(message(good + "? [a]\n: 1\n").find("outer.yaml: a key has to be a text"),
+            std::string::npos);
+}
+
+TEST(Files, AreRefusedByTheLineOfAWrongKey) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / "otter_nav_wrong_keys.yaml";
+  const auto message = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    const Result<YAML::Node> node = loadFile(path.string());
+    return node ? std::string("accepted") : node.error().message;
+  };
+  const std::string at = path.string() + ": line ";
+  EXPECT_EQ(message("a: 1\nb: 2\na: 3\n"), at + "3: 'a' is there twice");
+  EXPECT_EQ(message("a: {b: 1,\n  b: 1}\n"), at + "2: 'b' is there twice");
+  EXPECT_EQ(message("a:\n- - b: 1\n    c: 2\n    \"b\": 1\n"), at + "4: 'b' is there twice");
+  EXPECT_EQ(message("a: 1\n? [1, 2]\n: 3\n"), at + "2: a key has to be a text");
+  EXPECT_EQ(message("[a]: 1\n"), at + "1: a key has to be a text");
+  EXPECT_EQ(message("a:\n  - {? {b: 1} : 2}\n"), at + "2: a key has to be a text");
+  EXPECT_EQ(message("~: 1\n"), at + "1: a key has to be a text");
+  EXPECT_EQ(message("a: {c: 1}\nb: {c: 1, d: [{c: 1}, {c: 1}]}\n"), "accepted");
+  EXPECT_EQ(message("a: &x [*x, *x]\nb: *x\n"), "accepted");  // and walked once
+  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -151,6 +151,8 @@ TEST_F(ChartTest, YamlErrorsNameTheFileAndTheKey) {
   fault("free_thresh: 0.196", "free_thresh: 0.8", "'free_thresh'");
   fault("negate: 0", "negate: 0\nmode: raw", "'mode'");
   fault("negate: 0", "negate: 0\ncolour: 1", "unknown parameter 'colour'");
+  fault("negate: 0", "negate: 0\nresolution: 0.1", "'resolution' is there twice");
+  fault("negate: 0", "negate: 0\n? [1, 2]\n: 3", "a key has to be a text");
   fault("image: chart.pgm", "image: gone.pgm", "gone.pgm: no such file");
   fault("image: chart.pgm", "- [", "chart.yaml");
   EXPECT_FALSE(loadChart((folder_ / "absent.yaml").string()));

@@ -146,6 +146,12 @@ TEST(Options, ShippedFileLoads) {
   YAML::Node broken = YAML::Clone((*root)["supervisor"]);
   broken["side_clearances_m"] = std::vector<double>{0.3, 0.4, 0.7, 1.1};
   EXPECT_FALSE(readSupervisorOptions(config::Section(broken, "broken")).has_value());
+  broken = YAML::Clone((*root)["supervisor"]);
+  broken["encounter"]["outline_least_m"] = 11.0;
+  const auto contradicting = readSupervisorOptions(config::Section(broken, "broken"));
+  ASSERT_FALSE(contradicting.has_value());
+  EXPECT_EQ(contradicting.error().message,
+            "broken/encounter: parameter 'outline_least_m' is above 'outline_wanted_m'");
 }
 
 // With `beside_m` of water on either side of the hull, 80 m before the goal; the waves are not

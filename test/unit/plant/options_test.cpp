@@ -78,7 +78,7 @@ TEST(PlantOptions, PresetsAreWhatTheyAreNamedFor) {
 }
 
 void expectError(const YAML::Node& node, const std::string& word) {
-  const Result<Options> options = config::read<Options>({node, "plant.yaml"});
+  const Result<Options> options = readOptions({node, "plant.yaml"});
   ASSERT_FALSE(options);
   EXPECT_NE(options.error().message.find(word), std::string::npos) << options.error().message;
 }
@@ -97,6 +97,10 @@ TEST(PlantOptions, BadValuesAreNamed) {
   node = shipped();
   node["command_timeout_s"] = "soon";
   expectError(node, "command_timeout_s");
+  node = shipped();
+  node["lidar"]["range_min_m"] = 8.0;
+  node["lidar"]["range_max_m"] = 8.0;
+  expectError(node, "plant.yaml/lidar: parameter 'range_min_m' is not below 'range_max_m'");
 }
 
 TEST(PlantOptions, BadWavesAndVesselsAreNamed) {

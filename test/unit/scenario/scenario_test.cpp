@@ -79,6 +79,11 @@ TEST_F(ScenarioFile, NamesWhatIsWrong) {
   expectError(head + "missions:\n  - {kind: local, start: [1, 2, 0]}\n", "'goal'");
   expectError(head + "missions:\n  - {kind: local, start: [1, 2, 0], goal: [1, 2, 0], via: 1}\n",
               "'via'");
+  expectError(head + "? [1, 2]\n: 3\n" + kMission, "test.yaml: line 3: a key");
+  expectError(head + kMission + kMission, "test.yaml: line 5: 'missions' is there twice");
+  expectError(
+      head + "missions:\n  - {kind: local, start: [1, 2, 0], goal: [1, 2, 0], start: [0, 0, 0]}\n",
+      "'start' is there twice");
   expectError("[1, 2", "test.yaml");
   EXPECT_FALSE(loadScenario((folder_ / "absent.yaml").string()).has_value());
 }

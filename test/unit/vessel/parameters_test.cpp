@@ -88,6 +88,8 @@ TEST(LoadParameters, NamesTheOffender) {
   EXPECT_NE(message("m1_kg: 35", "m1_kg: .nan").find("allowed range"), std::string::npos);
   EXPECT_NE(message("m1_kg: 35", "m1_kg: heavy").find("not a number"), std::string::npos);
   EXPECT_NE(message("m1_kg: 35", "m_kg: 35").find("'m1_kg' is missing"), std::string::npos);
+  EXPECT_NE(message("name: \"otter_gazebo\"", "name: \"\"").find("'name' is empty"),
+            std::string::npos);
   EXPECT_NE(message("hull:", "colour: red\nhull:").find("unknown parameter 'colour'"),
             std::string::npos);
 }
