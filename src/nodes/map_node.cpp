@@ -256,6 +256,11 @@ void MapNode::publishUpdate(map::CellRectangle changed, const ros::Time& stamp) 
 }
 
 bool MapNode::onSave(SaveMap::Request& request, SaveMap::Response& response) {
+  if (request.path.empty()) {
+    response.success = 0;
+    response.message = "the path is empty";
+    return true;
+  }
   // A relative path is one in this node's folder, which under roslaunch is ~/.ros.
   const std::string path = std::filesystem::absolute(request.path).string();
   const Status status = map_.save(path);
@@ -266,7 +271,7 @@ bool MapNode::onSave(SaveMap::Request& request, SaveMap::Response& response) {
 
 bool MapNode::onReset(std_srvs::Trigger::Request& /*request*/,
                       std_srvs::Trigger::Response& response) {
-  publishUpdate(map_.reset(), last_scan_.isZero() ? ros::Time::now() : last_scan_);
+  publishUpdate(map_.reset(), last_scan_);
   response.success = 1;
   response.message = "what was sensed is forgotten; the chart stays";
   return true;

@@ -122,6 +122,7 @@ class PlannerNode {
   void decideInTurn();
   void decide();
   void execute(const mission::Orders& orders);
+  void noteScan(const ros::Time& stamp);
   // What follows from the supervisor's phase: results of the goal, status, acknowledgement.
   void settle();
   void checkInputs();
@@ -240,9 +241,16 @@ void PlannerNode::onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message)
     if (const auto changed = map_.take(*message); !changed) {
       diagnostics_.refuse("map_updates", changed.error().message);
     } else {
-      scanned_s_ = message->header.stamp.toSec();
+      noteScan(message->header.stamp);
     }
     decide();
+  }
+}
+
+// Zero: what changed came from no scan.
+void PlannerNode::noteScan(const ros::Time& stamp) {
+  if (!stamp.isZero()) {
+    scanned_s_ = stamp.toSec();
   }
 }
 
@@ -308,7 +316,7 @@ void PlannerNode::decideInTurn() {
     if (const auto changed = map_.take(*updates_.front()); !changed) {
       diagnostics_.refuse("map_updates", changed.error().message);
     } else {
-      scanned_s_ = stamp.toSec();
+      noteScan(stamp);
     }
     updates_.pop_front();
     unacknowledged_ = stamp;

@@ -3,7 +3,9 @@
 #include <std_msgs/String.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -36,18 +38,29 @@ std::string nameOf(const std::string& path) {
   return isIndex(parts.back()) ? parts[parts.size() - 2] + '_' + parts.back() : parts.back();
 }
 
+// Of a list of `size`; nothing where it has no such one.
+std::optional<int> indexIn(const std::string& part, int size) {
+  int index = 0;
+  const char* end = part.data() + part.size();
+  const auto [read, error] = std::from_chars(part.data(), end, index);
+  const bool is_one = error == std::errc() && read == end && index >= 0 && index < size;
+  return is_one ? std::optional<int>(index) : std::nullopt;
+}
+
 // Null where there is none.
 XmlRpcValue* find(XmlRpcValue& tree, const std::string& path) {
   XmlRpcValue* at = &tree;
   for (const std::string& part : partsOf(path)) {
     if (at->getType() == XmlRpcValue::TypeStruct && at->hasMember(part)) {
       at = &(*at)[part];
-    } else if (at->getType() == XmlRpcValue::TypeArray && isIndex(part) &&
-               std::stoi(part) < at->size()) {
-      at = &(*at)[std::stoi(part)];
-    } else {
+      continue;
+    }
+    const bool is_list = at->getType() == XmlRpcValue::TypeArray;
+    const std::optional<int> index = is_list ? indexIn(part, at->size()) : std::nullopt;
+    if (!index) {
       return nullptr;
     }
+    at = &(*at)[*index];
   }
   return at;
 }

@@ -86,6 +86,11 @@ class Live(unittest.TestCase):
         self.assertTrue(self.until(lambda: any("'speed_max_mps'" in line and "no effect" in line
                                                and "supervisor/speed_max_mps" in line for line in self.log)),
                         self.log[-5:])
+        # In place of a list, under an index that is none: said, and sailed on.
+        rospy.set_param("planner_node/supervisor/side_clearances_m/99999999999", 0.1)
+        self.assertTrue(self.until(lambda: any("side_clearances_m/99999999999" in line for line in self.log)),
+                        self.log[-5:])
+        self.assertEqual(client.update_configuration({"speed_max_mps": 1.3})["speed_max_mps"], 1.3)
         weights = Client("tracker_node", timeout=30)
         self.assertEqual(weights.update_configuration({"position": 150.0})["position"], 150.0)
 

@@ -101,6 +101,10 @@ TEST_F(MapNode, PublishesItsChartAddsEchoesSavesAndResets) {
   const auto saved = map::loadChart(save.request.path);
   ASSERT_TRUE(saved.has_value());
   EXPECT_EQ(cellAhead(*saved), map::Cell::kOccupied);
+  save.request.path = "";
+  ASSERT_TRUE(ros::service::call("map_node/save", save));
+  EXPECT_FALSE(save.response.success);
+  EXPECT_EQ(save.response.message, "the path is empty");
   save.request.path = "/nowhere/map.yaml";
   ASSERT_TRUE(ros::service::call("map_node/save", save));
   EXPECT_FALSE(save.response.success);

@@ -51,6 +51,8 @@ TEST(TracksMessage, IsRefusedForAnyFigureThatMakesNoSense) {
   EXPECT_TRUE(refuses([&](Track& one) { one.met_deviation = infinite; }));
   EXPECT_TRUE(refuses([&](Track& one) { one.existence = std::nan(""); }));
   EXPECT_TRUE(refuses([&](Track& one) { one.existence = 1.5; }));
+  EXPECT_TRUE(refuses([&](Track& one) { one.velocity.x = 1e300; }));
+  EXPECT_TRUE(refuses([&](Track& one) { one.length = 1e6; }));
 }
 
 // A hull along x, 5 m by 2 m.
