@@ -122,12 +122,14 @@ std::vector<Other> Lookout::others(const map::DistanceField& field) const {
   }
   if (others.size() > kMostOthers) {
     std::vector<std::pair<double, std::size_t>> near;  // by how near they may come soon
+    near.reserve(others.size());
     for (std::size_t k = 0; k < others.size(); ++k) {
       near.emplace_back(comesWithin(own_, others[k]), k);
     }
     std::sort(near.begin(), near.end());
     near.resize(kMostOthers);
     std::vector<Other> nearest;
+    nearest.reserve(near.size());
     for (const auto& [distance_m, k] : near) {
       nearest.push_back(std::move(others[k]));
     }
