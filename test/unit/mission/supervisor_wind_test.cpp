@@ -1035,7 +1035,7 @@ TEST(SupervisorInWind, DoesNotTurnRoundAtTheGoalWhereStrongWindVeers) {
 }
 
 // A new goal at the same place, the other way round: what the old plan gave up is nothing to it.
-TEST(SupervisorInWind, TurnsRoundForANewGoalAtThePlaceOfTheOld) {
+TEST(SupervisorInWind, TurnsRoundForANewGoalWhereTheOldOneWas) {
   ScriptedMission mission = inWind(-8.0);
   mission.rest.x() = 0.0;
   const auto orders = mission.goTo({20.0, 0.0});

@@ -452,12 +452,12 @@ ais::Message messageOf(std::uint32_t mmsi, const Eigen::Vector2d& position, doub
   m.accurate = true;
   return m;
 }
-std::string sentenceOf(const ais::Message& m) {
+std::string aisSentence(const ais::Message& m) {
   return encode(m, 'A', 0).value().front();
 }
 std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double knots,
                    double course) {
-  return sentenceOf(messageOf(mmsi, position, knots, course));
+  return aisSentence(messageOf(mmsi, position, knots, course));
 }
 
 // Half a degree a beam.
@@ -503,7 +503,7 @@ TEST(TrafficTracker, BelievesASpeedBeforeAStatus) {
     ais::Message m = messageOf(257000013, {200.0, 30.0}, knots, 270.0);
     m.type = 1;
     m.status = 5;
-    ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(m)));
+    ASSERT_TRUE(tracker.addAis(0.0, aisSentence(m)));
     ASSERT_EQ(tracker.tracks().size(), 1U);
     EXPECT_EQ(tracker.tracks()[0].keeps_place, knots < 2.0);
   }
@@ -557,11 +557,11 @@ TEST(TrafficTracker, FollowsTheMiddleOfWhoReports) {
       ais::Message m = messageOf(257000016, {200.0, 30.0}, knots, 90.0);
       m.heading_deg = has_heading ? 90.0 : ais::kNotAvailable;
       if (first) {
-        ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(dimensions)));
-        ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(m)));
+        ASSERT_TRUE(tracker.addAis(0.0, aisSentence(dimensions)));
+        ASSERT_TRUE(tracker.addAis(0.0, aisSentence(m)));
       } else {
-        ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(m)));
-        ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(dimensions)));
+        ASSERT_TRUE(tracker.addAis(0.0, aisSentence(m)));
+        ASSERT_TRUE(tracker.addAis(0.0, aisSentence(dimensions)));
       }
       ASSERT_EQ(tracker.tracks().size(), 1U);
       EXPECT_NEAR(tracker.tracks()[0].position.x(), 220.0, 0.2) << first << has_heading;
@@ -572,7 +572,7 @@ TEST(TrafficTracker, FollowsTheMiddleOfWhoReports) {
   dimensions.to_bow_m = dimensions.to_port_m = 0;
   dimensions.to_stern_m = 40;
   dimensions.to_starboard_m = 8;
-  ASSERT_TRUE(tracker.addAis(0.0, sentenceOf(dimensions)));
+  ASSERT_TRUE(tracker.addAis(0.0, aisSentence(dimensions)));
   ASSERT_TRUE(tracker.addAis(0.0, report(257000016, {200.0, 30.0}, knots, 90.0)));
   ASSERT_EQ(tracker.tracks().size(), 1U);
   EXPECT_NEAR((tracker.tracks()[0].position - Eigen::Vector2d(200.0, 30.0)).norm(), 0.0, 0.2);
@@ -585,7 +585,7 @@ TEST(TrafficTracker, KeepsTheHeadingThatIsReported) {
   for (int k = 0; k <= 10; ++k) {
     ais::Message m = messageOf(257000017, {80.0 - 2.0 * k, 30.0}, 2.0 / ais::kKnotMps, 270.0);
     m.heading_deg = 300.0;
-    ASSERT_TRUE(tracker.addAis(k, sentenceOf(m)));
+    ASSERT_TRUE(tracker.addAis(k, aisSentence(m)));
   }
   tracker.addRadar(11.0, {{58.0, 30.0}}, {0.0, 0.0});
   ASSERT_EQ(tracker.tracks().size(), 1U);
