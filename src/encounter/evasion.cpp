@@ -107,7 +107,6 @@ Aim aimOf(const Evasion::Task& task, const map::DistanceField& still, double bes
 Danger dangerOf(const Foretold::Nearness& worst) {
   Danger danger;
   danger.gap_m = worst.gap_m;
-  danger.probable = worst.danger;
   return danger;
 }
 
@@ -240,7 +239,6 @@ Danger Evasion::danger(const trajectory::TimedTrajectory& path, double from_s, d
   walk(path, from_s, foretold.steps(), vessel_, [&](const Hull& hull, int k) {
     const Foretold::Nearness nearness = foretold.at(hull.position, hull.ahead, k, all);
     danger.gap_m = std::min(danger.gap_m, nearness.gap_m);
-    danger.probable = std::max(danger.probable, nearness.danger);
   });
   return danger;
 }
@@ -254,7 +252,6 @@ Danger Evasion::danger(const vessel::Pose& lies, double from_s, double ahead_s,
     const Foretold::Nearness nearness =
         foretold.at(lies.position, unitVector(lies.psi_rad), k, all);
     danger.gap_m = std::min(danger.gap_m, nearness.gap_m);
-    danger.probable = std::max(danger.probable, nearness.danger);
   }
   return danger;
 }

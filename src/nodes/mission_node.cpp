@@ -59,19 +59,6 @@ constexpr double kArrivalSlackRad = 0.025;
 constexpr char kPlannerOptions[] = "planner_node/supervisor/";
 constexpr char kPlannerService[] = "planner_node/set_parameters";
 
-// Of wall time: ROS time may stand still meanwhile.
-bool waitForService(const char* name) {
-  constexpr double kPatienceS = 5.0;
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatienceS);
-  while (ros::ok() && ros::WallTime::now() < end) {
-    if (ros::service::exists(name, false)) {
-      return true;
-    }
-    ros::WallDuration(0.05).sleep();
-  }
-  return false;
-}
-
 // Whether roslaunch started this process: it is asked to end the launch, as by Ctrl-C.
 bool isUnderRoslaunch() {
   std::ifstream file("/proc/" + std::to_string(getppid()) + "/cmdline");
@@ -292,7 +279,9 @@ Status MissionNode::limitSpeed() {
   call.request.config.doubles[0].name = "speed_max_mps";
   call.request.config.doubles[0].value = *mission_.speed_mps;
   const std::string why = "the mission's speed limit can't be set";
-  if (!waitForService(kPlannerService) || !ros::service::call(kPlannerService, call)) {
+  constexpr double kPatienceS = 5.0;  // of wall time
+  if (!ros::service::waitForService(kPlannerService, ros::Duration(kPatienceS)) ||
+      !ros::service::call(kPlannerService, call)) {
     return failure(why + ": no answer from " + kPlannerService);
   }
   for (const auto& number : call.response.config.doubles) {

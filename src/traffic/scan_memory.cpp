@@ -17,8 +17,7 @@ constexpr std::uint8_t kSeenFree = 5;  // scans
 constexpr std::int32_t kNewForMs = 3000;
 constexpr std::int32_t kUnknownForMs = 600;   // the same where nobody knows whether it was free
 constexpr std::int32_t kFreeHoldsMs = 20000;  // what was free so long ago says nothing
-constexpr std::int32_t kEchoHoldsMs =
-    1000;  // what was met so long ago doesn't stand there any more
+constexpr std::int32_t kEchoHoldsMs = 1000;   // what was met so long ago stands there no more
 
 // Of negative ones too, for the side is a power of two.
 static_assert((kSide & (kSide - 1)) == 0);

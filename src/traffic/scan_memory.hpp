@@ -27,8 +27,7 @@ class ScanMemory {
  private:
   // Times are since the first scan: a float of an epoch clock would not tell scans apart.
   struct Cell {
-    std::int32_t met_since_ms =
-        -1;  // the first echo of those that have been met in a row; < 0: none
+    std::int32_t met_since_ms = -1;  // the first echo of those met in a row; < 0: none
     std::int32_t met_last_ms = -1;
     std::int32_t free_last_ms = -1;
     std::uint8_t free_count = 0;  // in a row, before the echoes

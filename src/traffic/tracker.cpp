@@ -598,9 +598,9 @@ class Tracker::Impl {
       known->reported.reset();
       known->last_ais_s = kLongAgoS;
     }
-    const int next_id = next_id_;
+    const std::size_t were = vessels_.size();
     TrackedVessel& vessel = stays ? *known : matching(stamp_s, m);
-    const bool is_new = next_id_ != next_id;
+    const bool is_new = vessels_.size() > were;
     learnOutline(vessel, m);
     vessel.mmsi = m.mmsi;
     vessel.sources |= kAis;

@@ -21,8 +21,7 @@ class Habits;
 
 // How near others come, as far as their tracks tell.
 struct Danger {
-  double gap_m = 1e3;     // the least between the outlines; negative: contact
-  double probable = 0.0;  // about how probable contact is, where it is most
+  double gap_m = 1e3;  // the least between the outlines; negative: contact
 };
 
 class Evasion {

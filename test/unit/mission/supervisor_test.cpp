@@ -929,6 +929,18 @@ TEST(Supervisor, DoesNotPlanFromARestBeyondWhatIsInTheWay) {
 }
 
 // Behind a slow vessel in a channel: whatever was decided about her, something else can begin soon.
+// 6 m of a vessel that goes east at 1 m/s, from x = -84 m on.
+traffic::Track slowerAhead(double stamp_s, double began_s) {
+  traffic::Track track;
+  track.id = 1;
+  track.stamp_s = stamp_s;
+  track.velocity = {1.0, 0.0};
+  track.position = {-84.0 + stamp_s - began_s, 0.0};
+  track.length_m = 6.0;
+  track.beam_m = 2.0;
+  return track;
+}
+
 TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
   constexpr double kBeginsMps = 0.4;
   map::OccupancyGrid water = test::openWater(300.0);
@@ -944,14 +956,7 @@ TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
   double bound_s = 0.0;
   const double began_s = mission.now_s;
   for (int k = 0; k < 300; ++k) {
-    traffic::Track track;
-    track.id = 1;
-    track.stamp_s = mission.now_s + 0.1;
-    track.velocity = {1.0, 0.0};
-    track.position = {-84.0 + track.stamp_s - began_s, 0.0};
-    track.length_m = 6.0;
-    track.beam_m = 2.0;
-    mission.tracks = {track};
+    mission.tracks = {slowerAhead(mission.now_s + 0.1, began_s)};
     const int before = mission.supervisor->replans().all;
     (void)mission.update(0.1);
     made += mission.supervisor->replans().all - before;
@@ -982,14 +987,7 @@ TEST(Supervisor, MakesWayOnAPartOfTheWay) {
   for (int k = 0; k < 4000 && m.supervisor->phase() != Phase::kStopped; ++k) {
     m.tracks.clear();
     if (k < 300) {
-      traffic::Track track;
-      track.id = 1;
-      track.stamp_s = m.now_s + 0.1;
-      track.velocity = {1.0, 0.0};
-      track.position = {-84.0 + track.stamp_s - began_s, 0.0};
-      track.length_m = 6.0;
-      track.beam_m = 2.0;
-      m.tracks = {track};
+      m.tracks = {slowerAhead(m.now_s + 0.1, began_s)};
     }
     for (Orders asked = m.update(0.1); asked.plan;) {
       asked = m.refuse(*asked.plan, "none");

@@ -460,6 +460,19 @@ std::string report(std::uint32_t mmsi, const Eigen::Vector2d& position, double k
   return aisSentence(messageOf(mmsi, position, knots, course));
 }
 
+// Bow, stern, port, starboard.
+ais::Message dimensionsOf(std::uint32_t mmsi, int bow_m, int stern_m, int port_m, int starboard_m) {
+  ais::Message m;
+  m.type = 24;
+  m.part = 1;
+  m.mmsi = mmsi;
+  m.to_bow_m = bow_m;
+  m.to_stern_m = stern_m;
+  m.to_port_m = port_m;
+  m.to_starboard_m = starboard_m;
+  return m;
+}
+
 // Half a degree a beam.
 Scan nothingMet() {
   Scan scan;
@@ -544,13 +557,7 @@ TEST(TrafficTracker, FollowsWhomTheRadarSeesBeyondItsRange) {
 // report on, or from when she says so.
 TEST(TrafficTracker, FollowsTheMiddleOfWhoReports) {
   const double knots = 2.0 / ais::kKnotMps;
-  ais::Message dimensions;
-  dimensions.type = 24;
-  dimensions.part = 1;
-  dimensions.mmsi = 257000016;
-  dimensions.to_bow_m = 40;
-  dimensions.to_stern_m = 0;
-  dimensions.to_port_m = dimensions.to_starboard_m = 4;
+  const ais::Message dimensions = dimensionsOf(257000016, 40, 0, 4, 4);
   for (const bool first : {true, false}) {
     for (const bool has_heading : {true, false}) {
       Tracker tracker(Options{}, {}, {2.0, 1.08});
@@ -569,10 +576,7 @@ TEST(TrafficTracker, FollowsTheMiddleOfWhoReports) {
   }
   // Bow and port of 0: how large she is, but not where in her the receiver stands.
   Tracker tracker(Options{}, {}, {2.0, 1.08});
-  dimensions.to_bow_m = dimensions.to_port_m = 0;
-  dimensions.to_stern_m = 40;
-  dimensions.to_starboard_m = 8;
-  ASSERT_TRUE(tracker.addAis(0.0, aisSentence(dimensions)));
+  ASSERT_TRUE(tracker.addAis(0.0, aisSentence(dimensionsOf(257000016, 0, 40, 0, 8))));
   ASSERT_TRUE(tracker.addAis(0.0, report(257000016, {200.0, 30.0}, knots, 90.0)));
   ASSERT_EQ(tracker.tracks().size(), 1U);
   EXPECT_NEAR((tracker.tracks()[0].position - Eigen::Vector2d(200.0, 30.0)).norm(), 0.0, 0.2);
@@ -678,15 +682,7 @@ TEST(TrafficTracker, TellsTheMapOfEchoesAtAHullsFoot) {
 
 TEST(TrafficTracker, KeepsAnAnchoredVesselTenMinutesWithTheReachOfItsDimensions) {
   Tracker tracker(Options{}, {}, {2.0, 1.08});
-  ais::Message dimensions;
-  dimensions.type = 24;
-  dimensions.part = 1;
-  dimensions.mmsi = 257000001;
-  dimensions.to_bow_m = 12;
-  dimensions.to_stern_m = 4;
-  dimensions.to_port_m = 3;
-  dimensions.to_starboard_m = 2;
-  ASSERT_TRUE(tracker.addAis(0.0, encode(dimensions, 'A', 0).value().front()));
+  ASSERT_TRUE(tracker.addAis(0.0, aisSentence(dimensionsOf(257000001, 12, 4, 3, 2))));
   EXPECT_TRUE(tracker.tracks().empty());
   ASSERT_TRUE(tracker.addAis(1.0, report(257000001, {500.0, -200.0}, 0.0, ais::kNotAvailable)));
   ASSERT_EQ(tracker.tracks().size(), 1U);
