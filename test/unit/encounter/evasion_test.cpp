@@ -298,6 +298,29 @@ TEST(Habits, WhoHasTurnedThereBeforeIsForetoldToTurnAgain) {
   }
 }
 
+// On a circle, and then not heard for a while: whoever is still among the tracks is known, however
+// old what was heard of her is.
+TEST(Habits, ForgetsNobodyWhoIsStillAmongTheTracks) {
+  for (const bool stays : {true, false}) {
+    Habits habits;
+    traffic::Track turning;
+    for (double t = 0.0; t <= 10.0; t += 0.1) {
+      const double angle = 0.2 * t;
+      turning = square(1, 10.0 * unitVector(angle), 2.0 * across(unitVector(angle)));
+      turning.stamp_s = t;
+      habits.observe({turning});
+    }
+    ASSERT_TRUE(habits.steadyTurn(turning));
+    for (double t = 10.1; t <= 50.0; t += 0.1) {
+      traffic::Track other = square(2, {100.0 + t, 0.0}, {1.0, 0.0});
+      other.stamp_s = t;
+      habits.observe(stays ? std::vector<traffic::Track>{other, turning}
+                           : std::vector<traffic::Track>{other});
+    }
+    EXPECT_EQ(habits.steadyTurn(turning).has_value(), stays);
+  }
+}
+
 // What is remembered is reckoned with for four of five, and the straight way for the fifth.
 TEST(Foretold, KeepsTheStraightWayInMindBesideTheRememberedOne) {
   constexpr double kNowS = 27.0;  // at x = 14 m, eastward

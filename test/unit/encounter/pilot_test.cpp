@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "encounter/lookout.hpp"
 #include "encounter/manoeuvre.hpp"
 #include "open_water.hpp"
 #include "otter_nav/base/angles.hpp"
@@ -411,6 +412,31 @@ TEST_F(PilotTest, NobodyNearNothingToDo) {
   pilot_.observe(10.0, {{0.0, -180.0}, {0.0, 2.0}}, {0.0, -180.0}, {far}, {0.0, 200.0}, 2.0);
   EXPECT_FALSE(pilot_.decide({10.0, sailed_, {0.0, 200.0}, 10.3, limits_, water_}));
   EXPECT_TRUE(pilot_.encounters().empty());
+}
+
+// A course is priced among so many: those who come nearest, whatever their numbers.
+TEST_F(PilotTest, MindsTheNearestAmongMany) {
+  Lookout lookout((Options()));
+  lookout.newGoal(-60.0);
+  for (double now = 57.0; now <= 60.0; now += 0.5) {
+    std::vector<traffic::Track> tracks;
+    for (int k = 0; k < 40; ++k) {
+      traffic::Track far = trackAt(270.0, 1.0, now);
+      far.id = k + 1;
+      far.position = {-400.0 - 20.0 * k, 100.0};
+      tracks.push_back(far);
+    }
+    tracks.push_back(trackAt(270.0, 2.0, now));
+    tracks.back().id = 41;
+    const vessel::FlatPoint z = sailed_.trajectory.flat(now);
+    lookout.observe(now, {z.position, z.velocity}, z.position, tracks, {0.0, 200.0}, 1.98);
+  }
+  const std::vector<Other> others = lookout.others(water_);
+  EXPECT_EQ(others.size(), kMostOthers);
+  const Eigen::Vector2d nearest = trackAt(270.0, 2.0, 60.0).position;
+  EXPECT_TRUE(std::any_of(others.begin(), others.end(), [&](const Other& other) {
+    return (other.motion.position - nearest).norm() < 1.0;
+  }));
 }
 
 }  // namespace
