@@ -12,6 +12,9 @@ fi
 clang-format --dry-run --Werror "${files[@]}"
 echo "format: ${#files[@]} files are clean"
 
+# A merge that was not finished.
+if git grep -nE '^(<<<<<<<|>>>>>>>|\|\|\|\|\|\|\|)( |$)'; then exit 1; fi
+
 # A name taken over by `using a::b;` must be used: where sources are compiled together clang-tidy
 # can't tell whose use it was.
 /usr/bin/python3 - $(git ls-files '*.cpp') <<'PY'

@@ -127,7 +127,6 @@ class ReportTest(unittest.TestCase):
         self.assertAlmostEqual(figures["missions"]["tracking_error_max_m"], 0.3)
         self.assertIn("no way <left>", " ".join(page.text))
 
-<<<<<<< HEAD
     def test_campaign_with_a_mission_of_which_nothing_was_measured(self):
         path = synthetic.write_result(self.folder, 2)
         with open(path) as file:
@@ -136,7 +135,7 @@ class ReportTest(unittest.TestCase):
         with open(path, "w") as file:
             json.dump(result, file)
         self.make("--campaign", self.folder)
-=======
+
     def test_campaign_leaves_out_missions_without_figures(self):
         good = synthetic.write_result(self.folder, 2)
         with open(good) as file:
@@ -156,7 +155,6 @@ class ReportTest(unittest.TestCase):
             line = [line for line in lines if os.path.join(self.folder, name) in line]
             self.assertEqual(len(line), 1, lines)
             self.assertIn(missing, line[0])
->>>>>>> wE
 
     def test_campaign_of_benchmarks(self):
         dumps = ["", "t,x,y,u,v\n", "t,x,y,u,v\n0,0,0,0,0\n"]

@@ -434,6 +434,24 @@ TEST(Safety, ClearancesGrowWithTheBeam) {
   EXPECT_LT(limits.speed_max_mps, 0.95 * wam_v.top_speed_mps);
 }
 
+// What a gust took it may have again after a while without.
+TEST(Safety, GivesBackTheThrustTakenForBeingLeftBehind) {
+  Safety safety(SupervisorOptions{}, vessel::Parameters{});
+  const auto shareAfter = [&](double now_s) {
+    safety.feel(now_s, {});
+    return safety.nextThrustShare();
+  };
+  const double all = shareAfter(0.0);
+  safety.leftBehind(1.0);
+  safety.leftBehind(2.0);
+  const double least = shareAfter(100.0);
+  EXPECT_LT(least, all - 0.15);
+  const double again = shareAfter(130.0);
+  EXPECT_GT(again, least + 0.05);
+  EXPECT_LT(again, all - 0.05);
+  EXPECT_EQ(shareAfter(300.0), all);
+}
+
 // The least of what thrust, the vessel's file and the mission allow.
 TEST(Safety, LeavesTheRestOfTheThrust) {
   const vessel::Parameters vessel;

@@ -35,6 +35,57 @@ TEST(Supervisor, SailsAndArrives) {
   EXPECT_EQ(mission.supervisor->replans().all, 0);
 }
 
+TEST(Supervisor, KeepsALastStopUnderWayAlone) {
+  ScriptedMission mission;
+  mission.setOut(5.0);
+  (void)mission.update(0.1);
+  EXPECT_TRUE(mission.supervisor->lastStop());
+  while (mission.supervisor->phase() == Phase::kSailing && mission.now_s < 200.0) {
+    (void)mission.update(0.1);
+  }
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kArrived);
+  EXPECT_FALSE(mission.supervisor->lastStop());
+}
+
+// Towed away from where it arrived it has not wandered, and the next goal is none for a crawl.
+TEST(Supervisor, LearnsNothingOfWanderingWithoutAMission) {
+  ScriptedMission mission;
+  mission.setOut(5.0);
+  while (mission.supervisor->phase() == Phase::kSailing && mission.now_s < 200.0) {
+    (void)mission.update(0.1);
+  }
+  ASSERT_EQ(mission.supervisor->phase(), Phase::kArrived);
+  Situation towed = mission.situation();
+  for (int k = 0; k < 200; ++k) {
+    mission.now_s += 0.1;
+    towed.odometry_stamp_s = mission.now_s;
+    towed.state.y() += 0.05;
+    (void)mission.supervisor->update(mission.now_s, towed, mission.field);
+  }
+  const auto orders =
+      mission.supervisor->setGoal(mission.now_s, {{0.0, 0.0}, 0.0}, towed, mission.field);
+  ASSERT_TRUE(orders && orders->plan);
+  EXPECT_LT(orders->plan->query.limits.hull_margin_m, 0.1);
+}
+
+// Set aside by more than a plan from rest bears each time one comes, it gives up in the end.
+TEST(Supervisor, LosesARoundToEachPlanFromRestThatItIsNotAtAnyMore) {
+  ScriptedMission mission;
+  std::optional<PlanRequest> asked = mission.goTo({40.0, 0.0})->plan;
+  int plans = 0;
+  for (int k = 0; k < 300 && mission.supervisor->phase() != Phase::kFailed; ++k) {
+    if (asked) {
+      ++plans;
+      mission.rest.y() += 1.0;
+      (void)mission.answer(*asked, eastward({0.0, 0.0}, 40.0, 2.0));
+    }
+    asked = mission.update(0.1).plan;
+  }
+  EXPECT_EQ(mission.supervisor->phase(), Phase::kFailed);
+  EXPECT_EQ(plans, mission.options.rounds_from_rest);
+  EXPECT_NE(mission.supervisor->reason().find("set aside"), std::string::npos);
+}
+
 TEST(Supervisor, KeepsThePlanWhileTheWayIsClear) {
   ScriptedMission mission;
   mission.setOut(6.0);
