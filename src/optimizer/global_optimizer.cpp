@@ -180,12 +180,10 @@ class GlobalOptimizer::Solver {
     stop.max_iterations = kIterationsPerRound;
     stop.out_of_time = [this] { return outOfTime(); };
     smoothFirst(stop);
-    inRealTime([&] { chooser_.guide(chosen_, spline_); });
     const bool loaded = underLoad();
     const int rounds = loaded ? kRoundsUnderLoad : kRoundsUnloaded;
     for (int round = 0; round < rounds; ++round) {
-      improve(stop);
-      followEnds();
+      improveWithEnds(stop);
       const bool last = round + 1 == rounds;
       verifyDilated(last ? 2.0 * kDilationMax : kDilationMax);
       if (result_.verification.ok) {
@@ -245,7 +243,9 @@ class GlobalOptimizer::Solver {
   void startWhereTheManoeuvreEnds() {
     problem_.targets.start_s = chosen_.start.manoeuvre.duration_s;
   }
-  void followEnds() {
+  void improveWithEnds(const SplineSolver::Stop& stop) {
+    inRealTime([&] { chooser_.guide(chosen_, spline_); });
+    improve(stop);
     inRealTime([&] { chooser_.follow(spline_, chosen_); });
     startWhereTheManoeuvreEnds();
   }
@@ -262,9 +262,8 @@ class GlobalOptimizer::Solver {
       }
       problem_.targets.weights.time *= kQuickenGrowth;
       problem_.targets.knows_curvature = round == 0;
-      improve(stop);
+      improveWithEnds(stop);
       best.iterations = result_.iterations;
-      followEnds();
       verifyDilated(kDilationMax);
       if (result_.verification.ok && rank(result_.trajectory) < rank(best.trajectory)) {
         best.trajectory = std::move(result_.trajectory);

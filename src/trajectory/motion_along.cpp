@@ -12,9 +12,23 @@
 namespace otter_nav::trajectory {
 namespace {
 
-constexpr double kStepS = 0.02;
+constexpr double kStepS = 0.04;
 constexpr int kFewestSteps = 4;     // a piece
 constexpr double kTurnDiesS = 0.3;  // where the path says nothing of the heading
+
+// The rate of a heading at a step's end by the two before it (the backward differentiation formula
+// of second order), as that of one step of another length from another heading. With one before it
+// is Euler's.
+struct Backward {
+  double from_rad, step_s;
+
+  Backward(double h, double h_before, double psi, double psi_before) {
+    const double ratio = h_before > 0.0 ? h / h_before : 0.0;
+    const double share = (1.0 + ratio) / (1.0 + 2.0 * ratio);
+    step_s = share * h;
+    from_rad = psi + share * ratio * ratio / (1.0 + ratio) * (psi - psi_before);
+  }
+};
 
 }  // namespace
 
@@ -37,6 +51,8 @@ void MotionAlong::follow(std::optional<double> psi_start_rad) {
   double psi = psi_start_rad ? *psi_start_rad
                              : trajectory_.sample(0.0, vessel_, disturbance_).state[vessel::kPsi];
   double rate = 0.0;
+  double psi_before = psi;  // a step ago, and how long that was; 0: there was none
+  double h_before = 0.0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
     const int steps = partsOf(piece.duration_s, kStepS, kFewestSteps);
@@ -45,17 +61,21 @@ void MotionAlong::follow(std::optional<double> psi_start_rad) {
     first_.push_back(points_.size());
     for (int k = 0; k <= steps; ++k) {
       const vessel::FlatPoint z = piece.flat(h * k);
+      const double psi_now = psi;
       if (piece.kind == PieceKind::kSpin) {
         const Eigen::Vector3d turn = piece.spinHeading(h * k);
         psi = unwrapNear(turn[0], psi);
         rate = turn[1];
       } else if (k > 0) {
-        const double before = psi;
-        const double kept = before + keeps_s * rate;
-        psi =
-            vessel::swayHeading(vessel_, disturbance_, z.velocity, z.acceleration, before, kept, h)
-                .psi_rad;
-        rate = (psi - before) / h;
+        const Backward backward(h, h_before, psi, psi_before);
+        psi = vessel::swayHeading(vessel_, disturbance_, z.velocity, z.acceleration,
+                                  backward.from_rad, psi + keeps_s * rate, backward.step_s)
+                  .psi_rad;
+        rate = (psi - backward.from_rad) / backward.step_s;
+      }
+      if (k > 0) {
+        psi_before = psi_now;
+        h_before = piece.kind == PieceKind::kSpin ? 0.0 : h;
       }
       Point point;
       point.t_s = trajectory_.startOf(i) + h * k;

@@ -29,7 +29,7 @@ constexpr double kLightLoadShare = 0.05;
 constexpr double kRoundingMps = 1e-9;  // of D over the sway inertia
 constexpr int kSwayIterations = 3;
 // After a step of less the heading is exact to its square.
-constexpr double kSmallSwayStepRad = 1e-4;
+constexpr double kSmallSwayStepRad = 3e-4;
 constexpr double kFarSwayStepRad = 0.1;  // in wind, whose load bends the balance
 constexpr int kBowIterations = 6;
 constexpr double kLongestBowStepRad = 0.5;

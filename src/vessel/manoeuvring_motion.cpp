@@ -27,6 +27,29 @@ auto changing(double value, double rate) {
   return dual::chain(value, rate, variable<0>(0.0));
 }
 
+// A hull that is pushed, in its own frame: velocity and acceleration, and those of the earth's
+// frame seen from it.
+struct Pushed {
+  Vector2d e, n;
+  double u, v;
+  Body<double, double, double> rate;
+  double ahead, port;
+
+  Pushed(const ManoeuvringModel& model, const Mobility<double>& mobility,
+         const Disturbance& disturbance, double psi_rad, double r, double surge_n,
+         const Vector2d& velocity)
+      : e(unitVector(psi_rad)),
+        n(across(e)),
+        u(e.dot(velocity)),
+        v(n.dot(velocity)),
+        rate(bodyAcceleration(
+            model, mobility, e.x(), e.y(), outsideForce(e.x(), e.y(), model, disturbance),
+            disturbance.current_mps.x(), disturbance.current_mps.y(), u, v, r, surge_n, 0.0)),
+        ahead(rate.surge - r * v),
+        port(rate.sway + r * u) {}
+  [[nodiscard]] Vector2d acceleration() const { return ahead * e + port * n; }
+};
+
 }  // namespace
 
 bool paperHolds(const Parameters& vessel) {
@@ -39,32 +62,29 @@ bool paperHolds(const Parameters& vessel) {
          same(m.yaw_inertia_kgm2, p.m2_kgm2);
 }
 
+Vector2d pushed(const ManoeuvringModel& model, const Disturbance& disturbance, double psi_rad,
+                double yaw_rate_radps, double surge_n, const Vector2d& velocity) {
+  return Pushed(model, Mobility(model), disturbance, psi_rad, yaw_rate_radps, surge_n, velocity)
+      .acceleration();
+}
+
 void push(const ManoeuvringModel& model, const Disturbance& disturbance, const Swing& swing,
           double surge_n, double surge_rate_nps, FlatPoint& motion) {
   const Mobility mobility(model);
-  const Vector2d e = unitVector(swing.psi_rad);
-  const Vector2d n = across(e);
   const double r = swing.yaw_rate_radps;
   const double r1 = swing.yaw_acceleration;
   const Vector2d& current = disturbance.current_mps;
-  const double u = e.dot(motion.velocity);
-  const double v = n.dot(motion.velocity);
-  const auto now = bodyAcceleration(model, mobility, e.x(), e.y(),
-                                    outsideForce(e.x(), e.y(), model, disturbance), current.x(),
-                                    current.y(), u, v, r, surge_n, 0.0);
-  // Earth-fixed acceleration seen from the hull, and its rate.
-  const double ahead = now.surge - r * v;
-  const double port = now.sway + r * u;
-  motion.acceleration = ahead * e + port * n;
-  const auto cosine = changing(e.x(), -r * e.y());
-  const auto sine = changing(e.y(), r * e.x());
+  const Pushed now(model, mobility, disturbance, swing.psi_rad, r, surge_n, motion.velocity);
+  motion.acceleration = now.acceleration();
+  const auto cosine = changing(now.e.x(), -r * now.e.y());
+  const auto sine = changing(now.e.y(), r * now.e.x());
   const auto later = bodyAcceleration(
       model, mobility, cosine, sine, outsideForce(cosine, sine, model, disturbance), current.x(),
-      current.y(), changing(u, now.surge), changing(v, now.sway), changing(r, r1),
+      current.y(), changing(now.u, now.rate.surge), changing(now.v, now.rate.sway), changing(r, r1),
       changing(surge_n, surge_rate_nps), changing(0.0, 0.0));
-  const double ahead_rate = slope<0>(later.surge) - r1 * v - r * now.sway;
-  const double port_rate = slope<0>(later.sway) + r1 * u + r * now.surge;
-  motion.jerk = (ahead_rate - r * port) * e + (port_rate + r * ahead) * n;
+  const double ahead_rate = slope<0>(later.surge) - r1 * now.v - r * now.rate.sway;
+  const double port_rate = slope<0>(later.sway) + r1 * now.u + r * now.rate.surge;
+  motion.jerk = (ahead_rate - r * now.port) * now.e + (port_rate + r * now.ahead) * now.n;
 }
 
 FlatPoint pathFromState(const State& state, double force_max_n, const Parameters& vessel,

@@ -9,7 +9,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 // The same direction in [-pi, pi].
 inline double wrapAngle(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * kPi);
+  return std::abs(angle_rad) < kPi ? angle_rad : std::remainder(angle_rad, 2.0 * kPi);
 }
 
 // The angle equal to `angle_rad` modulo a full turn that lies nearest to `reference_rad`.

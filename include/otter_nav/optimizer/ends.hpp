@@ -101,7 +101,7 @@ class EndChooser {
   // The ends' states for the spline between.
   [[nodiscard]] SplineEnds splineEnds(const ChosenEnds& chosen,
                                       const trajectory::Boundary& start) const;
-  // Lets the spline's ends move with their manoeuvres.
+  // Lets the spline's ends move with their manoeuvres, where these were made anew.
   void guide(const ChosenEnds& chosen, Spline& spline) const;
   // Makes the manoeuvres that the spline's ends have moved to, and puts the ends exactly there.
   void follow(Spline& spline, ChosenEnds& chosen) const;

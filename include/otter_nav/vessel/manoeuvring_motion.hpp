@@ -29,6 +29,10 @@ struct Swing {
 // and its rate; nothing but the water and `disturbance` acts abeam (vessel/motion_law.hpp).
 void push(const ManoeuvringModel& model, const Disturbance& disturbance, const Swing& swing,
           double surge_n, double surge_rate_nps, FlatPoint& motion);
+// z'' alone.
+[[nodiscard]] Eigen::Vector2d pushed(const ManoeuvringModel& model, const Disturbance& disturbance,
+                                     double psi_rad, double yaw_rate_radps, double surge_n,
+                                     const Eigen::Vector2d& velocity);
 
 // A state as a point of a path: heading and yaw rate as they are, surge force to hold the speed or
 // `force_max_n`. By the model that plans are made with; by the manoeuvring model the force gives

@@ -56,25 +56,32 @@ ForcedMotion::Motion ForcedMotion::integrate(const Motion& motion, double from_s
   const double h = (to_s - from_s) / steps;
   const double within = 0.5 * (from_s + to_s);
   using Eigen::Vector2d;
-  const auto acceleration = [&](const Vector2d& velocity, double t) -> Vector2d {
-    if (paper_holds_) {
-      return inverse_.pushed(heading(t, within)[0], surge(t).force_n, velocity);
-    }
-    return pushed({Vector2d::Zero(), velocity}, t, within).acceleration;
+  struct Forcing {
+    Eigen::Vector4d turned;
+    double surge_n;
+  };
+  const auto forcing = [&](double t) { return Forcing{heading(t, within), surge(t).force_n}; };
+  const auto acceleration = [&](const Vector2d& velocity, const Forcing& at) -> Vector2d {
+    return paper_holds_ ? inverse_.pushed(at.turned[0], at.surge_n, velocity)
+                        : vessel::pushed(manoeuvring_, disturbance_, at.turned[0], at.turned[1],
+                                         at.surge_n, velocity);
   };
   Motion now = motion;
+  Forcing from = forcing(from_s);
   for (int i = 0; i < steps; ++i) {
-    const double t = from_s + h * i;
+    const Forcing middle = forcing(from_s + h * (i + 0.5));
+    const Forcing to = forcing(from_s + h * (i + 1));
     const Eigen::Vector2d v1 = now.velocity;
-    const Eigen::Vector2d a1 = acceleration(v1, t);
+    const Eigen::Vector2d a1 = acceleration(v1, from);
     const Eigen::Vector2d v2 = v1 + 0.5 * h * a1;
-    const Eigen::Vector2d a2 = acceleration(v2, t + 0.5 * h);
+    const Eigen::Vector2d a2 = acceleration(v2, middle);
     const Eigen::Vector2d v3 = v1 + 0.5 * h * a2;
-    const Eigen::Vector2d a3 = acceleration(v3, t + 0.5 * h);
+    const Eigen::Vector2d a3 = acceleration(v3, middle);
     const Eigen::Vector2d v4 = v1 + h * a3;
-    const Eigen::Vector2d a4 = acceleration(v4, t + h);
+    const Eigen::Vector2d a4 = acceleration(v4, to);
     now.position += h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
     now.velocity += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+    from = to;
   }
   return now;
 }

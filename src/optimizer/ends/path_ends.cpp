@@ -305,8 +305,13 @@ std::optional<EndFamily> EndChooser::familyOf(const End& end) const {
 }
 
 void EndChooser::guide(const ChosenEnds& chosen, Spline& spline) const {
-  spline.knots.front().family = familyOf(chosen.start);
-  spline.knots.back().family = familyOf(chosen.goal);
+  const auto guideBy = [&](const End& end, Knot& knot) {
+    if (!knot.family) {
+      knot.family = familyOf(end);
+    }
+  };
+  guideBy(chosen.start, spline.knots.front());
+  guideBy(chosen.goal, spline.knots.back());
 }
 
 void EndChooser::follow(Knot& knot, End& end) const {
@@ -325,7 +330,7 @@ void EndChooser::follow(Knot& knot, End& end) const {
   for (int m = 0; m < 4; ++m) {
     knot.state.col(m) = state.segment<2>(2 * m);
   }
-  knot.family = familyOf(end);
+  knot.family.reset();
 }
 
 void EndChooser::follow(Spline& spline, ChosenEnds& chosen) const {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "optimizer/objective/spline.hpp"
@@ -97,17 +98,27 @@ struct PieceModel {
   Vector gradient;
   Eigen::Matrix<double, kUnknowns, kUnknowns> hessian;  // lower triangle
 
-  // Half of a derivative of one axis is zero.
   void addCurvature(double curvature, const Vector& j) {
-    for (int c = 0; c < kUnknowns; ++c) {
-      if (j[c] != 0.0) {
-        hessian.col(c).noalias() += (curvature * j[c]) * j;
-      }
-    }
+    addColumns(curvature, j, std::make_integer_sequence<int, kUnknowns>());
   }
   void addSquare(double weight, double residual, const Vector& j) {
     gradient += 2.0 * weight * residual * j;
     addCurvature(2.0 * weight, j);
+  }
+
+ private:
+  template <int... Columns>
+  void addColumns(double curvature, const Vector& j,
+                  std::integer_sequence<int, Columns...> /*all*/) {
+    (addColumn<Columns>(curvature, j), ...);
+  }
+  // Half of a derivative of one axis is zero.
+  template <int Column>
+  void addColumn(double curvature, const Vector& j) {
+    if (j[Column] != 0.0) {
+      hessian.col(Column).tail<kUnknowns - Column>() +=
+          (curvature * j[Column]) * j.tail<kUnknowns - Column>();
+    }
   }
 };
 

@@ -35,6 +35,12 @@ void addEvenness(const Spline& spline, double& cost, System* system) {
   }
 }
 
+// Of a symmetric matrix whose lower triangle is known.
+template <typename Lower>
+auto whole(const Lower& lower) {
+  return typename Lower::PlainObject(lower.template selfadjointView<Eigen::Lower>());
+}
+
 // What is not free does not move.
 void pin(System& system, std::size_t block, int row) {
   system.diagonal[block].row(row).setZero();
@@ -181,8 +187,8 @@ double SplineProblem::evaluate(const Spline& spline, System* system) const {
     if (system == nullptr) {
       continue;
     }
-    system->diagonal[i] += piece.hessian.topLeftCorner<9, 9>();
-    system->diagonal[i + 1].topLeftCorner<8, 8>() += piece.hessian.bottomRightCorner<8, 8>();
+    system->diagonal[i] += whole(piece.hessian.topLeftCorner<9, 9>());
+    system->diagonal[i + 1].topLeftCorner<8, 8>() += whole(piece.hessian.bottomRightCorner<8, 8>());
     system->below[i].topRows<8>() += piece.hessian.bottomLeftCorner<8, 9>();
     system->right[i] -= piece.gradient.head<9>();
     system->right[i + 1].head<8>() -= piece.gradient.tail<8>();

@@ -24,7 +24,7 @@ TEST(CarriedTurn, EndsWhereThePlanGoesOn) {
   query.limits = feasibility::SafetyLimits::of(*otter, 1.0, 0.7);
   query.limits.disturbance.force_n = {kPlannedN, 0.0};
   query.start.psi_rad = query.goal.psi_rad = kPi;
-  query.goal.flat.position = {30.0, 3.0};
+  query.goal.flat.position = {30.0, 2.0};
   const map::DistanceField field = planner::test::openWater();
   planner::Planner planner(planner::Options{}, *otter);
   planner::Termination termination;
