@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/rk4.hpp"
 #include "otter_nav/trajectory/joint.hpp"
+#include "otter_nav/trajectory/motion_along.hpp"
+#include "otter_nav/vessel/inverse_dynamics.hpp"
 #include "otter_nav/vessel/model.hpp"
 
 namespace otter_nav::trajectory {
@@ -44,6 +48,53 @@ TEST(HermitePiece, MeetsBothEnds) {
     EXPECT_TRUE(z.acceleration.isApprox(expected.acceleration, 1e-9));
     EXPECT_TRUE(z.jerk.isApprox(expected.jerk, 1e-7));
   }
+}
+
+// A swinging way in pieces of all lengths, beside one followed in steps so small that their order
+// doesn't matter.
+TEST(MotionAlong, FollowsTheHeadingAsStepsFortyTimesFinerDo) {
+  const auto otter =
+      vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+  ASSERT_TRUE(otter);
+  const auto swinging = [](double t) {
+    constexpr double w = 0.7;
+    FlatPoint z;
+    z.position = {1.5 * t, 1.2 * std::sin(w * t)};
+    z.velocity = {1.5, 1.2 * w * std::cos(w * t)};
+    z.acceleration = {0.0, -1.2 * w * w * std::sin(w * t)};
+    z.jerk = {0.0, -1.2 * w * w * w * std::cos(w * t)};
+    return z;
+  };
+  std::vector<Piece> pieces;
+  double end_s = 0.0;
+  for (int k = 0; end_s < 20.0; ++k) {
+    const double duration_s = 0.15 + 0.4 * (k % 4);
+    pieces.push_back(hermitePiece(swinging(end_s), swinging(end_s + duration_s), duration_s));
+    end_s += duration_s;
+  }
+  const Trajectory trajectory(std::move(pieces));
+  vessel::Disturbance load;
+  load.force_n = {4.0, -6.0};
+  load.current_mps = {0.1, 0.2};
+  const MotionAlong motion(trajectory, *otter, load);
+  constexpr double kFineS = 1e-3;
+  double psi = motion.points().front().psi_rad;
+  double farthest = 0.0;
+  double off_by = 0.0;
+  for (int k = 1; k * kFineS < end_s; ++k) {
+    const FlatPoint z = trajectory.flat(k * kFineS);
+    const double before = psi;
+    psi = vessel::swayHeading(*otter, load, z.velocity, z.acceleration, before, before, kFineS)
+              .psi_rad;
+    if (k * kFineS > 3.0) {
+      farthest = std::max(farthest, std::abs(psi - motion.psi(k * kFineS)));
+      off_by =
+          std::max(off_by, std::abs((psi - before) / kFineS -
+                                    motion.sample((k - 0.5) * kFineS).state[vessel::kYawRate]));
+    }
+  }
+  EXPECT_LT(farthest, 2e-4);
+  EXPECT_LT(off_by, 2e-3);
 }
 
 // The flat map's inputs drive the model along the flat output: the round trip that makes flatness
