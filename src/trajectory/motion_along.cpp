@@ -15,15 +15,15 @@ namespace {
 constexpr double kStepS = 0.04;
 constexpr int kFewestSteps = 4;     // a piece
 constexpr double kTurnDiesS = 0.3;  // where the path says nothing of the heading
+constexpr double kNearlyOneRad = 0.02;
 
 // The rate of a heading at a step's end by the two before it (the backward differentiation formula
-// of second order), as that of one step of another length from another heading. With one before it
-// is Euler's.
+// of second order), as that of one step of another length from another heading.
 struct Backward {
   double from_rad, step_s;
 
   Backward(double h, double h_before, double psi, double psi_before) {
-    const double ratio = h_before > 0.0 ? h / h_before : 0.0;
+    const double ratio = h / h_before;
     const double share = (1.0 + ratio) / (1.0 + 2.0 * ratio);
     step_s = share * h;
     from_rad = psi + share * ratio * ratio / (1.0 + ratio) * (psi - psi_before);
@@ -53,6 +53,11 @@ void MotionAlong::follow(std::optional<double> psi_start_rad) {
   double rate = 0.0;
   double psi_before = psi;  // a step ago, and how long that was; 0: there was none
   double h_before = 0.0;
+  const auto step = [&](const vessel::FlatPoint& to, double from_rad, double kept_rad, double h) {
+    return vessel::swayHeading(vessel_, disturbance_, to.velocity, to.acceleration, from_rad,
+                               kept_rad, h)
+        .psi_rad;
+  };
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& piece = pieces[i];
     const int steps = partsOf(piece.duration_s, kStepS, kFewestSteps);
@@ -66,12 +71,19 @@ void MotionAlong::follow(std::optional<double> psi_start_rad) {
         const Eigen::Vector3d turn = piece.spinHeading(h * k);
         psi = unwrapNear(turn[0], psi);
         rate = turn[1];
-      } else if (k > 0) {
+      } else if (k > 0 && h_before > 0.0) {
         const Backward backward(h, h_before, psi, psi_before);
-        psi = vessel::swayHeading(vessel_, disturbance_, z.velocity, z.acceleration,
-                                  backward.from_rad, psi + keeps_s * rate, backward.step_s)
-                  .psi_rad;
+        psi = step(z, backward.from_rad, psi + keeps_s * rate, backward.step_s);
         rate = (psi - backward.from_rad) / backward.step_s;
+      } else if (k > 0) {
+        // Euler's step and two of half the length tell what both leave out.
+        const double kept = psi + keeps_s * rate;
+        const double once = step(z, psi, kept, h);
+        const double half = step(piece.flat(h * (k - 0.5)), psi, 0.5 * (psi + kept), 0.5 * h);
+        const double twice = step(z, half, kept, 0.5 * h);
+        const double off = twice - once;
+        psi = std::abs(off) < kNearlyOneRad ? twice + off : twice;
+        rate = (psi - psi_now) / h;
       }
       if (k > 0) {
         psi_before = psi_now;
