@@ -170,7 +170,7 @@ double Chooser::price(const Course& course, const std::vector<Other>& others,
     const Eigen::Vector2d& b = course.legs[k].velocity;
     turning += std::abs(std::atan2(cross(a, b), a.dot(b)));
   }
-  const double own = course.end_s + kTurnS * turning;
+  const double own = course.end_s - course.rests_s + kTurnS * turning;
   return own + prospect_.price(course, others, give_up_above - own);
 }
 

@@ -72,6 +72,12 @@ Course along(const trajectory::TimedTrajectory& sailed, double from_s, double ze
   }
   course.end_s = t + shift;
   course.arrives_s = arrives + shift;
+  if (const double braked = end - std::max(arrives, start); braked > 0.0) {
+    constexpr double kLeastMps = 0.3;
+    const vessel::FlatPoint from = sailed.trajectory.flat(end - braked);
+    const double left_m = (sailed.trajectory.flat(end).position - from.position).norm();
+    course.rests_s = std::max(0.0, braked - left_m / std::max(from.velocity.norm(), kLeastMps));
+  }
   return course;
 }
 
@@ -268,6 +274,7 @@ class Pilot::Impl {
       from = to;
     }
     course.end_s = t;
+    course.rests_s = 0.0;
   }
 
   vessel::Parameters vessel_;

@@ -260,7 +260,10 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
   if (out.role == Role::kNone || out.nearest_s <= 0.0) {
     return out;
   }
-  if (givesWay(record.role)) {
+  // Who comes to rest at the goal, and to nobody near, gives way by that.
+  const bool rests_clear = out.nearest_s >= std::min(own.arrives_s, own.end_s) - 1e-6 &&
+                           std::sqrt(nearest2) > kClearAfterM;
+  if (givesWay(record.role) && !rests_clear) {
     const bool turned_boldly = record.turn_max_rad >= options_.apparent_turn_rad + kTurnMoreRad;
     out.broken |= record.acted ? 0U : kLate;
     if (record.role != Role::kOvertaking && !turned_boldly && record.slowest_share > kSlowShare) {

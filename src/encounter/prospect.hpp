@@ -23,6 +23,9 @@ struct Course {
   // From then on it comes to rest at the goal: slowing down there is no action, and brings no risk
   // that the mission could still decide about.
   double arrives_s = std::numeric_limits<double>::infinity();
+  // What coming to rest takes longer than going on to there: it would have to be done on any
+  // course.
+  double rests_s = 0.0;
 
   [[nodiscard]] double endOf(std::size_t leg) const {
     return leg + 1 < legs.size() ? legs[leg + 1].from_s : end_s;

@@ -48,9 +48,9 @@ class PilotTest : public ::testing::Test {
     for (double t = now - 3.0; t <= now; t += 0.5) {
       const vessel::FlatPoint z = sailed_.trajectory.flat(t);
       pilot_.observe(t, {z.position, z.velocity}, z.position, {trackAt(heading_deg, speed, t)},
-                     {0.0, 200.0}, 1.98);
+                     goal_, 1.98);
     }
-    return pilot_.decide({now, sailed_, {0.0, 200.0}, now + 0.3, limits_, water_});
+    return pilot_.decide({now, sailed_, goal_, now + 0.3, limits_, water_});
   }
 
   vessel::Parameters vessel_ = *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) +
@@ -58,6 +58,7 @@ class PilotTest : public ::testing::Test {
   map::DistanceField water_ = test::openWater();
   feasibility::SafetyLimits limits_;
   trajectory::TimedTrajectory sailed_;
+  Eigen::Vector2d goal_{0.0, 200.0};
   Pilot pilot_{Options(), vessel_};
 };
 
@@ -402,6 +403,48 @@ TEST_F(PilotTest, StaysFastEnoughToDecideAnew) {
       slowest = std::min(slowest, way->path.trajectory.flat(t).velocity.norm());
     }
     EXPECT_EQ(slowest < kBeginsMps, begins_mps == 0.0) << slowest;
+  }
+}
+
+// North at 2 m/s for 20 s, to rest within 5 m, and a turn on the spot of `turns_s`.
+trajectory::TimedTrajectory arrivingAfter(double turns_s) {
+  vessel::FlatPoint from;
+  from.position = {0.0, -200.0};
+  from.velocity = {0.0, 2.0};
+  vessel::FlatPoint braking = from;
+  braking.position.y() += 40.0;
+  vessel::FlatPoint goal;
+  goal.position = {0.0, -155.0};
+  std::vector<trajectory::Piece> pieces = {trajectory::hermitePiece(from, braking, 20.0),
+                                           trajectory::hermitePiece(braking, goal, 5.0)};
+  if (turns_s > 0.0) {
+    pieces.push_back(trajectory::spinPiece(goal.position, 0.5 * kPi, kPi, turns_s));
+  }
+  return {trajectory::Trajectory(std::move(pieces)), 0.0};
+}
+
+// She is to pass ahead from starboard in a minute and a half, and when it lies at its goal she is
+// still far off.
+TEST_F(PilotTest, ArrivesBeforeItWouldGiveWay) {
+  sailed_ = arrivingAfter(0.0);
+  goal_ = sailed_.trajectory.flat(25.0).position;
+  for (double now = 4.0; now < 24.0; now += 4.0) {
+    EXPECT_FALSE(decideAt(now, 270.0, 2.0)) << now;
+  }
+  ASSERT_EQ(pilot_.encounters().size(), 1U);
+  EXPECT_EQ(pilot_.encounters()[0].role, Role::kGiveWay);
+}
+
+// Whatever way it goes it has to come to rest and turn there: that makes no detour of this one.
+TEST_F(PilotTest, KeepsAStraightWayThatEndsWithALongTurn) {
+  sailed_ = arrivingAfter(12.0);
+  goal_ = sailed_.trajectory.flat(25.0).position;
+  for (double now = 0.0; now < 20.0; now += 0.5) {
+    traffic::Track aside = trackAt(0.0, 1.0, now);
+    aside.position = {-80.0, -150.0 + now};
+    const vessel::FlatPoint z = sailed_.trajectory.flat(now);
+    pilot_.observe(now, {z.position, z.velocity}, z.position, {aside}, goal_, 1.98);
+    EXPECT_FALSE(pilot_.decide({now, sailed_, goal_, now + 0.3, limits_, water_})) << now;
   }
 }
 
