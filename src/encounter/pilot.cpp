@@ -249,7 +249,9 @@ class Pilot::Impl {
         lead(course, choice, water);
       }
       constexpr double kStillBetterS = 3.0;
-      if (chooser_.price(course, others, 1e9) + kStillBetterS < keep) {
+      const double price = chooser_.price(course, others, 1e9);
+      if (price + kStillBetterS < keep) {
+        manoeuvre.worth_s = keep - price + course.end_s - course.rests_s + water.sailed.rests_s;
         return manoeuvre;
       }
     }

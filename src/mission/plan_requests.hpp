@@ -57,6 +57,7 @@ class PlanRequests {
     double left_m = 0.0;  // what the answer leaves of the way to the goal
     // What the plan continues, from the sailed trajectory on; empty: that itself.
     trajectory::TimedTrajectory lead;
+    double ends_by_s = std::numeric_limits<double>::infinity();  // later it is no gain
   };
 
   PlanRequests(const SupervisorOptions& options, const vessel::Parameters& vessel,
@@ -97,6 +98,7 @@ class PlanRequests {
     return asked_ && now_s - asked_->since_s > kPatienceS;
   }
   void markAsImprovement(Gain gain) { asked_->gain = gain; }
+  void markAsWorthless(double from_s) { asked_->ends_by_s = from_s; }
   void drop() { asked_.reset(); }
   [[nodiscard]] Asked take() { return *std::exchange(asked_, std::nullopt); }
   // Nothing if the answer is to a request that was replaced.

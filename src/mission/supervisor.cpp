@@ -894,10 +894,12 @@ class Decider final : public Supervisor {
   Orders makeWay(const Moment& m) {
     TimedTrajectory path = std::move(way_made_->path);
     if (!way_made_->to_the_goal) {
-      return {plans_.onward(m.now_s, std::move(path), planned_thrust_share_,
-                            planned_limits_.speed_max_mps, goal_, m.obstacles),
-              {},
-              false};
+      Orders orders{plans_.onward(m.now_s, std::move(path), planned_thrust_share_,
+                                  planned_limits_.speed_max_mps, goal_, m.obstacles),
+                    {},
+                    false};
+      plans_.markAsWorthless(m.now_s + way_made_->worth_s);
+      return orders;
     }
     plans_.drop();
     ++replans_.all;
@@ -2016,6 +2018,9 @@ class Decider final : public Supervisor {
     if (late > 0.0 && (next.trajectory.flat(late).position - there).norm() > kLateM) {
       plans_.latency.late(late);
       return asked.gain ? Orders{} : from_vessel ? askFromVessel(m) : planFromSailed(m);
+    }
+    if (next.start_time_s + next.trajectory.duration() > asked.ends_by_s) {
+      return {};
     }
     // Not with thrust that wind and current take.
     const auto lacks_thrust = [&] {

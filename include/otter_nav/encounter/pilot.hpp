@@ -26,6 +26,9 @@ struct Manoeuvre {
   // Begins on the sailed trajectory.
   trajectory::TimedTrajectory path;
   bool to_the_goal = false;  // otherwise a plan has to lead on from its end
+  // In which that has to be at the goal, from the decision on: with more the way being sailed is
+  // better as it is.
+  double worth_s = 0.0;
 };
 
 // What a decision is made on.

@@ -1017,6 +1017,40 @@ TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
   EXPECT_GT(made, 0);
 }
 
+// A plan that leads on from making way may lead far round: then the way is sailed on as it is, for
+// less than it would cost to break the rules once.
+TEST(Supervisor, MakesNoWayThatCostsMoreThanItIsWorth) {
+  ScriptedMission m(test::openWater(400.0));
+  m.rest << -140.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  const auto orders = m.goTo({140.0, 0.0});
+  ASSERT_TRUE(orders && orders->plan);
+  (void)m.answer(*orders->plan, eastward({-140.0, 0.0}, 280.0, 1.8));
+  (void)m.update(10.0);
+  const double began_s = m.now_s;
+  const auto leadsOn = [](const PlanRequest& request, double duration_s) {
+    vessel::FlatPoint goal;
+    goal.position = request.query.goal.flat.position;
+    return trajectory::Trajectory(
+        {trajectory::hermitePiece(request.query.start.flat, goal, duration_s)});
+  };
+  for (const auto& [duration_s, taken] : {std::pair{2000.0, false}, std::pair{180.0, true}}) {
+    std::optional<PlanRequest> asked;
+    for (int k = 0; k < 300 && !asked; ++k) {
+      traffic::Track oncoming = slowerAhead(m.now_s + 0.1, began_s);
+      oncoming.velocity = {-1.0, 0.0};
+      oncoming.position = {60.0 - (m.now_s + 0.1 - began_s), 9.0};
+      oncoming.heading_rad = kPi;
+      m.tracks = {oncoming};
+      asked = m.update(0.1).plan;
+    }
+    ASSERT_TRUE(asked);
+    const int before = m.supervisor->replans().all;
+    (void)m.answer(*asked, leadsOn(*asked, duration_s));
+    EXPECT_EQ(m.supervisor->phase(), Phase::kSailing);
+    EXPECT_EQ(m.supervisor->replans().all, before + (taken ? 1 : 0)) << duration_s;
+  }
+}
+
 // What is sailed slower behind another vessel leads as far as before: the rest of the way is
 // planned from there.
 TEST(Supervisor, MakesWayOnAPartOfTheWay) {
