@@ -12,8 +12,10 @@
 #include <std_msgs/Header.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <fstream>
@@ -31,6 +33,7 @@
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/plant/signals.hpp"
 #include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/parameters.hpp"
 #include "otter_nav/ros/run_node.hpp"
@@ -117,7 +120,10 @@ class MissionNode {
   scenario::MissionLabel label_;
   scenario::Mission mission_;
   ros::NodeHandle node_;
+  ros::NodeHandle private_node_{"~"};
+  ros_bridge::Diagnostics diagnostics_;
   ReferenceLog references_;
+  std::uint32_t newest_trajectory_ = 0;
   scenario::Recorder recorder_;
   ProgressLine progress_;
   std::optional<scenario::TableWriter> track_;
@@ -184,6 +190,7 @@ MissionNode::MissionNode(MissionNodeOptions options, const scenario::Scenario& s
       label_{scenario.name, options_.mission, options_.vessel, options_.disturbance,
              static_cast<std::uint64_t>(options_.seed)},
       mission_(mission),
+      diagnostics_(node_, private_node_, vessel.name),
       references_(vessel),
       progress_(std::cout, isatty(STDOUT_FILENO) != 0),
       track_(std::move(track)),
@@ -221,12 +228,16 @@ void MissionNode::onState(const PlantState& message) {
   }
 }
 
+// One that can't be taken is waited for no longer than one that can: the tracker refuses it too.
 void MissionNode::onTrajectory(const Trajectory& message) {
+  newest_trajectory_ = std::max(newest_trajectory_, message.id);
   Result<trajectory::TimedTrajectory> timed =
       ros_bridge::toTrajectory(message, ros_bridge::frames().map);
-  if (timed) {
-    references_.add(message.id, std::move(*timed));
+  if (!timed) {
+    diagnostics_.refuse("trajectory", timed.error().message);
+    return;
   }
+  references_.add(message.id, std::move(*timed));
 }
 
 void MissionNode::onPlannerStatus(const PlannerStatus& message) {
@@ -247,7 +258,7 @@ bool MissionNode::over() const {
 // Goes on to the planner's last decision, once the trajectory it speaks of is known here; to the
 // mission's end only with the whole motion up to it.
 void MissionNode::goOn() {
-  if (!gate_open_ || finished_ || references_.latestId() < planner_.trajectory_id) {
+  if (!gate_open_ || finished_ || newest_trajectory_ < planner_.trajectory_id) {
     return;
   }
   const double decided_s = planner_.header.stamp.toSec();
@@ -420,6 +431,7 @@ void MissionNode::show(const PlantState& state) {
   progress.state = planner_.state;
   progress.detail = planner_.reason;
   progress_.show(scenario::progressText(progress), progress.state, progress.t_s);
+  diagnostics_.setState(ros_bridge::Diagnostics::Level::kOk, progress.state);
 }
 
 void MissionNode::finish(Outcome outcome, const std::string& reason) {

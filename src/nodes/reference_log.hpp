@@ -25,7 +25,6 @@ class ReferenceLog {
       entries_.pop_front();
     }
   }
-  [[nodiscard]] std::uint32_t latestId() const { return entries_.empty() ? 0 : entries_.back().id; }
 
   // [x m, y m, psi rad] on the latest trajectory that has begun by then; nothing if there is none
   // or it is an order to stop.

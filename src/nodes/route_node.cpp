@@ -19,11 +19,13 @@
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/ros/conversions.hpp"
+#include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
 
 namespace otter_nav::nodes {
 namespace {
 
+using Level = ros_bridge::Diagnostics::Level;
 using ros_bridge::color;
 using ros_bridge::frames;
 using visualization_msgs::InteractiveMarker;
@@ -109,6 +111,7 @@ class RouteNode {
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
+  ros_bridge::Diagnostics diagnostics_{node_, private_node_, "route"};
   Goals goals_;
   bool sailing_ = false;
   std::string reason_;
@@ -167,6 +170,7 @@ void RouteNode::serve(const std::string& name, Status (RouteNode::*wish)()) {
 void RouteNode::onOdometry(const nav_msgs::Odometry& message) {
   const auto vessel = ros_bridge::planarPose(message.pose.pose);
   if (!vessel) {
+    diagnostics_.refuse("odom", vessel.error().message);
     return;
   }
   const Eigen::Vector2d ahead = unitVector(vessel->psi_rad);
@@ -188,7 +192,7 @@ void RouteNode::onMarker(const InteractiveMarkerFeedback& feedback) {
 
 void RouteNode::onAdd(const geometry_msgs::PoseStamped& goal) {
   if (const auto pose = ros_bridge::planarPose(goal, frames().map); !pose) {
-    ROS_WARN_STREAM("route/add refused: " << pose.error().message);
+    diagnostics_.refuse("route/add", pose.error().message);
     return;
   }
   Goals goals = goals_;
@@ -202,7 +206,7 @@ void RouteNode::onSet(const geometry_msgs::PoseArray& goals) {
     stamped.header = goals.header;
     stamped.pose = goal;
     if (const auto pose = ros_bridge::planarPose(stamped, frames().map); !pose) {
-      ROS_WARN_STREAM("route/set refused: " << pose.error().message);
+      diagnostics_.refuse("route/set", pose.error().message);
       return;
     }
   }
@@ -288,6 +292,9 @@ void RouteNode::stopSailing(const std::string& reason) {
 }
 
 void RouteNode::publish() {
+  diagnostics_.setState(Level::kOk, sailing_          ? "sailing"
+                                    : reason_.empty() ? "waiting for goals"
+                                                      : reason_);
   Route route;
   route.header.frame_id = frames().map;
   route.header.stamp = ros::Time::now();

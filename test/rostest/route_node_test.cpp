@@ -1,6 +1,7 @@
 // route_node against a stand-in of the action move_base: goals in order, changes on the way, and
 // what a marker's menu sends.
 #include <actionlib/server/simple_action_server.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseArray.h>
 #include <gtest/gtest.h>
 #include <move_base_msgs/MoveBaseAction.h>
@@ -9,7 +10,10 @@
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 #include <visualization_msgs/InteractiveMarkerInit.h>
 
+#include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "support.hpp"
 
@@ -132,6 +136,17 @@ TEST_F(RouteNode, ChangesOnTheWay) {
 }
 
 TEST_F(RouteNode, RefusesGoalsThatMakeNoSense) {
+  Inbox<diagnostic_msgs::DiagnosticArray> diagnostics{node_, "/diagnostics"};
+  ASSERT_TRUE(diagnostics.connected());
+  const auto tellsOf = [&](const std::string& topic) {
+    return diagnostics.waitFor([&](const diagnostic_msgs::DiagnosticArray& message) {
+      return std::any_of(message.status.begin(), message.status.end(), [&](const auto& status) {
+        return status.level == diagnostic_msgs::DiagnosticStatus::WARN &&
+               std::any_of(status.values.begin(), status.values.end(),
+                           [&](const auto& value) { return value.key == "refused of " + topic; });
+      });
+    });
+  };
   setGoals({1.0});
   ASSERT_TRUE(routeHas(1, false));
   routes_.messages.clear();
@@ -144,6 +159,8 @@ TEST_F(RouteNode, RefusesGoalsThatMakeNoSense) {
   add_.publish(elsewhere);
   ASSERT_TRUE(routeHas(2, false));
   EXPECT_EQ(routes_.messages.size(), 1U);
+  EXPECT_TRUE(tellsOf("route/set"));
+  EXPECT_TRUE(tellsOf("route/add"));
 }
 
 TEST_F(RouteNode, TakesGoalsFromTheMarker) {
