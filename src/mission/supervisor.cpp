@@ -817,6 +817,17 @@ class Decider final : public Supervisor {
            plans_.mayBeFaster(planned_level_, planned_pace_share_, m.situation.state, m.obstacles);
   }
 
+  // A plan from a hull under way leads on in its course, and where that can't be turned, round what
+  // lies there.
+  bool goesFarRound(const Moment& m) {
+    constexpr double kTimesStraight = 2.0;
+    constexpr double kMoreM = 30.0;
+    constexpr double kAgainS = 10.0;
+    const double straight_m = (goal_.position - m.situation.state.head<2>()).norm();
+    return m.now_s - stopping_asked_s_ >= kAgainS && !mayLoseItsHeading() &&
+           !safety().plansWithWeather() && wayLeft(m.now_s) > kTimesStraight * straight_m + kMoreM;
+  }
+
   // What was free when it set off may not be any more: the water astern is the less known.
   bool isBlocked(const Moment& m) {
     const double at = sailed_.elapsed(m.now_s);
@@ -969,6 +980,24 @@ class Decider final : public Supervisor {
         safety().plansWithWeather() || planned_level_ == 0 ? planned_level_ : planned_level_ - 1;
     safety().tryLevel(std::exchange(asks_widest_, !asks_widest_) ? 0 : like_it);
     return improve(m, Gain::kRoom);
+  }
+  // A stop first, and from there a plan as from rest, if that is sooner at the goal.
+  Orders planByStopping(const Moment& m) {
+    stopping_asked_s_ = m.now_s;
+    const double soon = sailed_.elapsed(m.now_s + plans_.latency.seconds());
+    stopping::Braking braking = stop(m, sailed_, soon, safety().stop(planned_limits_));
+    if (!braking.clear) {
+      return {};
+    }
+    safety().tryLevel(planned_level_, planned_steps_wider_);
+    Orders orders{
+        plans_.onward(m.now_s, {std::move(braking.trajectory), sailed_.start_time_s + soon},
+                      planned_thrust_share_, planned_limits_.speed_max_mps, goal_, m.obstacles),
+        {},
+        false};
+    safety().tryWidest();
+    plans_.markAsImprovement(Gain::kTime);
+    return orders;
   }
   Orders planToImprove(const Moment& m) {
     if (is_last_resort_) {
@@ -1360,6 +1389,7 @@ class Decider final : public Supervisor {
       {kSailing, &Decider::isTooFastForWaves, &Decider::planSlower},
       {kSailing, &Decider::passesTooNear, &Decider::planWider},
       {kSailing, &Decider::isNeedlesslySlow, &Decider::planFaster},
+      {kSailing, &Decider::goesFarRound, &Decider::planByStopping},
       {kSailing, &Decider::mayImprove, &Decider::planToImprove},
 
       {kManoeuvring, &Decider::hasFault, &Decider::stopForFault},
@@ -2168,6 +2198,8 @@ class Decider final : public Supervisor {
   // When one was asked for with more room, and whether the next is to be the widest.
   double wider_asked_s_ = -std::numeric_limits<double>::infinity();
   bool asks_widest_ = true;
+  // When one was asked for that begins with a stop.
+  double stopping_asked_s_ = -std::numeric_limits<double>::infinity();
   double sailed_since_s_ = 0.0;     // when a plan was taken last, or the goal
   double stop_time_s_ = 0.0;        // when the vessel began to come to rest
   bool cancelled_ = false;          // the mission ends with the stop
