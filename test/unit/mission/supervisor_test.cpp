@@ -1051,6 +1051,52 @@ TEST(Supervisor, MakesNoWayThatCostsMoreThanItIsWorth) {
   }
 }
 
+// A way of 220 m to what lies 30 m beside: after a stop there may be a shorter one.
+TEST(Supervisor, StopsWhereAWayFarRoundIsLongerThanOneFromRest) {
+  constexpr double kSpeedMps = 2.0;
+  ScriptedMission m(test::openWater(400.0));
+  const auto at = [](double x, double y, double speed_mps) {
+    vessel::FlatPoint z;
+    z.position = {x, y};
+    z.velocity = {speed_mps, 0.0};
+    return z;
+  };
+  const vessel::FlatPoint goal = at(0.0, 30.0, 0.0);
+  const auto orders = m.goTo(goal.position, kPi);
+  ASSERT_TRUE(orders && orders->plan);
+  (void)m.answer(
+      *orders->plan,
+      trajectory::Trajectory(
+          {trajectory::hermitePiece(at(0.0, 0.0, 0.0), at(4.0, 0.0, kSpeedMps), 4.0),
+           trajectory::hermitePiece(at(4.0, 0.0, kSpeedMps), at(90.0, 0.0, kSpeedMps), 43.0),
+           trajectory::hermitePiece(at(90.0, 0.0, kSpeedMps), at(90.0, 30.0, -kSpeedMps), 30.0),
+           trajectory::hermitePiece(at(90.0, 30.0, -kSpeedMps), at(4.0, 30.0, -kSpeedMps), 43.0),
+           trajectory::hermitePiece(at(4.0, 30.0, -kSpeedMps), goal, 4.0)}));
+  ASSERT_EQ(m.supervisor->phase(), Phase::kSailing);
+  (void)m.update(8.0);
+  for (const auto& [duration_s, taken] : {std::pair{150.0, false}, std::pair{40.0, true}}) {
+    std::optional<PlanRequest> asked;
+    for (int k = 0; k < 150 && !asked; ++k) {
+      asked = m.update(0.1).plan;
+    }
+    ASSERT_TRUE(asked);
+    const vessel::FlatPoint& rest = asked->query.start.flat;
+    EXPECT_LT(rest.velocity.norm(), 1e-6);
+    EXPECT_LT((rest.position - m.situation().state.head<2>()).norm(), 15.0);
+    EXPECT_GT(asked->start_time_s, m.now_s + 1.0);
+    (void)m.answer(*asked,
+                   trajectory::Trajectory({trajectory::hermitePiece(rest, goal, duration_s)}));
+    EXPECT_EQ(m.supervisor->phase(), Phase::kSailing);
+    const trajectory::TimedTrajectory& sailed = m.supervisor->sailed();
+    const double left_s = sailed.start_time_s + sailed.trajectory.duration() - m.now_s;
+    EXPECT_EQ(left_s < 60.0, taken) << left_s;
+    EXPECT_EQ(m.supervisor->replans().all, taken ? 1 : 0);
+    EXPECT_LT(
+        (sailed.trajectory.flat(sailed.trajectory.duration()).position - goal.position).norm(),
+        1e-6);
+  }
+}
+
 // What is sailed slower behind another vessel leads as far as before: the rest of the way is
 // planned from there.
 TEST(Supervisor, MakesWayOnAPartOfTheWay) {
