@@ -1996,7 +1996,20 @@ class Decider final : public Supervisor {
       enter(phase_, "learns what gusts do before it goes through narrow water");
       return holdHere();
     }
-    return sail(m, {plan.trajectory, m.now_s}, asked);
+    return setsOutMoving(m) ? Orders{} : sail(m, {plan.trajectory, m.now_s}, asked);
+  }
+  // What the hull goes at as it sets out it is off its way by a second later. Waves come and go,
+  // and so does what the thrust that turned or held it has left; near something it doesn't wait.
+  [[nodiscard]] bool setsOutMoving(const Moment& m) {
+    constexpr double kMovesMps = 0.25;
+    constexpr double kPatienceS = 3.0;
+    if (!safety().mayPlanWithWeather() || vessel::speedOf(m.situation.state) < kMovesMps ||
+        m.obstacles.clearance(m.situation.state.head<2>(), m.now_s) < vessel_.hull.length_m) {
+      moves_since_s_.reset();
+      return false;
+    }
+    moves_since_s_ = moves_since_s_.value_or(m.now_s);
+    return m.now_s < *moves_since_s_ + kPatienceS;
   }
   // In strong wind, where plans are slow, by minutes: a narrower way comes before that.
   [[nodiscard]] bool leadsFarRound(const Moment& m, const planner::Plan& plan) {
@@ -2222,6 +2235,7 @@ class Decider final : public Supervisor {
   double late_at_s_ = 0.0;
   double gusts_asked_s_ = -std::numeric_limits<double>::infinity();  // for a slower plan
   std::optional<double> waves_since_s_;                              // it learns them
+  std::optional<double> moves_since_s_;  // it is to set out from rest, and moves
   bool learns_gusts_ = false;
   enum class FarRound { kNotMet, kPassedOver, kTaken };
   FarRound far_round_ = FarRound::kNotMet;

@@ -1051,6 +1051,33 @@ TEST(Supervisor, MakesNoWayThatCostsMoreThanItIsWorth) {
   }
 }
 
+// Moved by waves it waits for a moment of little way, but not for long, and not near anything.
+TEST(Supervisor, SetsOutWhereItHardlyMoves) {
+  const auto setsOutAfter = [](double surge_mps, bool near_something) {
+    SupervisorOptions options;
+    options.plan_with_weather = true;
+    ScriptedMission m(test::openWater(), options);
+    if (near_something) {
+      m.put({-20.0, 1.5}, {20.0, 3.0});
+    }
+    m.rest.x() = -10.0;
+    std::optional<PlanRequest> asked = m.goTo({30.0, 0.0})->plan;
+    m.rest[vessel::kSurge] = surge_mps;
+    const double began_s = m.now_s;
+    for (int k = 0; k < 100 && m.supervisor->phase() == Phase::kPlanning; ++k) {
+      if (asked) {
+        (void)m.answer(*asked, eastward({-10.0, 0.0}, 40.0, 2.0));
+      }
+      asked = m.update(0.1).plan;
+    }
+    EXPECT_EQ(m.supervisor->phase(), Phase::kSailing);
+    return m.now_s - began_s;
+  };
+  EXPECT_LT(setsOutAfter(0.2, false), 0.2);
+  EXPECT_NEAR(setsOutAfter(0.4, false), 3.0, 0.4);
+  EXPECT_LT(setsOutAfter(0.4, true), 0.2);
+}
+
 // A way of 220 m to what lies 30 m beside: after a stop there may be a shorter one.
 TEST(Supervisor, StopsWhereAWayFarRoundIsLongerThanOneFromRest) {
   constexpr double kSpeedMps = 2.0;
