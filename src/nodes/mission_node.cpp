@@ -32,6 +32,7 @@
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/section.hpp"
 #include "otter_nav/plant/signals.hpp"
+#include "otter_nav/ros/call_service.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -292,7 +293,7 @@ Status MissionNode::limitSpeed() {
   const std::string why = "the mission's speed limit can't be set";
   constexpr double kPatienceS = 5.0;  // of wall time
   if (!ros::service::waitForService(kPlannerService, ros::Duration(kPatienceS)) ||
-      !ros::service::call(kPlannerService, call)) {
+      !ros_bridge::callService(kPlannerService, call)) {
     return failure(why + ": no answer from " + kPlannerService);
   }
   for (const auto& number : call.response.config.doubles) {

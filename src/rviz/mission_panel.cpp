@@ -19,6 +19,7 @@
 #include "look.hpp"
 #include "mission_widgets.hpp"
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/ros/call_service.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 
@@ -176,7 +177,7 @@ void MissionPanel::ask(const std::string& service) {
   std::thread([answer = answer_, name] {
     std_srvs::Trigger call;
     std::string text = "nobody offers " + name;
-    if (ros::service::exists(name, false) && ros::service::call(name, call)) {
+    if (ros::service::exists(name, false) && ros_bridge::callService(name, call)) {
       text = call.response.success ? "" : call.response.message;
     }
     const std::lock_guard<std::mutex> lock(answer->mutex);

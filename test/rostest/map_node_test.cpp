@@ -96,21 +96,21 @@ TEST_F(MapNode, PublishesItsChartAddsEchoesSavesAndResets) {
 
   SaveMap save;
   save.request.path = "/tmp/otter_nav_map_node_test.yaml";
-  ASSERT_TRUE(ros::service::call("map_node/save", save));
+  ASSERT_TRUE(ros_bridge::callService("map_node/save", save));
   EXPECT_TRUE(save.response.success) << save.response.message;
   const auto saved = map::loadChart(save.request.path);
   ASSERT_TRUE(saved.has_value());
   EXPECT_EQ(cellAhead(*saved), map::Cell::kOccupied);
   save.request.path = "";
-  ASSERT_TRUE(ros::service::call("map_node/save", save));
+  ASSERT_TRUE(ros_bridge::callService("map_node/save", save));
   EXPECT_FALSE(save.response.success);
   EXPECT_EQ(save.response.message, "the path is empty");
   save.request.path = "/nowhere/map.yaml";
-  ASSERT_TRUE(ros::service::call("map_node/save", save));
+  ASSERT_TRUE(ros_bridge::callService("map_node/save", save));
   EXPECT_FALSE(save.response.success);
 
   std_srvs::Trigger reset;
-  ASSERT_TRUE(ros::service::call("map_node/reset", reset));
+  ASSERT_TRUE(ros_bridge::callService("map_node/reset", reset));
   ASSERT_TRUE(updates_.waitFor([&](const auto& update) {
     (void)ros_bridge::applyUpdate(update, ros_bridge::frames().map, grid);
     return cellAhead(grid) == map::Cell::kFree;

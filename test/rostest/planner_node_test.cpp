@@ -143,7 +143,7 @@ TEST_F(PlannerNode, PlansFromTheVesselToTheGoal) {
 TEST_F(PlannerNode, FollowsTheOperator) {
   const auto wish = [](const std::string& name) {
     std_srvs::Trigger call;
-    EXPECT_TRUE(ros::service::call("planner_node/" + name, call)) << name;
+    EXPECT_TRUE(ros_bridge::callService("planner_node/" + name, call)) << name;
     return call.response;
   };
   const auto comes = [this](const std::string& state) {

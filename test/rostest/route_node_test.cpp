@@ -59,7 +59,7 @@ class RouteNode : public testing::Test {
   std_srvs::Trigger::Response ask(const std::string& name) {
     // The node's answer may need this one: the action's server lives here.
     std_srvs::Trigger call;
-    EXPECT_TRUE(ros::service::call("route_node/" + name, call));
+    EXPECT_TRUE(ros_bridge::callService("route_node/" + name, call));
     return call.response;
   }
   // Repeated until the action's client and server know each other.

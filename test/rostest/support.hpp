@@ -7,6 +7,7 @@
 #include <deque>
 #include <string>
 
+#include "otter_nav/ros/call_service.hpp"
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
 

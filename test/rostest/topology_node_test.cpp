@@ -22,7 +22,7 @@ GuidePath find(const geometry_msgs::PoseStamped& start, const geometry_msgs::Pos
   call.request.start = start;
   call.request.goal = goal;
   EXPECT_TRUE(ros::service::waitForService("find_guide_path", ros::Duration(kPatienceS)));
-  EXPECT_TRUE(ros::service::call("find_guide_path", call));
+  EXPECT_TRUE(ros_bridge::callService("find_guide_path", call));
   return call.response.guide_path;
 }
 
