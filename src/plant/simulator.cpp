@@ -62,6 +62,15 @@ struct Simulator::Parts {
     observe();
   }
 
+  // Where calm water would carry it, moved with the waves there: dropped onto a sea from mean level
+  // a light hull may turn over before it has done anything.
+  void rideTheWaves() {
+    const Surroundings around =
+        surroundings(environment.at(time_s, planarPose(state), *model), state, *model);
+    state.segment<3>(kDown) += around.surface;
+    state.segment<3>(kW) += around.surface_rate;
+  }
+
   void observe() {
     const Eigen::Vector2d wind = truth.wind_mps;
     const Eigen::Vector2d current = truth.current_mps;
@@ -134,6 +143,7 @@ Result<Simulator> Simulator::create(const Options& options, const map::Occupancy
 
 void Simulator::placeAt(const Eigen::Vector2d& position, double psi_rad) {
   parts_->state = placed(parts_->model->settled(), position, psi_rad);
+  parts_->rideTheWaves();
   parts_->had_contact = false;
   parts_->touched_vessel.reset();
   parts_->odometry.reset();

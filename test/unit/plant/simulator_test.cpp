@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,35 @@ TEST_P(EveryVessel, StartAtRestWhereTheyArePlaced) {
   EXPECT_NEAR(planar[vessel::kY], -2.0, 1e-6);
   EXPECT_NEAR(planar[vessel::kPsi], 2.0, 1e-6);
   EXPECT_NEAR(simulator.time(), 2.0, 1e-9);
+}
+
+// A voyage begins in the sea that it goes on in: none is tossed about more as it is set afloat than
+// by the waves that follow.
+TEST_P(EveryVessel, RideTheWavesFromTheFirstMomentOn) {
+  constexpr int kPlaces = 24;
+  constexpr double kFirstS = 2.0;
+  constexpr double kThenS = 30.0;
+  constexpr double kAsMuch = 1.2;
+  struct Tossed {
+    double tilt_rad = 0.0;
+    double heave_mps = 0.0;
+    void by(const Truth& truth) {
+      tilt_rad = std::max({tilt_rad, std::abs(truth.roll_rad), std::abs(truth.pitch_rad)});
+      heave_mps = std::max(heave_mps, std::abs(truth.velocity_in_body.z()));
+    }
+  };
+  Tossed at_first;
+  Tossed then;
+  for (int k = 0; k < kPlaces; ++k) {
+    Simulator simulator(optionsFor(GetParam(), "hard"), {}, static_cast<std::uint64_t>(k) + 1);
+    simulator.placeAt({17.0 * k, -9.0 * k}, 0.7 * k);
+    while (simulator.time() < kThenS) {
+      (simulator.time() < kFirstS ? at_first : then).by(simulator.truth());
+      simulator.step({0.0, 0.0}, 0.01);
+    }
+  }
+  EXPECT_LT(at_first.tilt_rad, kAsMuch * then.tilt_rad);
+  EXPECT_LT(at_first.heave_mps, kAsMuch * then.heave_mps);
 }
 
 TEST_P(EveryVessel, SailWhereTheyPointAndTurnTowardsTheWeakerSide) {
