@@ -38,7 +38,8 @@ class Simulator {
                                                 const map::OccupancyGrid& world,
                                                 std::uint64_t seed);
 
-  // At rest over ground, in the settled trim, at this pose; time and disturbances go on.
+  // At this pose, at rest over ground in the plane, in the settled trim about the waves there and
+  // moved up and down with them; time and disturbances go on.
   void placeAt(const Eigen::Vector2d& position, double psi_rad);
 
   // Takes a command, N a side, positive ahead; the plant saturates it. A command that is not finite
