@@ -33,6 +33,10 @@ constexpr double kAnyTurnRadps = 0.2;
 constexpr double kAnyTurnAmongManyRadps = 0.6;  // of who may be off on a new course at any time
 constexpr double kNoTurnRadps = 1e-3;
 constexpr double kLeastWeight = 1e-4;
+// Heading less course: of anybody at first, and how it strays, rad^2/s.
+constexpr double kLeewayRad = 0.1;
+constexpr double kLeewayStrays = 0.00002;
+constexpr double kQuarterRad = 0.5 * kPi;
 
 MotionCovariance noise(double acceleration, double turn_change, double dt) {
   MotionCovariance q = MotionCovariance::Zero();
@@ -42,6 +46,7 @@ MotionCovariance noise(double acceleration, double turn_change, double dt) {
     q(axis + 2, axis + 2) = acceleration * dt;
   }
   q(4, 4) = turn_change * dt;
+  q(5, 5) = kLeewayStrays * dt;
   return q;
 }
 
@@ -61,12 +66,13 @@ MotionState turned(const MotionState& x, double dt, double decay_s, MotionCovari
   const double vy = x[3];
   const double kept = std::exp(-dt / decay_s);
   MotionState y;
-  y << x[0] + a * vx - b * vy, x[1] + b * vx + a * vy, c * vx - s * vy, s * vx + c * vy, kept * w;
+  y << x[0] + a * vx - b * vy, x[1] + b * vx + a * vy, c * vx - s * vy, s * vx + c * vy, kept * w,
+      x[5];
   f.setIdentity();
   f.block<2, 2>(0, 2) << a, -b, b, a;
   f.block<2, 2>(2, 2) << c, -s, s, c;
   f.col(4) << da * vx - db * vy, db * vx + da * vy, -dt * (s * vx + c * vy), dt * (c * vx - s * vy),
-      kept;
+      kept, 0.0;
   return y;
 }
 
@@ -97,9 +103,9 @@ template <int N>
 void correct(const Measurement& m, MotionState& x, MotionCovariance& p) {
   const Eigen::Matrix<double, N, N> s =
       p.topLeftCorner<N, N>() + m.covariance.topLeftCorner<N, N>();
-  const Eigen::Matrix<double, 5, N> gain = p.leftCols<N>() * s.inverse();
+  const Eigen::Matrix<double, 6, N> gain = p.leftCols<N>() * s.inverse();
   x += gain * (m.value.head<N>() - x.head<N>());
-  const Eigen::Matrix<double, N, 5> rows = p.topRows<N>();
+  const Eigen::Matrix<double, N, 6> rows = p.topRows<N>();
   p -= gain * rows;
 }
 
@@ -117,6 +123,7 @@ MotionFilter::MotionFilter(const Measurement& first, double stamp_s) : stamp_s_(
     const double turn = m == kStraight ? kNoTurnRadps : kAnyTurnRadps;
     models_[m].weight = kAtFirst[m];
     models_[m].P(4, 4) = turn * turn;
+    models_[m].P(5, 5) = kLeewayRad * kLeewayRad;
   }
 }
 
@@ -170,11 +177,12 @@ void MotionFilter::mixAnew(const std::array<Model, kModels>& before, const PerMo
       continue;
     }
     const double speed2 = from[m].x.segment<2>(2).squaredNorm();
-    from[m].x.tail<3>().setZero();
-    from[m].P.rightCols<3>().setZero();
-    from[m].P.bottomRows<3>().setZero();
+    from[m].x.tail<4>().setZero();
+    from[m].P.rightCols<4>().setZero();
+    from[m].P.bottomRows<4>().setZero();
     from[m].P.block<2, 2>(2, 2).diagonal().setConstant(0.5 * speed2);
     from[m].P(4, 4) = kNoTurnRadps * kNoTurnRadps;
+    from[m].P(5, 5) = kLeewayRad * kLeewayRad;
   }
   model.x.setZero();
   for (std::size_t m = 0; m < kModels; ++m) {
@@ -262,7 +270,6 @@ void MotionFilter::update(const std::vector<Candidate>& candidates) {
     none -= likely.back() > 0.0 ? candidate.probability : 0.0;
   }
   none = std::max(0.0, none);
-  double sum = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
     if (!isUsed(m)) {
       continue;
@@ -276,7 +283,6 @@ void MotionFilter::update(const std::vector<Candidate>& candidates) {
                       : 0.0;
     }
     model.weight *= std::max(evidence, 1e-12);
-    sum += model.weight;
     if (evidence <= 0.0) {
       continue;  // stays where it is, and hardly counts
     }
@@ -303,6 +309,68 @@ void MotionFilter::update(const std::vector<Candidate>& candidates) {
     model.x = x;
     model.P = 0.5 * (p + p.transpose());
   }
+  normalize();
+}
+
+void MotionFilter::update(const Measurement& measurement) {
+  update({{measurement, likelihoods(measurement), 1.0}});
+}
+
+void MotionFilter::update(const Sides& sides) {
+  constexpr double kAstray = 0.03;  // what is taken for her sides may be something else
+  constexpr double kAnyCourseRad = 0.2 * kQuarterRad;
+  constexpr double kNoLessShare = 0.5;
+  constexpr double kSigmas = 3.0;
+  constexpr double kLeastSpeedMps = 0.3;
+  std::array<bool, kModels> told{};
+  double told_weight = 0.0;
+  double likelihood = 0.0;
+  for (std::size_t m = 0; m < kModels; ++m) {
+    Model& model = models_[m];
+    const Eigen::Vector2d velocity = model.x.segment<2>(2);
+    const double speed2 = std::max(velocity.squaredNorm(), kLeastSpeedMps * kLeastSpeedMps);
+    Eigen::Matrix<double, 1, 6> slope = Eigen::Matrix<double, 1, 6>::Zero();
+    slope[2] = -velocity.y() / speed2;
+    slope[3] = velocity.x() / speed2;
+    slope[5] = 1.0;
+    const double off = std::remainder(
+        sides.direction_rad - std::atan2(velocity.y(), velocity.x()) - model.x[5], kQuarterRad);
+    const double variance =
+        slope * model.P * slope.transpose() + sides.deviation_rad * sides.deviation_rad;
+    const double deviation = std::sqrt(variance);
+    told[m] = isUsed(m) && deviation < kAnyCourseRad;
+    if (!told[m]) {
+      continue;
+    }
+    told_weight += model.weight;
+    model.weight *= kAstray / kQuarterRad + (1.0 - kAstray) *
+                                                std::exp(-0.5 * off * off / variance) /
+                                                (std::sqrt(2.0 * kPi) * deviation);
+    likelihood += model.weight;
+    if (std::abs(off) < kSigmas * deviation) {
+      const MotionState gain = model.P * slope.transpose() / variance;
+      model.x += off * gain;
+      const Eigen::Matrix<double, 1, 6> row = slope * model.P;
+      model.P -= gain * row;
+      model.P = 0.5 * (model.P + model.P.transpose()).eval();
+    }
+  }
+  // Of a model whose course may be any: as likely as any direction is, and hardly less than by the
+  // others: sides that stay as they are, scan after scan, say little against a new course on which
+  // they would do so too.
+  const double others = told_weight > 0.0 ? likelihood / told_weight : 0.0;
+  const double any = std::max(1.0 / kQuarterRad, kNoLessShare * others);
+  for (std::size_t m = 0; m < kModels; ++m) {
+    models_[m].weight *= told[m] ? 1.0 : any;
+  }
+  normalize();
+}
+
+void MotionFilter::normalize() {
+  double sum = 0.0;
+  for (std::size_t m = 0; m < kModels; ++m) {
+    sum += isUsed(m) ? models_[m].weight : 0.0;
+  }
   double clamped = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
     if (isUsed(m)) {
@@ -313,10 +381,6 @@ void MotionFilter::update(const std::vector<Candidate>& candidates) {
   for (Model& model : models_) {
     model.weight /= clamped;
   }
-}
-
-void MotionFilter::update(const Measurement& measurement) {
-  update({{measurement, likelihoods(measurement), 1.0}});
 }
 
 void MotionFilter::shift(const Eigen::Vector2d& by) {

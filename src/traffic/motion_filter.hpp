@@ -10,15 +10,21 @@
 
 namespace otter_nav::traffic {
 
-// [x m, y m, v_x m/s, v_y m/s, omega rad/s], map frame.
-using MotionState = Eigen::Matrix<double, 5, 1>;
-using MotionCovariance = Eigen::Matrix<double, 5, 5>;
+// [x m, y m, v_x m/s, v_y m/s, omega rad/s, heading less course rad], map frame.
+using MotionState = Eigen::Matrix<double, 6, 1>;
+using MotionCovariance = Eigen::Matrix<double, 6, 6>;
 
 // The state's first two (position) or four (and velocity) components, observed.
 struct Measurement {
   bool has_velocity = false;
   Eigen::Vector4d value = Eigen::Vector4d::Zero();
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+};
+
+// The heading but for quarters of a turn, as the sides of a hull tell it.
+struct Sides {
+  double direction_rad = 0.0;
+  double deviation_rad = 0.0;  // standard deviation
 };
 
 class MotionFilter {
@@ -52,6 +58,8 @@ class MotionFilter {
   void update(const std::vector<Candidate>& candidates);
   // The vessel's for certain.
   void update(const Measurement& measurement);
+  // Who turns shows it by her sides before she has moved aside.
+  void update(const Sides& sides);
 
   // Moves the position alone: another point of the same vessel is followed from now on.
   void shift(const Eigen::Vector2d& by);
@@ -77,6 +85,7 @@ class MotionFilter {
   };
   void mix(double dt_s, double anew_per_s);
   void mixAnew(const std::array<Model, kModels>& before, const PerModel& share);
+  void normalize();
   [[nodiscard]] bool isUsed(std::size_t model) const;
   // The first so many.
   [[nodiscard]] std::size_t usualModels() const;

@@ -229,7 +229,7 @@ double TrackedVessel::halfDepth(const Eigen::Vector2d& along) const {
          (length_m * std::abs(ahead().dot(along)) + beam_m * std::abs(across(ahead()).dot(along)));
 }
 
-std::optional<double> TrackedVessel::headingBySides(const Cluster& cluster) const {
+std::optional<double> TrackedVessel::sidesOf(const Cluster& cluster) {
   constexpr std::size_t kFewest = 8;
   constexpr double kLeastLengthM = 1.0;
   constexpr double kMostDeviationM = 0.15;
@@ -241,6 +241,15 @@ std::optional<double> TrackedVessel::headingBySides(const Cluster& cluster) cons
   if (rectangleDeviation(cluster.points, direction) > kMostDeviationM) {
     return std::nullopt;
   }
+  return direction;
+}
+
+std::optional<double> TrackedVessel::headingBySides(const Cluster& cluster) const {
+  const std::optional<double> sides = sidesOf(cluster);
+  if (!sides) {
+    return std::nullopt;
+  }
+  const double direction = *sides;
   constexpr double kQuarter = 0.5 * kPi;
   return direction + kQuarter * std::round((*heading_rad - direction) / kQuarter);
 }

@@ -96,6 +96,9 @@ struct TrackedVessel {
   [[nodiscard]] std::vector<Eigen::Vector2d> pointsWithin() const;
   [[nodiscard]] Track track() const;
 
+  // The direction of the sides that a cluster shows, but for quarters of a turn; none if it shows
+  // none clearly.
+  [[nodiscard]] static std::optional<double> sidesOf(const Cluster& cluster);
   // The direction of the sides that a cluster shows next to the heading, which has to be known;
   // none if it shows none clearly.
   [[nodiscard]] std::optional<double> headingBySides(const Cluster& cluster) const;

@@ -73,6 +73,7 @@ constexpr double kAidDiameterM = 3.0;
 // Among many: how often each is off on a new course, and how long a report vouches for who is seen
 // no more.
 constexpr double kAnewPerS = 0.1;
+constexpr double kSidesRad = 0.08;  // what they tell of a heading is alike scan after scan
 constexpr double kAisKeptCrowdedS = 1.0;
 
 constexpr double kSameM = 3.0;  // two tracks nearer than this, and alike, are one vessel
@@ -117,6 +118,11 @@ class Tracker::Impl {
     };
     look.detection = [&](const TrackedVessel& vessel, const MotionFilter& now) {
       return lidarDetection(vessel, now, eye);
+    };
+    look.sides = [&](std::size_t k) -> std::optional<Sides> {
+      const std::optional<double> direction =
+          crowded_ ? TrackedVessel::sidesOf(clusters[k]) : std::nullopt;
+      return direction ? std::optional<Sides>({*direction, kSidesRad}) : std::nullopt;
     };
     look.seen = [&](TrackedVessel& vessel, std::size_t k, bool first_course) {
       if (first_course && isTheLidarsAlone(vessel)) {
@@ -179,6 +185,7 @@ class Tracker::Impl {
       const bool reached = range < options_.radar_range_m && !vessel.keeps_place;
       return Detection{kRadarDetection, reached ? kRadarDetection : 0.0};
     };
+    look.sides = [](std::size_t /*k*/) { return std::nullopt; };
     look.seen = [](TrackedVessel& /*vessel*/, std::size_t /*k*/, bool /*first*/) {};
     const std::vector<double> taken = associate(look);
     int nobodys = 0;
@@ -234,6 +241,8 @@ class Tracker::Impl {
     std::function<bool(const TrackedVessel&, std::size_t)> canBe;
     // Where the vessel's motion has brought it by now.
     std::function<Detection(const TrackedVessel&, const MotionFilter&)> detection;
+    // Of what has any.
+    std::function<std::optional<Sides>(std::size_t)> sides;
     // Most probably this one; whether its course has become known by it.
     std::function<void(TrackedVessel&, std::size_t, bool)> seen;
   };
@@ -426,6 +435,9 @@ class Tracker::Impl {
       ++vessel.hits;
       vessel.sources |= look.source;
       vessel.plots += look.source == kRadar ? 1 : 0;
+      if (const std::optional<Sides> sides = look.sides(links[best].detection)) {
+        vessel.motion.update(*sides);
+      }
       look.seen(vessel, links[best].detection, vessel.followCourse());
     }
   }

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/random.hpp"
 #include "traffic/association.hpp"
@@ -228,6 +229,61 @@ TEST(MotionFilter, LearnsATurnThatLasts) {
   EXPECT_NEAR(rate, kRate, 0.03);
   EXPECT_GT(steady, 0.8);
   EXPECT_LT(std::sqrt(square), 0.45);
+}
+
+// A hull that begins to turn gently, met by lidar at its middle; `leeway_rad`: she lies so much to
+// port of her course. How far off it the filter has her course at the end, rad.
+double courseOffOfWhoBeginsToTurn(bool by_sides, double leeway_rad, double turns_for_s,
+                                  Random& random) {
+  constexpr double kMps = 2.3;
+  constexpr double kRate = -0.17;
+  constexpr double kScanS = 1.0 / 15.0;
+  constexpr double kBeginsS = 6.0;
+  const double until_s = kBeginsS + turns_for_s;
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double course = 0.7;
+  MotionFilter filter(at(position, 0.3), 0.0);
+  for (int scan = 1; scan * kScanS < until_s; ++scan) {
+    const double now = scan * kScanS;
+    course += now > kBeginsS ? kScanS * kRate : 0.0;
+    position += kScanS * kMps * unitVector(course);
+    filter.predict(now, 0.1);
+    const double east = random.normal();  // the order of arguments is the compiler's
+    filter.update(at(position + 0.1 * Eigen::Vector2d(east, random.normal()), 0.3));
+    if (by_sides) {
+      // Any of the four, with what a search among thirty directions is off.
+      const double quarters = std::floor(random.uniform(0.0, 4.0));
+      const double error = 0.03 * random.normal();
+      filter.update(Sides{course + leeway_rad + error + 0.5 * kPi * quarters, 0.08});
+    }
+  }
+  const Eigen::Vector2d velocity = filter.usualState().segment<2>(2);
+  return std::abs(wrapAngle(angleOf(velocity) - course));
+}
+
+TEST(MotionFilter, KnowsTheCourseOfWhoBeginsToTurnByHerSides) {
+  constexpr int kRuns = 40;
+  constexpr double kTurnsForS = 1.5;
+  Random random(8);
+  double with = 0.0;
+  double without = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    with += courseOffOfWhoBeginsToTurn(true, 0.0, kTurnsForS, random) / kRuns;
+    without += courseOffOfWhoBeginsToTurn(false, 0.0, kTurnsForS, random) / kRuns;
+  }
+  EXPECT_LT(with, 0.1);
+  EXPECT_GT(without, 1.5 * with);
+}
+
+// Wind and current set a hull aside from where she points: that is no turn, and no other course.
+TEST(MotionFilter, LearnsHowFarAHullLiesOffHerCourse) {
+  constexpr int kRuns = 20;
+  Random random(9);
+  double off = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    off += courseOffOfWhoBeginsToTurn(true, 0.25, 0.0, random) / kRuns;
+  }
+  EXPECT_LT(off, 0.03);
 }
 
 // Against all events written out by hand.
