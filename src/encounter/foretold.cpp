@@ -21,8 +21,26 @@ constexpr double kNotFromHabit = 0.2;
 constexpr double kMayTurnFromHabit = 0.04;
 constexpr double kGrownShare = 0.6;  // of what a track itself says it may stray
 constexpr double kHabitPerS = 0.15;  // standard deviation, m, of who goes on as before
+// At a corner, for each radian of it, times what the way is known to: who is met once a second only
+// is on either side of it when she is met, and the way between is cut.
+constexpr double kAtCorner = 0.8;
 constexpr double kSheerM = 0.3;
 constexpr double kSheerS = 0.4;
+
+// How far a way turns around a place of it, rad.
+double turnAt(const std::vector<Eigen::Vector2d>& places, std::size_t at) {
+  constexpr std::size_t kSteps = 5;  // to either side
+  constexpr double kMostRad = 1.2;
+  constexpr double kLeastM = 0.1;
+  const std::size_t from = at < kSteps ? 0 : at - kSteps;
+  const std::size_t to = std::min(at + kSteps, places.size() - 1);
+  const Eigen::Vector2d comes = places[at] - places[from];
+  const Eigen::Vector2d goes = places[to] - places[at];
+  if (comes.norm() < kLeastM || goes.norm() < kLeastM) {
+    return 0.0;
+  }
+  return std::min(kMostRad, std::abs(std::atan2(cross(comes, goes), comes.dot(goes))));
+}
 
 }  // namespace
 
@@ -81,13 +99,15 @@ Foretold::Foretold(const std::vector<traffic::Track>& tracks, const Habits& habi
     const double on_a_way = mover.probable * kFromHabit / kNotFromHabit;
     for (const Way& way : as_before) {
       mover.probable = on_a_way * way.share;
+      const double way_m = std::sqrt(way.variance_m2);
       for (int k = 0; k <= steps_; ++k) {
         const auto at = static_cast<std::size_t>(k);
         Place& there = mover.places[at];
         const Eigen::Vector2d step = way.places[at + 1] - way.places[at];
         there.middle = way.places[at];
         there.ahead = step.norm() > 1e-3 ? step.normalized() : there.ahead;
-        there.deviation_m = std::hypot(kDeviationM, kHabitPerS * k * kStepS);
+        there.deviation_m = std::hypot(kDeviationM, kHabitPerS * k * kStepS,
+                                       kAtCorner * turnAt(way.places, at) * way_m);
       }
       movers_.push_back(mover);
     }

@@ -18,7 +18,8 @@ struct Told {
 
 struct Way {
   std::vector<Eigen::Vector2d> places;
-  double share = 0.0;  // how probable it is among the ways
+  double share = 0.0;        // how probable it is among the ways
+  double variance_m2 = 0.0;  // of the places where they are known, each axis
 };
 
 // The likeliest first; their shares make one. All must have as many places.

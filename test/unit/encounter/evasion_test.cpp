@@ -521,6 +521,20 @@ TEST(Foretold, ReckonsWithEachWayWhereTheyPart) {
   EXPECT_NEAR(ways[0].share + ways[1].share, 1.0, 1e-9);
 }
 
+// Who is met once a second is met before a corner and after it, and may have gone on for a while.
+TEST(Foretold, IsNotSureOfACornerThatTheRadarAloneHasSeen) {
+  constexpr double kNowS = 80.0;
+  constexpr int kAt = 10;  // of the foretold's steps: at the corner
+  const auto dangerBeyond = [](double variance_m2) {
+    Habits habits;
+    remember(habits, 1, 0.0, variance_m2, {{0.0, 0.0}, {24.0, 0.0}, {24.0, 30.0}});
+    const traffic::Track she = seenAt(2, kNowS, {20.0, 0.0}, {2.0, 0.0});
+    const Foretold foretold({she}, habits, kNowS, 8.0, {30.0, 0.0}, 2.0, vessel::Hull());
+    return foretold.at({28.0, 0.0}, {0.0, 1.0}, kAt, foretold.all()).danger;
+  };
+  EXPECT_GT(dangerBeyond(kByRadarM2), 2.0 * dangerBeyond(kByLidarM2));
+}
+
 // The lidar lost her right before the corner that the radar has seen her turn.
 TEST(Habits, TellsACornerFromWhoWasSeenToTurnItAndNotFromWhoWasLost) {
   Habits habits;
