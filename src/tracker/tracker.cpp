@@ -35,6 +35,8 @@ constexpr double kJoinLengths = 1.5;
 constexpr double kJoinSpeedMps = 0.7;
 constexpr double kJoinSpeedShare = 0.3;    // of the speed limit, where that is less
 constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts the next one
+constexpr double kHereM = 0.1;  // but not where the trajectory begins with the hull's motion
+constexpr double kHereMps = 0.2;
 
 Vector2d velocityOverGround(const vessel::State& x) {
   const Vector2d e = unitVector(x[kPsi]);
@@ -200,14 +202,18 @@ void PredictiveTracker::beginTracking(double now_s, const vessel::State& state) 
   reference_source_.start(sailing_->sailed, now_s);
   const vessel::FlatPoint z = reference_source_.flat(now_s);
   const Vector2d offset = state.head<2>() - z.position;
+  const Vector2d velocity_offset = velocityOverGround(state) - z.velocity;
   if (offset.norm() > kJoinLengths * vessel_.hull.length_m) {
-    const Vector2d velocity_offset = velocityOverGround(state) - z.velocity;
     reference_source_.join(
         now_s, offset, velocity_offset,
         std::max(4.0, offset.norm() / std::min(kJoinSpeedMps,
                                                kJoinSpeedShare * sailing_->sailed.speed_max_mps)));
   }
-  controller_.start(under_way && offset.norm() < kSamePathLengths * vessel_.hull.length_m);
+  // What is begun right from here is a motion of the hull and the best start for its plan; from the
+  // plan in force the iteration may not come to one that leads elsewhere.
+  const bool begins_here = offset.norm() < kHereM && velocity_offset.norm() < kHereMps;
+  const bool same_path = offset.norm() < kSamePathLengths * vessel_.hull.length_m;
+  controller_.start(under_way && same_path && !begins_here);
 }
 
 void PredictiveTracker::beginStop(std::string_view reason, double now_s,
