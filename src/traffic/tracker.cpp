@@ -73,8 +73,9 @@ constexpr double kAidDiameterM = 3.0;
 // Among many: how often each is off on a new course, and how long a report vouches for who is seen
 // no more.
 constexpr double kAnewPerS = 0.1;
-constexpr double kSidesRad = 0.08;  // what they tell of a heading is alike scan after scan
 constexpr double kAisKeptCrowdedS = 1.0;
+// Standard deviation of a heading by the sides; what is off is so scan after scan.
+constexpr double kSidesRad = 0.08;
 
 constexpr double kSameM = 3.0;  // two tracks nearer than this, and alike, are one vessel
 
