@@ -13,19 +13,6 @@ namespace {
 
 using encounter::Evasion;
 
-traffic::Track squareAt(int id, double now_s, const Eigen::Vector2d& position,
-                        const Eigen::Vector2d& velocity) {
-  traffic::Track track;
-  track.id = id;
-  track.stamp_s = now_s;
-  track.position = position;
-  track.velocity = velocity;
-  track.heading_rad = angleOf(velocity);
-  track.length_m = track.beam_m = 4.0;
-  track.covariance.diagonal() << 0.02, 0.02, 0.02, 0.02;
-  return track;
-}
-
 // What a voyage among others shows, who come up near her on any course once a second.
 struct Followed {
   int moments = 0;
@@ -56,7 +43,8 @@ Followed followedAmongOthers(std::uint64_t seed) {
         const double mps = random.uniform(1.5, 4.0);
         const double course = bearing + kPi + random.uniform(-0.5, 0.5);
         others.push_back(
-            squareAt(k + 1, sea.now(), hull.head<2>() + from, mps * unitVector(course)));
+            encounter::test::square(k + 1, hull.head<2>() + from, mps * unitVector(course)));
+        others.back().stamp_s = sea.now();
       }
     }
     Evasion::Task task;

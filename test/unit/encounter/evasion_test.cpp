@@ -16,22 +16,13 @@
 namespace otter_nav::encounter {
 namespace {
 
+using test::square;
+
 constexpr double kHorizonS = SpaceTimeSearch::kHorizonS;
 
 vessel::Parameters vesselNamed(const std::string& name) {
   return *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/" + name +
                                  ".yaml");
-}
-
-traffic::Track square(int id, const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
-  traffic::Track track;
-  track.id = id;
-  track.position = position;
-  track.velocity = velocity;
-  track.heading_rad = angleOf(velocity);
-  track.length_m = track.beam_m = 4.0;
-  track.covariance.diagonal() << 0.02, 0.02, 0.02, 0.02;
-  return track;
 }
 
 // Under way east at 2 m/s, or at rest; the goal 40 m ahead.

@@ -1,8 +1,10 @@
-// Water without anything in it, for the room's tests.
+// Water without anything in it, and who is under way there, for the room's tests.
 #pragma once
 
+#include "otter_nav/base/planar.hpp"
 #include "otter_nav/map/distance_field.hpp"
 #include "otter_nav/map/occupancy_grid.hpp"
+#include "otter_nav/traffic/track.hpp"
 
 namespace otter_nav::encounter::test {
 
@@ -31,6 +33,19 @@ inline map::DistanceField channel() {
     grid.cells[k] = column < 123U || column > 126U ? map::Cell::kOccupied : map::Cell::kFree;
   }
   return fieldOf(grid);
+}
+
+// A square of 4 m, well known.
+inline traffic::Track square(int id, const Eigen::Vector2d& position,
+                             const Eigen::Vector2d& velocity) {
+  traffic::Track track;
+  track.id = id;
+  track.position = position;
+  track.velocity = velocity;
+  track.heading_rad = angleOf(velocity);
+  track.length_m = track.beam_m = 4.0;
+  track.covariance.diagonal() << 0.02, 0.02, 0.02, 0.02;
+  return track;
 }
 
 }  // namespace otter_nav::encounter::test
