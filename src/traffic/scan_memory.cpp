@@ -17,7 +17,8 @@ constexpr std::uint8_t kSeenFree = 5;  // scans
 constexpr std::int32_t kNewForMs = 3000;
 constexpr std::int32_t kUnknownForMs = 600;   // the same where nobody knows whether it was free
 constexpr std::int32_t kFreeHoldsMs = 20000;  // what was free so long ago says nothing
-constexpr std::int32_t kEchoHoldsMs = 1000;   // what was met so long ago stands there no more
+constexpr std::int32_t kEchoHoldsMs = 1000;   // what was met so long ago need not be there any more
+constexpr std::int32_t kHiddenForMs = 20000;  // but what stood, and nothing has shown to be gone
 
 // Of negative ones too, for the side is a power of two.
 static_assert((kSide & (kSide - 1)) == 0);
@@ -75,10 +76,11 @@ void ScanMemory::begin(double time_s, const Eigen::Vector2d& eye) {
 }
 
 bool ScanMemory::standsSince(const Cell& cell) const {
-  if (cell.met_since_ms < 0 || now_ms_ - cell.met_last_ms > kEchoHoldsMs) {
+  if (cell.met_since_ms < 0 || now_ms_ - cell.met_last_ms > kHiddenForMs) {
     return false;
   }
-  return now_ms_ - cell.met_since_ms > (cell.free_count < kSeenFree ? kUnknownForMs : kNewForMs);
+  return cell.met_last_ms - cell.met_since_ms >
+         (cell.free_count < kSeenFree ? kUnknownForMs : kNewForMs);
 }
 
 bool ScanMemory::isNew(const Eigen::Vector2d& point) const {
@@ -112,7 +114,8 @@ void ScanMemory::met(const Eigen::Vector2d& point) {
     return;
   }
   Cell& cell = cells_[indexOf(at)];
-  if (cell.met_since_ms < 0 || now_ms_ - cell.met_last_ms > kEchoHoldsMs) {
+  const bool lately = now_ms_ - cell.met_last_ms <= kEchoHoldsMs;
+  if (cell.met_since_ms < 0 || !(lately || standsSince(cell))) {
     cell.met_since_ms = now_ms_;
   }
   cell.met_last_ms = now_ms_;

@@ -18,7 +18,8 @@ class ScanMemory {
   // Whether what is met here has come into free water: the cell was seen free several times and has
   // been met for a few seconds at most, and nothing round about stands for longer.
   [[nodiscard]] bool isNew(const Eigen::Vector2d& point) const;
-  // Whether what is met here has been there for longer than a vessel under way would be.
+  // Whether what is met here has been there for longer than a vessel under way would be. It may
+  // have been hidden since, as long as no beam has found it gone.
   [[nodiscard]] bool stands(const Eigen::Vector2d& point) const;
   // First all echoes of the scan, then what its beams passed.
   void met(const Eigen::Vector2d& point);

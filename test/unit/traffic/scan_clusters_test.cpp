@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
@@ -54,6 +55,40 @@ TEST(ScanMemory, TellsWhatIsNewOnAnEpochClock) {
     }
     EXPECT_FALSE(memory.isNew(there)) << first_s;
     EXPECT_TRUE(memory.stands(there)) << first_s;
+  }
+}
+
+// What has stood and is hidden by something nearer stands there still when it comes into sight
+// again, beside water that beams have passed through; what was seen to be gone doesn't, nor what
+// was met once on its way.
+TEST(ScanMemory, KnowsAgainWhatWasHiddenMeanwhile) {
+  enum class Meanwhile { kHidden, kSeenFree };
+  struct Case {
+    double met_s;
+    Meanwhile meanwhile;
+    bool stands;
+  };
+  for (const Case& one :
+       {Case{4.0, Meanwhile::kHidden, true}, Case{4.0, Meanwhile::kSeenFree, false},
+        Case{1.0, Meanwhile::kHidden, false}}) {
+    ScanMemory memory;
+    const Eigen::Vector2d eye(0.1, 0.1);
+    const Eigen::Vector2d there(10.1, 0.1);
+    double now = 0.0;
+    const auto scans = [&](double for_s, const std::function<void()>& each) {
+      for (const double until = now + for_s; now < until; now += 1.0 / 15.0) {
+        memory.begin(now, eye);
+        each();
+      }
+    };
+    const auto seeFree = [&] { memory.passed(eye, {14.0, 0.1}); };
+    const auto meet = [&] { memory.met(there); };
+    scans(2.0, seeFree);
+    scans(one.met_s, meet);
+    scans(4.0, one.meanwhile == Meanwhile::kHidden ? [] {} : std::function<void()>(seeFree));
+    scans(0.3, meet);
+    EXPECT_EQ(memory.stands(there), one.stands) << one.met_s;
+    EXPECT_EQ(memory.isNew(there + Eigen::Vector2d(0.0, 0.1)), !one.stands) << one.met_s;
   }
 }
 
