@@ -75,7 +75,8 @@ class Search {
         vessel_(vessel),
         disturbance_(disturbance),
         rest_(vessel, disturbance),
-        cover_(vessel.hull) {
+        cover_(vessel.hull),
+        fastest_mps_(std::max(vessel.top_speed_mps, vessel::speedOf(state))) {
     motion_.states[0] = state;
     motion_.clear_m = clearanceAt(cover_, obstacles_, state.head<2>(), state[vessel::kPsi], 0.0);
   }
@@ -132,7 +133,9 @@ class Search {
     const State& next = motion.states[i + 1] = rk4Step(rate, 0.0, motion.states[i], kEscapeStepS);
     const double clear_m =
         clearanceAt(cover_, obstacles_, next.head<2>(), next[vessel::kPsi], (k + 1) * kEscapeStepS);
-    motion.clear_m = std::min(motion.clear_m, clear_m);
+    const bool too_fast = vessel::speedOf(next) > fastest_mps_;
+    motion.clear_m =
+        too_fast ? std::numeric_limits<double>::lowest() : std::min(motion.clear_m, clear_m);
     motion.room_m += std::min(clear_m, kMostRoomM);
   }
   // By value: what was pushed is gone on with.
@@ -200,6 +203,8 @@ class Search {
   const vessel::Disturbance& disturbance_;
   ComingToRest rest_;
   feasibility::HullCover cover_;
+  // With the wind it gets faster, and nobody knows how the hull does then.
+  double fastest_mps_;
   Motion motion_;
   Motion best_;
   double best_value_ = -std::numeric_limits<double>::infinity();

@@ -130,6 +130,25 @@ TEST(Escape, ComesToRestInTheWindsLine) {
   }
 }
 
+// Before the wind full thrust makes it faster than a vessel can, which the tracker refuses.
+TEST(Escape, IsNoFasterThanTheVesselCan) {
+  map::OccupancyGrid grid = test::openWater(200.0);
+  test::block(grid, {-20.0, 2.0}, {8.0, 4.0});  // a channel, and more room beyond it
+  test::block(grid, {-20.0, -4.0}, {8.0, -2.0});
+  const map::DistanceField field = test::fieldOf(grid);
+  const vessel::Parameters vessel = windTurned();
+  const vessel::Disturbance disturbance = blowing(14.0);
+  vessel::State running = lying(kPi, 0.0);
+  running[vessel::kSurge] = 0.95 * vessel.top_speed_mps;
+  const Escape way = escape(running, field, vessel, disturbance);
+  double fastest = 0.0;
+  for (double t = 0.0; t < way.path.duration(); t += 0.05) {
+    fastest = std::max(fastest, way.path.flat(t).velocity.norm());
+  }
+  EXPECT_GT(fastest, 0.9 * vessel.top_speed_mps);
+  EXPECT_LE(fastest, 1.01 * vessel.top_speed_mps);
+}
+
 // What comes after the last instant asked for doesn't count, nor what was before the first.
 TEST(Escape, TheLeastClearanceIsThatOfTheTimeAskedFor) {
   map::OccupancyGrid grid = test::openWater();
