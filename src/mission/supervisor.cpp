@@ -599,13 +599,16 @@ class Decider final : public Supervisor {
   // Something, by wind and current, in the seconds that the tracker foresees, while its thrust is
   // spent on turning the hull; and there are thrusts by which it passes. On a plan there may be
   // little room, and a load that turns no hull lets it keep its place with little; what is foreseen
-  // soon after an escape from there is the same again.
+  // soon after an escape from there is the same again. Where it lies bow to strong wind, and slowly
+  // drifts onto something beyond those seconds, a way out is sought now: later there may be none.
   bool isDrivenOnto(const Moment& m) {
     constexpr double kWithinS = 5.0;
     constexpr double kNearM = 1.0;
     constexpr double kNearOnItsWayM = 0.1;
     constexpr double kNearerM = 0.5;  // than it lies
     constexpr double kWorthM = 0.7;
+    constexpr double kDriftsS = 10.0;
+    constexpr double kDriftsOntoM = 0.3;
     constexpr double kAgainS = 0.2;
     constexpr double kAnotherS = 60.0;
     const vessel::Foreseen& foreseen = m.situation.foreseen;
@@ -618,14 +621,18 @@ class Decider final : public Supervisor {
     }
     const vessel::State& x = m.situation.state;
     const vessel::Foreseen here{m.now_s, 0.0, {{x.head<2>(), x[vessel::kPsi]}}};
-    const auto least = [&](const vessel::Foreseen& motion) {
-      return stopping::leastClearance(motion, m.now_s, m.now_s + kWithinS, m.obstacles,
+    const auto least = [&](const vessel::Foreseen& motion, double within_s) {
+      return stopping::leastClearance(motion, m.now_s, m.now_s + within_s, m.obstacles,
                                       vessel_.hull);
     };
-    const bool is_on_its_way = (in(phase_)&kUnderWay) != 0;
-    const double near_m = may_lose_heading && !is_on_its_way ? kNearM : kNearOnItsWayM;
-    const double comes_m = least(foreseen);
-    if (comes_m > std::min(near_m, least(here) - kNearerM)) {
+    const bool lies = may_lose_heading && (in(phase_)&kUnderWay) == 0;
+    const double near_m = lies ? kNearM : kNearOnItsWayM;
+    double comes_m = least(foreseen, kWithinS);
+    if (lies && !is_escaping) {
+      const double drifts_m = least(stopping::driftingOn(foreseen, m.now_s + kDriftsS), kDriftsS);
+      comes_m = drifts_m < kDriftsOntoM ? std::min(comes_m, drifts_m) : comes_m;
+    }
+    if (comes_m > std::min(near_m, least(here, kWithinS) - kNearerM)) {
       return false;
     }
     escape_ =

@@ -227,6 +227,30 @@ double leastClearance(const vessel::Foreseen& foreseen, double from_s, double to
   return least;
 }
 
+vessel::Foreseen driftingOn(vessel::Foreseen foreseen, double until_s) {
+  constexpr double kLastS = 2.0;
+  constexpr double kDriftMostMps = 1.0;
+  if (!(foreseen.step_s > 0.0)) {
+    return foreseen;
+  }
+  const std::size_t poses = foreseen.poses.size();
+  const auto back = static_cast<std::size_t>(std::lround(kLastS / foreseen.step_s));
+  if (back == 0 || poses <= back) {
+    return foreseen;
+  }
+  const vessel::Pose last = foreseen.poses.back();
+  const Eigen::Vector2d a_step =
+      (last.position - foreseen.poses[poses - 1 - back].position) / static_cast<double>(back);
+  if (a_step.norm() > kDriftMostMps * foreseen.step_s) {
+    return foreseen;
+  }
+  const double end_s = foreseen.start_s + static_cast<double>(poses - 1) * foreseen.step_s;
+  for (int k = 1; end_s + k * foreseen.step_s <= until_s; ++k) {
+    foreseen.poses.push_back({last.position + k * a_step, last.psi_rad});
+  }
+  return foreseen;
+}
+
 Escape escape(const State& state, const feasibility::Obstacles& obstacles,
               const vessel::Parameters& vessel, const vessel::Disturbance& disturbance) {
   return Search(state, obstacles, vessel, disturbance).find();

@@ -20,6 +20,10 @@ namespace otter_nav::stopping {
                                     const feasibility::Obstacles& obstacles,
                                     const vessel::Hull& hull);
 
+// What is foreseen, and from its end on, to `until_s`, the drift of its last two seconds. Faster than
+// 1 m/s it is no drift: as it is.
+[[nodiscard]] vessel::Foreseen driftingOn(vessel::Foreseen foreseen, double until_s);
+
 struct Escape {
   // The model's own motion under its thrusts, in spins, from the state to where the hull has all
   // but come to rest, bow or stern to what pushes; for 7 s at most, and then it may drift still.

@@ -1370,7 +1370,8 @@ TEST(SupervisorInWind, AHeadingInTheWindsLineIsNotLostInStrongWind) {
 }
 
 // Its heading is lost, and it stops; what it drifts onto then there are thrusts to pass. So in wind
-// that turns the hull, if the tracker foresees it since it was told to stop.
+// that turns the hull, if the tracker foresees it since it was told to stop; also where it drifts
+// slowly and there is most of ten seconds left.
 TEST(SupervisorInWind, EscapesFromWhatTheTrackerForeseesItDriftsOnto) {
   struct Case {
     double wind_mps;
@@ -1380,7 +1381,8 @@ TEST(SupervisorInWind, EscapesFromWhatTheTrackerForeseesItDriftsOnto) {
   };
   for (const auto& c : {Case{8.0, true, true, 1.0, true}, Case{8.0, false, true, 1.0, false},
                         Case{8.0, true, false, 1.0, false}, Case{8.0, true, true, 0.1, false},
-                        Case{8.0, true, true, 0.4, false}, Case{3.0, true, true, 1.0, false}}) {
+                        Case{8.0, true, true, 0.25, false}, Case{8.0, true, true, 0.4, true},
+                        Case{3.0, true, true, 1.0, false}, Case{3.0, true, true, 0.4, false}}) {
     ScriptedMission mission = inWind(c.wind_mps);
     mission.setOut(6.0);
     Situation driven = mission.situation();

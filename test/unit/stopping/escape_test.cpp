@@ -170,5 +170,24 @@ TEST(Escape, TheLeastClearanceIsThatOfTheTimeAskedFor) {
   EXPECT_NEAR(least(105.0, 108.0), 7.0 - 0.5 * hull.length_m, 0.4);
 }
 
+// A drift goes on as it was in the end; way, and what is too short to tell, is left as it is.
+TEST(Escape, WhatDriftsIsForeseenToDriftOn) {
+  const auto foreseen = [](double mps, int poses) {
+    vessel::Foreseen motion{100.0, 0.5, {}};
+    for (int k = 0; k < poses; ++k) {
+      motion.poses.push_back({{3.0, 0.5 * mps * k}, 0.3});
+    }
+    return motion;
+  };
+  const vessel::Foreseen drifts = driftingOn(foreseen(0.4, 13), 110.0);
+  ASSERT_EQ(drifts.poses.size(), 21U);  // to 110 s
+  EXPECT_NEAR(drifts.poses.back().position.x(), 3.0, 1e-9);
+  EXPECT_NEAR(drifts.poses.back().position.y(), 4.0, 1e-9);
+  EXPECT_EQ(drifts.poses.back().psi_rad, 0.3);
+  EXPECT_EQ(driftingOn(foreseen(1.2, 13), 110.0).poses.size(), 13U);
+  EXPECT_EQ(driftingOn(foreseen(0.4, 4), 110.0).poses.size(), 4U);
+  EXPECT_TRUE(driftingOn({}, 110.0).poses.empty());
+}
+
 }  // namespace
 }  // namespace otter_nav::stopping
