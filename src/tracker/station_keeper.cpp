@@ -49,6 +49,13 @@ bool StationKeeper::holds(const vessel::State& state) const {
          std::abs(wrapAngle(state[kPsi] - psi_rad_)) < kHoldsRad;
 }
 
+bool StationKeeper::swingsAbout(const vessel::State& state) const {
+  constexpr double kSwingM = 0.3;
+  constexpr double kSwingRad = 0.3;
+  return !weathervanes_ && (state.head<2>() - position_).norm() < kSwingM &&
+         std::abs(wrapAngle(state[kPsi] - psi_rad_)) < kSwingRad;
+}
+
 void StationKeeper::start(const Vector2d& position, double psi_rad, double heading_rad,
                           double now_s) {
   position_ = position;

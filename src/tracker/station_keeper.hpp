@@ -27,6 +27,9 @@ class StationKeeper {
                                       const vessel::Disturbance& disturbance) const;
   // Whether the vessel lies at the spot on its heading.
   [[nodiscard]] bool holds(const vessel::State& state) const;
+  // Whether it lies there but for a swing: what holds the place against a load abeam swings the
+  // hull to and fro, by a thruster's full force for a light one.
+  [[nodiscard]] bool swingsAbout(const vessel::State& state) const;
   [[nodiscard]] bool weathervaning() const { return weathervanes_; }
 
  private:

@@ -218,9 +218,13 @@ void PredictiveTracker::beginTracking(double now_s, const vessel::State& state) 
 
 void PredictiveTracker::beginStop(std::string_view reason, double now_s,
                                   const vessel::State& state) {
+  // Who holds a spot has stopped there: where the hull is right now may be the end of a swing.
+  const bool holds_a_spot = mode_ == Mode::kHolding && keeper_.swingsAbout(state);
   if (mode_ != Mode::kStopped) {
     mode_ = Mode::kStopping;
-    restAhead(now_s, state);
+    if (!holds_a_spot) {
+      restAhead(now_s, state);
+    }
   }
   stop_reason_ = reason;
 }

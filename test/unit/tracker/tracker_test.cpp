@@ -438,6 +438,25 @@ TEST_F(TrackerTest, NumbersItsStepsAndWhatTheyWereMadeWith) {
   EXPECT_EQ(sail(0.05).reason, "asked");
 }
 
+// A stop that is asked for while a swing has the hull aside of the spot it holds keeps that spot;
+// one that is asked for elsewhere keeps where the hull is.
+TEST_F(TrackerTest, StopsAtTheSpotThatItHoldsWhateverTheSwing) {
+  for (const double aside_m : {0.15, 0.6}) {
+    state_.setZero();
+    ASSERT_TRUE(tracker_->setTrajectory({line(6.0, 10.0), now_s_}));
+    ASSERT_EQ(sail(14.0).mode, Mode::kHolding);
+    const Eigen::Vector2d spot(6.0, 0.0);
+    ASSERT_LT((state_.head<2>() - spot).norm(), 0.05);
+    state_.x() += aside_m;
+    state_[vessel::kPsi] += 0.2;
+    sail(0.02);
+    tracker_->requestStop("the operator said so");
+    EXPECT_EQ(sail(10.0).mode, Mode::kStopped);
+    EXPECT_EQ((state_.head<2>() - spot).norm() < 0.05, aside_m < 0.3) << aside_m;
+    EXPECT_EQ(std::abs(wrapAngle(state_[vessel::kPsi])) < 0.05, aside_m < 0.3) << aside_m;
+  }
+}
+
 TEST_F(TrackerTest, StopsOnRequestAndSailsOnWithTheNextTrajectory) {
   ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 30.0), now_s_}));
   sail(10.0);
