@@ -20,8 +20,8 @@ namespace otter_nav::stopping {
                                     const feasibility::Obstacles& obstacles,
                                     const vessel::Hull& hull);
 
-// What is foreseen, and from its end on, to `until_s`, the drift of its last two seconds. Faster than
-// 1 m/s it is no drift: as it is.
+// What is foreseen, and from its end on, to `until_s`, the drift of its last two seconds. Faster
+// than 1 m/s it is no drift: as it is.
 [[nodiscard]] vessel::Foreseen driftingOn(vessel::Foreseen foreseen, double until_s);
 
 struct Escape {
