@@ -176,7 +176,7 @@ TEST_F(TrackerTest, KeepsToTheSpeedLimitWhenBehind) {
     state_[vessel::kSurge] = 0.9;
     now_s_ += 1000.0;
     tracker_ = Tracker::create(load(), vessel_);
-    sail(0.2);
+    sail(0.02);
     ASSERT_TRUE(tracker_->setTrajectory({steady, now_s_, limit}));
     double fastest = 0.0;
     for (int i = 0; i < 300; ++i) {
@@ -291,7 +291,7 @@ TEST_F(TrackerTest, PushesNothingAheadWithTheBowHigh) {
     tracker_ = Tracker::create(load(), vessel_);
     state_.setZero();
     now_s_ += 1000.0;
-    sail(0.2);
+    sail(0.02);
     EXPECT_TRUE(tracker_->setTrajectory({line(60.0, 25.0), now_s_}));
     sail(3.0);
     state_[vessel::kPsi] -= 0.1;
@@ -369,7 +369,7 @@ TEST_F(TrackerTest, TakesNewWeights) {
     tracker_->setWeights(weights);
     state_.setZero();
     now_s_ += 1000.0;
-    sail(0.2);
+    sail(0.02);
     EXPECT_TRUE(tracker_->setTrajectory({line(40.0, 25.0), now_s_}));
     state_[vessel::kX] = -0.3;
     return sail(0.3).thrusts.sum();
