@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "otter_nav/base/text.hpp"
+#include "otter_nav/mission/near_obstacles.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "simulation/sensing.hpp"
 
@@ -93,11 +94,23 @@ void ClosedLoop::sense() {
     finish(scenario::Outcome::kError, status.error().message);
     return;
   }
+  lookAround();
   if (!started_) {
     start();
     return;
   }
   carryOut(supervisor_->update(time(), situation(), obstacles()));
+}
+
+void ClosedLoop::lookAround() {
+  const vessel::State& state = plant_.odometry().state;
+  const Status told = tracker_->setNearObstacles(
+      {0.0, mission::nearObstacles(
+                obstacles().field(), options_.vessel.hull, {state.head<2>(), state[vessel::kPsi]},
+                tracker_->prediction().foreseen(), tracker::kMostNearObstacles)});
+  if (!told) {
+    finish(scenario::Outcome::kError, told.error().message);
+  }
 }
 
 void ClosedLoop::start() {

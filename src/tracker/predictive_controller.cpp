@@ -60,6 +60,8 @@ OcpOptions problemOf(const Options& o, const vessel::Parameters& vessel, double 
   ocp.lower_n.setConstant(-vessel.thrusters.astern_max_n);
   ocp.upper_n.setConstant(vessel.thrusters.ahead_max_n);
   ocp.far_m = kFarLengths * vessel.hull.length_m;
+  ocp.length_m = vessel.hull.length_m;
+  ocp.beam_m = vessel.hull.beam_m;
   return ocp;
 }
 
@@ -91,6 +93,11 @@ void PredictiveController::setWeights(const Weights& weights) {
     solver_.setWeights(weightsOf(weights, heading_share_, prediction_.step_s));
     prepared_ = false;
   }
+}
+
+void PredictiveController::keepOff(const NearObstacles* near) {
+  reference_.near = near;
+  prepared_ = false;
 }
 
 void PredictiveController::start(bool keep_plan) {

@@ -21,6 +21,8 @@ class PredictiveController {
   void start(bool keep_plan);
   // Of the method `flatness`; the other keeps its own.
   void setWeights(const Weights& weights);
+  // From the next step on; not owned. Null: nothing is known to be near.
+  void keepOff(const NearObstacles* near);
 
   // Linearises and factors for the step at `next_s`, the thrusters being at `last`.
   void prepare(double next_s, const vessel::Thrusts& last, const Navigator& navigator,

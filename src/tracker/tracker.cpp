@@ -51,6 +51,7 @@ class PredictiveTracker final : public Tracker {
   Status setTrajectory(trajectory::TimedTrajectory sailed, std::uint32_t order) override;
   void addOdometry(double stamp_s, const vessel::State& state, double bow_up_rad) override;
   void requestStop(std::string_view reason, double start_s, std::uint32_t order) override;
+  Status setNearObstacles(NearObstacles near, std::uint32_t number) override;
   void setWeights(const Weights& weights) override;
   Command step(double now_s) override;
   void replaceCommand(const vessel::Thrusts& sent) override;
@@ -65,6 +66,10 @@ class PredictiveTracker final : public Tracker {
     std::string_view reason;
     std::uint32_t order = 0;
   };
+  struct Surroundings {
+    NearObstacles near;
+    std::uint32_t number = 0;
+  };
   struct Measurement {
     double stamp_s = 0.0;
     vessel::State state = vessel::State::Zero();
@@ -73,6 +78,7 @@ class PredictiveTracker final : public Tracker {
 
   void takeOdometry(double now_s);
   void takeAssignment(double now_s, const vessel::State& state);
+  void takeSurroundings(double now_s);
   void beginTracking(double now_s, const vessel::State& state);
   void beginStop(std::string_view reason, double now_s, const vessel::State& state);
   void beginHolding(double now_s, const vessel::State& state);
@@ -95,6 +101,7 @@ class PredictiveTracker final : public Tracker {
   Options options_;
   vessel::Parameters vessel_;
   Handover<Assignment> incoming_;
+  Handover<Surroundings> new_surroundings_;
   Handover<Weights> new_weights_;
   std::unique_ptr<Weights> weights_;
   Ring<Measurement, 256> odometry_;
@@ -102,7 +109,10 @@ class PredictiveTracker final : public Tracker {
 
   std::unique_ptr<Assignment> waiting_;  // not yet due, or already over: see fresh_
   std::unique_ptr<Assignment> sailing_;
-  bool fresh_ = false;  // waiting_ is still to come
+  bool fresh_ = false;                               // waiting_ is still to come
+  std::unique_ptr<Surroundings> next_surroundings_;  // not yet due, or already over
+  std::unique_ptr<Surroundings> surroundings_;
+  bool are_to_come_ = false;  // next_surroundings_
   Navigator navigator_;
   ReferenceSource reference_source_;
   StationKeeper keeper_;
@@ -113,6 +123,7 @@ class PredictiveTracker final : public Tracker {
   std::uint64_t odometry_taken_ = 0;
   double odometry_stamp_s_ = 0.0;
   std::uint32_t order_taken_ = 0;
+  std::uint32_t near_taken_ = 0;
 
   Mode mode_ = Mode::kIdle;
   std::string_view stop_reason_;
@@ -158,6 +169,21 @@ void PredictiveTracker::requestStop(std::string_view reason, double start_s, std
   incoming_.give(std::move(assignment));
 }
 
+Status PredictiveTracker::setNearObstacles(NearObstacles near, std::uint32_t number) {
+  if (near.points.size() > kMostNearObstacles) {
+    return failure(std::to_string(near.points.size()) + " near obstacles are more than " +
+                   std::to_string(kMostNearObstacles));
+  }
+  const bool finite = std::isfinite(near.start_s) &&
+                      std::all_of(near.points.begin(), near.points.end(),
+                                  [](const Vector2d& point) { return point.allFinite(); });
+  if (!finite) {
+    return failure("a near obstacle is not finite");
+  }
+  new_surroundings_.give(std::make_unique<Surroundings>(Surroundings{std::move(near), number}));
+  return {};
+}
+
 void PredictiveTracker::setWeights(const Weights& weights) {
   new_weights_.give(std::make_unique<Weights>(weights));
 }
@@ -192,6 +218,18 @@ void PredictiveTracker::takeAssignment(double now_s, const vessel::State& state)
     beginStop(sailing_->reason, now_s, state);
   } else {
     beginTracking(now_s, state);
+  }
+}
+
+void PredictiveTracker::takeSurroundings(double now_s) {
+  if (new_surroundings_.take(next_surroundings_)) {
+    are_to_come_ = true;
+    near_taken_ = next_surroundings_->number;
+  }
+  if (are_to_come_ && next_surroundings_->near.start_s <= now_s) {
+    are_to_come_ = false;
+    std::swap(next_surroundings_, surroundings_);  // the giver frees what is over
+    controller_.keepOff(&surroundings_->near);
   }
 }
 
@@ -348,6 +386,7 @@ Command PredictiveTracker::step(double now_s) {
   if (new_weights_.take(weights_)) {
     controller_.setWeights(*weights_);
   }
+  takeSurroundings(now_s);
   const Fix fix = navigator_.fix(now_s);
   const vessel::State state = navigator_.predict(now_s);
   if (fix != Fix::kNone) {
@@ -394,6 +433,7 @@ void PredictiveTracker::finish(double now_s, const vessel::State& state, Command
   command.odometry_taken = odometry_taken_;
   command.odometry_stamp_s = odometry_stamp_s_;
   command.order_taken = order_taken_;
+  command.near_taken = near_taken_;
   command.weights = weights_ ? *weights_ : options_.flatness;
   command.mode = mode_;
   command.estimate = state;

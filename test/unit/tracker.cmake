@@ -6,6 +6,7 @@ otter_nav_test(unit_tracker
   SOURCES
     ${CMAKE_CURRENT_LIST_DIR}/tracker/bow_guard_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/handover_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracker/hull_room_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/navigator_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/options_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracker/orbital_motion_test.cpp

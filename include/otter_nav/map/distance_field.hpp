@@ -76,6 +76,13 @@ class DistanceField {
     return distance > 0.0F ? distance * geometry_.resolution_m : 0.0;
   }
 
+  // Whether that corner is one of an outline: something is on one side of it, water on another.
+  [[nodiscard]] bool isOnOutline(int column, int row) const {
+    return corner_distance_[static_cast<std::size_t>(row) *
+                                static_cast<std::size_t>(corner_width_) +
+                            static_cast<std::size_t>(column)] == 0.0F;
+  }
+
   // A smooth (bilinear between cell corners, C0) signed distance in m for optimisation, negative
   // inside obstacles and outside the map, with its gradient (d distance / d p). Not a bound.
   struct Smooth {

@@ -87,6 +87,7 @@ class ClosedLoop {
              const scenario::Mission& mission, std::uint64_t seed);
 
   void sense();
+  void lookAround();  // for the tracker
   void start();
   void control();
   void judge();

@@ -12,6 +12,7 @@
 
 #include "otter_nav/base/result.hpp"
 #include "otter_nav/tracker/limits.hpp"
+#include "otter_nav/tracker/near_obstacles.hpp"
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/tracker/solver_status.hpp"
 #include "otter_nav/trajectory/timed_trajectory.hpp"
@@ -53,6 +54,7 @@ struct Command {
   std::uint64_t odometry_taken = 0;  // states taken over so far
   double odometry_stamp_s = 0.0;     // of the last of them
   std::uint32_t order_taken = 0;     // the caller's number of the last order taken over
+  std::uint32_t near_taken = 0;      // and of the last near obstacles
   Weights weights;                   // in force
 };
 
@@ -93,6 +95,11 @@ class Tracker {
   // static text.
   virtual void requestStop(std::string_view reason, double start_s = 0.0,
                            std::uint32_t order = 0) = 0;
+
+  // Any thread, whenever the map around the vessel has changed or the vessel its place: what not to
+  // be set onto, in place of what was told before. A trajectory that leads into something is
+  // followed there. Errors: not finite, more than kMostNearObstacles.
+  [[nodiscard]] virtual Status setNearObstacles(NearObstacles near, std::uint32_t number = 0) = 0;
 
   // Any thread: from the next step on, for the method `flatness`.
   virtual void setWeights(const Weights& weights) = 0;

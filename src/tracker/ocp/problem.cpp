@@ -15,7 +15,8 @@ double nearness(const vessel::State& x, const vessel::State& reference, double f
   return 1.0 / std::sqrt(1.0 + (x - reference).head<2>().squaredNorm() / (far_m * far_m));
 }
 
-ControlProblem::ControlProblem(const OcpOptions& options) : options_(options) {
+ControlProblem::ControlProblem(const OcpOptions& options)
+    : options_(options), hull_(options.length_m, options.beam_m) {
   lower_.fill(options.lower_n);
   upper_.fill(options.upper_n);
 }
@@ -30,6 +31,26 @@ void ControlProblem::limitRates(const vessel::Thrusts& acting, double rate_nps) 
 
 vessel::Thrusts ControlProblem::clampToBounds(int stage, const vessel::Thrusts& thrusts) const {
   return thrusts.cwiseMax(lower_[stage]).cwiseMin(upper_[stage]);
+}
+
+// A square of what is missing, by quarter, of the room that the reference has. No more than that is
+// asked for: a hull without a thruster abeam moves aside by turning, which brings its other end
+// nearer first, and one that leaves its trajectory is where nobody has verified it. What the
+// reference leads into is for a new plan to lead round. The diagonal that bounds a slope's square
+// stands for it.
+void ControlProblem::keepOff(const vessel::State& state, const vessel::State& reference,
+                             const NearObstacles& near, qp::StateCost& cost) const {
+  const double weight = options_.crowded * options_.step_s;
+  for (const Lack& lack : hull_.lacks(near, state, reference, options_.room_m)) {
+    const Eigen::Vector3d curvature = weight * lack.slope.cwiseAbs() * lack.slope.lpNorm<1>();
+    const Eigen::Vector3d gradient = -weight * lack.missing_m * lack.slope;
+    for (int axis = 0; axis < 2; ++axis) {
+      cost.weight_p[axis] += curvature[axis];
+      cost.gradient_p[axis] += gradient[axis];
+    }
+    cost.weight_q[0] += curvature[2];
+    cost.gradient_q[0] += gradient[2];
+  }
 }
 
 void ControlProblem::expand(const Plan& plan, const OcpReference& reference, qp::BoxQp& qp) const {
@@ -68,6 +89,9 @@ void ControlProblem::expand(const Plan& plan, const OcpReference& reference, qp:
     for (int i = 0; i < 2; ++i) {
       cost.weight_p[i] = w[i];
       cost.gradient_p[i] = g[i];
+    }
+    if (reference.near != nullptr && k * options_.step_s <= options_.crowded_s) {
+      keepOff(plan.states[k], reference.states[k], *reference.near, cost);
     }
   }
   const vessel::Thrusts& w = options_.weights.thrusts;

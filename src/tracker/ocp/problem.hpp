@@ -12,7 +12,9 @@
 #include <limits>
 
 #include "otter_nav/tracker/limits.hpp"
+#include "otter_nav/tracker/near_obstacles.hpp"
 #include "otter_nav/vessel/types.hpp"
+#include "tracker/ocp/hull_room.hpp"
 #include "tracker/qp/box_qp.hpp"
 
 namespace otter_nav::tracker {
@@ -33,6 +35,11 @@ struct OcpOptions {
   double far_m = 1e3;
   double overspeed = 3e4;  // per (m/s)^2 and second, as the weights before their step
   double astray = 400.0;   // per rad^2 and second, of a heading outside its corridor
+  double crowded = 1e4;    // per m^2 and second, of what is missing beside the outline
+  double room_m = 0.25;    // that counts there, where the reference has so much
+  double crowded_s = 2.0;  // how far ahead; what comes into sight farther off is the planner's
+  double length_m = 0.0;   // of the hull
+  double beam_m = 0.0;
 };
 
 // Headings that are to be kept to, whatever the reference says.
@@ -55,6 +62,7 @@ struct OcpReference {
   std::array<double, kMaxStages + 1> speed_max_mps;  // over ground; beyond it costs
   std::array<vessel::Thrusts, kMaxStages> thrusts;
   HeadingCorridor corridor;
+  const NearObstacles* near = nullptr;  // to keep off; none: nothing is known to be near
 };
 
 // States and thrusts over the horizon.
@@ -82,7 +90,11 @@ class ControlProblem {
   void expand(const Plan& plan, const OcpReference& reference, qp::BoxQp& qp) const;
 
  private:
+  void keepOff(const vessel::State& state, const vessel::State& reference,
+               const NearObstacles& near, qp::StateCost& cost) const;
+
   OcpOptions options_;
+  HullRoom hull_;
   std::array<vessel::Thrusts, kMaxStages> lower_;
   std::array<vessel::Thrusts, kMaxStages> upper_;
 };

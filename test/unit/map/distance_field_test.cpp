@@ -33,6 +33,25 @@ TEST(DistanceField, MeasuresToTheSquaresSides) {
   EXPECT_NEAR(field.clearance({-9.0, 4.0}), 1.0, 0.02);  // the border is an obstacle
 }
 
+TEST(DistanceField, TellsTheCornersOfOutlines) {
+  OccupancyGrid grid;
+  grid.geometry = {20, 20, 0.5, {0.0, 0.0}};
+  grid.cells.assign(400, Cell::kFree);
+  for (int row = 5; row < 9; ++row) {
+    for (int column = 6; column < 11; ++column) {
+      grid.cells[grid.geometry.index(column, row)] = Cell::kOccupied;
+    }
+  }
+  const DistanceField field(grid, {});
+  for (int row = 1; row < 20; ++row) {
+    for (int column = 1; column < 20; ++column) {
+      const bool within = column >= 6 && column <= 11 && row >= 5 && row <= 9;
+      const bool inside = column > 6 && column < 11 && row > 5 && row < 9;
+      EXPECT_EQ(field.isOnOutline(column, row), within && !inside) << column << " " << row;
+    }
+  }
+}
+
 TEST(DistanceField, SmoothIsNegativeInsideAndPointsOut) {
   const DistanceField field(blockGrid(), {4.0, false});
   EXPECT_NEAR(field.smooth({1.0, 2.0}).distance_m, 1.0, 1e-6);

@@ -48,6 +48,20 @@ TEST_F(TrackerAllocation, NoneThroughTrackingAndHolding) {
   EXPECT_EQ(test::allocations, before_);
 }
 
+TEST_F(TrackerAllocation, NoneAmongNearObstacles) {
+  NearObstacles near;
+  for (int k = 0; k < 300; ++k) {
+    near.points.emplace_back(0.1 * k, k % 2 == 0 ? 0.6 : -0.65);
+  }
+  ASSERT_TRUE(tracker_->setNearObstacles(near, 3));
+  before_ = test::allocations;
+  for (int i = 0; i < 500; ++i) {
+    EXPECT_EQ(cycle().near_taken, 3U);
+    state_[vessel::kX] += 0.015;
+  }
+  EXPECT_EQ(test::allocations, before_);
+}
+
 // The vessel stays where it is and the thrusters are at their limits.
 TEST_F(TrackerAllocation, NoneWithBoundsMet) {
   int saturated = 0;

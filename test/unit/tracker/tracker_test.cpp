@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/rk4.hpp"
+#include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "tracker/orbital_motion.hpp"
 
@@ -81,6 +85,85 @@ TEST_F(TrackerTest, SailsALineAndHoldsItsEndUnderAForce) {
   command = sail(65.0);
   EXPECT_EQ(command.mode, Mode::kHolding);
   EXPECT_LT((state_.head<2>() - Eigen::Vector2d(30.0, 0.0)).norm(), 1.0);
+}
+
+// Of an outline that looks at the hull, each 10 cm.
+std::vector<Eigen::Vector2d> wall(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  std::vector<Eigen::Vector2d> points;
+  const int steps = static_cast<int>((to - from).norm() / 0.1);
+  for (int k = 0; k <= steps; ++k) {
+    points.push_back(from + (to - from) * k / steps);
+  }
+  return points;
+}
+
+class AlongAWall : public TrackerTest {
+ protected:
+  // What a hull on a line of 30 m from rest to rest has to a wall `beside_m` from its outline at
+  // the least, when past 10 m it is set toward the wall by `aside_mps` at once.
+  double least(double beside_m, double aside_mps, bool is_known, double from_s = 0.0) {
+    tracker_ = Tracker::create(load(), vessel_);
+    state_.setZero();
+    const double side_m = 0.5 * vessel_.hull.beam_m;
+    if (is_known) {
+      const double y = side_m + beside_m;
+      EXPECT_TRUE(tracker_->setNearObstacles({from_s, wall({0.0, y}, {30.0, y})}, 5));
+    }
+    EXPECT_TRUE(tracker_->setTrajectory({line(30.0, 24.0), now_s_}));
+    double nearest_m = 1.0;
+    bool pushed = false;
+    while (state_.x() < 20.0) {
+      EXPECT_EQ(sail(0.05).near_taken, is_known ? 5U : 0U);
+      if (!pushed && state_.x() > 10.0) {
+        state_[vessel::kSway] += aside_mps;
+        pushed = true;
+      }
+      for (const Eigen::Vector2d& corner :
+           vessel::outline(vessel_.hull, state_.head<2>(), state_[vessel::kPsi])) {
+        nearest_m = std::min(nearest_m, side_m + beside_m - corner.y());
+      }
+    }
+    return nearest_m;
+  }
+};
+
+// Most of it is gone before anything can be done: who has to turn to come back brings the stern
+// nearer first.
+TEST_F(AlongAWall, GivesLessAwayToWhatItKnowsToBeThere) {
+  const double unknown_m = least(0.2, 0.15, false);
+  const double known_m = least(0.2, 0.15, true);
+  EXPECT_LT(unknown_m, 0.0);
+  EXPECT_GT(known_m, 0.0);
+  EXPECT_GT(least(0.25, 0.1, true), least(0.25, 0.1, false) + 0.01);
+}
+
+TEST_F(AlongAWall, KeepsToATrajectoryThatPassesClose) {
+  for (const double beside_m : {0.02, 0.1, 0.2, 0.3}) {
+    EXPECT_NEAR(least(beside_m, 0.0, true), beside_m, 0.01) << beside_m;
+  }
+}
+
+TEST_F(AlongAWall, KeepsToATrajectoryThatLeadsIntoSomething) {
+  EXPECT_NEAR(least(-0.4, 0.0, true), least(-0.4, 0.0, false), 0.01);
+}
+
+TEST_F(AlongAWall, KnowsWhatIsNearFromItsStartOn) {
+  const double start_s = now_s_ + 1000.0;
+  EXPECT_NEAR(least(0.2, 0.15, true, start_s), least(0.2, 0.15, false), 1e-9);
+}
+
+TEST_F(TrackerTest, RefusesNearObstaclesThatMakeNoSense) {
+  NearObstacles near;
+  near.points = {{1.0, std::numeric_limits<double>::quiet_NaN()}};
+  EXPECT_FALSE(tracker_->setNearObstacles(near));
+  near.points = {{1.0, 2.0}};
+  near.start_s = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(tracker_->setNearObstacles(near));
+  near.start_s = 0.0;
+  near.points.assign(kMostNearObstacles + 1, {1.0, 2.0});
+  const Status many = tracker_->setNearObstacles(near);
+  ASSERT_FALSE(many);
+  EXPECT_EQ(many.error().message, "501 near obstacles are more than 500");
 }
 
 // Abeam of 20 N a hull with 20 kg/s of drag is set aside by 1 m/s: a turn there, as at a launch
