@@ -25,6 +25,7 @@
 #include "otter_nav/config/field_list.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/config/section.hpp"
+#include "otter_nav/mission/near_obstacles.hpp"
 #include "otter_nav/mission/supervisor.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
@@ -33,6 +34,7 @@
 #include "otter_nav/ros/run_node.hpp"
 #include "otter_nav/ros/tracks.hpp"
 #include "otter_nav/stopping/splice.hpp"
+#include "otter_nav/tracker/near_obstacles.hpp"
 #include "plan_worker.hpp"
 #include "planner_node_options.hpp"
 #include "planner_publisher.hpp"
@@ -51,6 +53,7 @@ constexpr double kDecisionPeriodS = 0.05;  // of wall time, when not in lockstep
 // In lockstep the tracker's statuses, ten a second, count once they are this old: all are there
 // then.
 constexpr double kTrackerAgeS = 0.2;
+constexpr double kNearPeriodS = 0.1;  // of what is told of near obstacles, out of lockstep
 constexpr double kInputPeriodS = 0.5;
 constexpr double kInputLateS = 5.0;       // of wall time: then it is missed
 constexpr double kInputPatienceS = 20.0;  // of wall time a goal waits for map and odometry
@@ -122,6 +125,7 @@ class PlannerNode {
   void decideInTurn();
   void decide();
   void execute(const mission::Orders& orders);
+  void tellWhatIsNear();
   void noteScan(const ros::Time& stamp);
   // What follows from the supervisor's phase: results of the goal, status, acknowledgement.
   void settle();
@@ -152,6 +156,9 @@ class PlannerNode {
   int plan_under_way_ = 0;          // id of the request; 0 for none
   std::uint32_t sent_id_ = 0;       // of the last trajectory published
   std::uint32_t confirmed_id_ = 0;  // of the last the tracker has
+  std::uint32_t near_id_ = 0;       // of the near obstacles told last
+  bool some_are_near_ = false;      // by these
+  double near_told_s_ = 0.0;
 
   ros::Publisher acknowledgement_;
   ros::Subscriber map_subscriber_;
@@ -324,6 +331,7 @@ void PlannerNode::decideInTurn() {
       vessel_ = *vessel;
       now_s_ = stamp.toSec() + setup_.node.lockstep_lag_s;
       execute(supervisor_->update(now_s_, situation(), obstacles()));
+      tellWhatIsNear();
     }
     goals_.setReady(true);
     goals_.retryWaiting();
@@ -341,9 +349,24 @@ void PlannerNode::decide() {
   now_s_ = std::max(now.toSec(), vessel_.stamp_s);
   tracker_.countUntil(std::numeric_limits<double>::infinity());
   execute(supervisor_->update(now_s_, situation(), obstacles()));
+  if (std::abs(now_s_ - near_told_s_) >= kNearPeriodS) {
+    tellWhatIsNear();
+  }
   goals_.setReady(true);
   goals_.retryWaiting();
   settle();
+}
+
+// Where nothing was and nothing is, nothing is told.
+void PlannerNode::tellWhatIsNear() {
+  std::vector<Eigen::Vector2d> near = mission::nearObstacles(
+      map_.field(), setup_.vessel.hull, {vessel_.state.head<2>(), vessel_.state[vessel::kPsi]},
+      tracker_.foreseen(), tracker::kMostNearObstacles);
+  near_told_s_ = now_s_;
+  if (near_id_ == 0 || some_are_near_ || !near.empty()) {
+    some_are_near_ = !near.empty();
+    near_id_ = publisher_.publishNear(now_s_, std::move(near));
+  }
 }
 
 Status PlannerNode::onGoal(const vessel::Pose& goal) {
@@ -440,7 +463,8 @@ void PlannerNode::execute(const mission::Orders& orders) {
 
 void PlannerNode::settle() {
   const bool handed_over = sent_id_ == 0 || tracker_.answered(sent_id_);
-  if (setup_.node.lockstep && (plan_under_way_ != 0 || !handed_over)) {
+  if (setup_.node.lockstep &&
+      (plan_under_way_ != 0 || !handed_over || !tracker_.hasNearObstacles(near_id_))) {
     return;
   }
   if (handed_over) {

@@ -1,6 +1,7 @@
 #include "planner_publisher.hpp"
 
 #include <nav_msgs/Path.h>
+#include <otter_nav/NearObstacles.h>
 #include <otter_nav/Trajectory.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -9,6 +10,7 @@
 
 #include "otter_nav/base/statistics.hpp"
 #include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/near_obstacles.hpp"
 #include "otter_nav/ros/plan_markers.hpp"
 #include "otter_nav/ros/trajectories.hpp"
 
@@ -27,7 +29,9 @@ PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters ves
                                    std::uint32_t ids_after)
     : vessel_(std::move(vessel)),
       last_id_(ids_after),
+      last_near_id_(ids_after),
       trajectory_(node.advertise<Trajectory>("trajectory", kKept, true)),
+      near_obstacles_(node.advertise<NearObstacles>("near_obstacles", kKept, true)),
       path_(node.advertise<nav_msgs::Path>("path", 1, true)),
       status_publisher_(node.advertise<PlannerStatus>("planner_status", kKept)),
       trajectory_markers_(
@@ -42,6 +46,12 @@ std::uint32_t PlannerPublisher::publish(const trajectory::TimedTrajectory& order
   path_.publish(
       ros_bridge::toPath(order.trajectory, order.start_time_s, kPathStepS, frames().map, vessel_));
   return last_id_;
+}
+
+std::uint32_t PlannerPublisher::publishNear(double start_s, std::vector<Eigen::Vector2d> points) {
+  near_obstacles_.publish(
+      ros_bridge::toMessage({start_s, std::move(points)}, ++last_near_id_, frames().map));
+  return last_near_id_;
 }
 
 std::uint32_t PlannerPublisher::publishStop(double now_s, const vessel::Pose& goal) {

@@ -6,6 +6,8 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "otter_nav/mission/supervisor.hpp"
@@ -15,11 +17,13 @@ namespace otter_nav::nodes {
 
 class PlannerPublisher {
  public:
-  // Trajectories' ids rise from `ids_after` on.
+  // Trajectories' and near obstacles' ids rise from `ids_after` on.
   PlannerPublisher(ros::NodeHandle& node, vessel::Parameters vessel, std::uint32_t ids_after);
 
   // Publishes the order under a new id and returns that.
   std::uint32_t publish(const trajectory::TimedTrajectory& order, const vessel::Pose& goal);
+  // Publishes what lies near, in force from `start_s` on; returns its id.
+  std::uint32_t publishNear(double start_s, std::vector<Eigen::Vector2d> points);
   // Asks the tracker to stop by itself: an empty trajectory.
   std::uint32_t publishStop(double now_s, const vessel::Pose& goal);
   // The way sailed, its clearance on the map as it is now, and the goal.
@@ -31,9 +35,11 @@ class PlannerPublisher {
  private:
   vessel::Parameters vessel_;
   std::uint32_t last_id_;
+  std::uint32_t last_near_id_;
   PlannerStatus status_;
   std::vector<double> planning_ms_;  // of the last plans
   ros::Publisher trajectory_;
+  ros::Publisher near_obstacles_;
   ros::Publisher path_;
   ros::Publisher status_publisher_;
   ros::Publisher trajectory_markers_;

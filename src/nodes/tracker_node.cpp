@@ -2,6 +2,7 @@
 // config/tracker_node.yaml, the tracker's own under ~tracker (config/tracker.yaml).
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
+#include <otter_nav/NearObstacles.h>
 #include <otter_nav/ThrusterCommand.h>
 #include <otter_nav/TrackerCycle.h>
 #include <otter_nav/TrackerStatus.h>
@@ -26,6 +27,7 @@
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/near_obstacles.hpp"
 #include "otter_nav/ros/run_node.hpp"
 #include "otter_nav/ros/trajectories.hpp"
 #include "stamps.hpp"
@@ -87,6 +89,7 @@ class TrackerNode {
               const vessel::Parameters& vessel);
 
   void onTrajectory(const Trajectory& message);
+  void onNearObstacles(const NearObstacles& message);
   void onOdometry(const nav_msgs::Odometry& message);
   void begin();
   // Lockstep: the command for the odometry's stamp.
@@ -121,6 +124,7 @@ class TrackerNode {
   double accepted_start_s_ = 0.0;
   std::uint32_t refused_id_ = 0;
   std::string refused_reason_;
+  std::uint32_t near_obstacles_id_ = 0;
 
   bool begun_ = false;  // not before it is recorded, where it shall be
   ros::Time last_odometry_;
@@ -134,6 +138,7 @@ class TrackerNode {
   ros::Publisher vessel_publisher_;
   ros::Publisher prediction_publisher_;
   ros::Subscriber trajectory_subscriber_;
+  ros::Subscriber near_subscriber_;
   ros::Subscriber odometry_subscriber_;
   ros::Subscriber recording_subscriber_;
   ros::WallTimer status_timer_;
@@ -171,6 +176,8 @@ TrackerNode::TrackerNode(TrackerNodeOptions options, const tracker::Options& tra
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   trajectory_subscriber_ =
       node_.subscribe("trajectory", kQueue, &TrackerNode::onTrajectory, this, no_delay);
+  near_subscriber_ =
+      node_.subscribe("near_obstacles", kQueue, &TrackerNode::onNearObstacles, this, no_delay);
   odometry_subscriber_ = node_.subscribe("odom", kQueue, &TrackerNode::onOdometry, this, no_delay);
   status_timer_ = node_.createWallTimer(
       ros::WallDuration(1.0 / (kStatusRateHz * std::max(1.0, options_.speed))),
@@ -234,6 +241,28 @@ void TrackerNode::onTrajectory(const Trajectory& message) {
     diagnostics_.refuse("trajectory", taken.error().message);
   }
   publishStatus();
+}
+
+void TrackerNode::onNearObstacles(const NearObstacles& message) {
+  diagnostics_.received("near_obstacles");
+  const Status taken = ros_bridge::toNearObstacles(message, frames().map)
+                           .and_then([&](tracker::NearObstacles near) -> Status {
+                             // In lockstep no step may depend on when the message came.
+                             if (!options_.lockstep) {
+                               near.start_s = 0.0;
+                             }
+                             return tracker_->setNearObstacles(std::move(near), message.id);
+                           });
+  if (!taken) {
+    diagnostics_.refuse("near_obstacles", taken.error().message);
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    near_obstacles_id_ = message.id;
+  }
+  if (options_.lockstep) {
+    publishStatus();  // who sent it waits
+  }
 }
 
 void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
@@ -337,6 +366,7 @@ void TrackerNode::publishCycle(const tracker::Command& command) {
   message.odometry_taken = command.odometry_taken;
   message.odometry_time = command.odometry_stamp_s;
   message.trajectory_taken = command.order_taken;
+  message.near_obstacles_taken = command.near_taken;
   const tracker::Weights& w = command.weights;
   message.weights = {w.position, w.heading, w.surge, w.sway, w.yaw_rate, w.thrust};
   message.state = tracker::name(command.mode);
@@ -418,6 +448,7 @@ TrackerStatus TrackerNode::status() const {
   message.accepted_id = accepted_id_;
   message.refused_id = refused_id_;
   message.refused_reason = refused_reason_;
+  message.near_obstacles_id = near_obstacles_id_;
   message.time_left = command.time_left_s;
   message.at_goal = static_cast<std::uint8_t>(command.at_goal);
   message.position_error = command.tracking_error_m;

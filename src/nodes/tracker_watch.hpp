@@ -1,7 +1,7 @@
-// What the planner needs to know of the tracker: which trajectory it has, whether it gave up, and
-// the force it feels. Which trajectory it has counts at once. The rest counts by the statuses'
-// stamps, up to a time the caller names: in lockstep no decision may depend on which message was
-// quicker.
+// What the planner needs to know of the tracker: which trajectory and near obstacles it has,
+// whether it gave up, and the force it feels. Which trajectory it has counts at once. The rest
+// counts by the statuses' stamps, up to a time the caller names: in lockstep no decision may depend
+// on which message was quicker.
 #pragma once
 
 #include <otter_nav/TrackerStatus.h>
@@ -21,6 +21,7 @@ class TrackerWatch {
     accepted_id_ = status.accepted_id;
     refused_id_ = status.refused_id;
     refused_reason_ = status.refused_reason;
+    near_id_ = status.near_obstacles_id;
     const double stamp_s = status.header.stamp.toSec();
     const bool repeated = stamp_s > 0.0 && stamp_s <= latest_s_;
     if (!repeated) {
@@ -55,6 +56,11 @@ class TrackerWatch {
   [[nodiscard]] bool answered(std::uint32_t id) const {
     return accepted_id_ >= id || refused_id_ >= id;
   }
+  // Whether the near obstacles have come to it, if it takes any: a tracker that never told of one
+  // is not waited for.
+  [[nodiscard]] bool hasNearObstacles(std::uint32_t id) const {
+    return near_id_ == 0 || near_id_ >= id;
+  }
   // Told several times in a row: one status may cross a new trajectory on its way.
   [[nodiscard]] bool gaveUp() const { return faults_ >= kFaults || refused_id_ == sailing_id_; }
   [[nodiscard]] const std::string& reason() const {
@@ -86,6 +92,7 @@ class TrackerWatch {
 
   std::uint32_t accepted_id_ = 0;
   std::uint32_t refused_id_ = 0;
+  std::uint32_t near_id_ = 0;
   std::uint32_t sailing_id_ = kNone;
   int faults_ = 0;
   vessel::DisturbanceEstimate estimate_;

@@ -90,6 +90,7 @@ class Replay(unittest.TestCase):
             topics = set(recorded.get_type_and_topic_info().topics)
         self.assertGreater(len(stamps["/odom"]), 1000)
         for topic in ("/chart", "/map", "/map_updates", "/tf", "/tf_static", "/trail", "/trajectory",
+                      "/near_obstacles",
                       "/trajectory_markers", "/tree_markers", "/guide_path_markers", "/vessel",
                       "/tracker_node/parameters", "/planner_status", "/plant_state", "/scan"):
             self.assertIn(topic, topics)
@@ -117,11 +118,38 @@ class Replay(unittest.TestCase):
         self.assertGreater(matched, 0.9 * len(rows))
         return rows
 
+    def assert_near_obstacles_count(self, bag):
+        """The steps take what was near by the recording: with something else they command otherwise."""
+        other, without = self.path("other.bag"), self.path("without.bag")
+        hull = (0.0, 0.0, 0.0)
+        with rosbag.Bag(bag) as source, rosbag.Bag(other, "w") as moved, \
+                rosbag.Bag(without, "w") as cut:
+            for topic, message, t, header in source.read_messages(return_connection_header=True):
+                if topic == "/odom":
+                    pose = message.pose.pose
+                    hull = (pose.position.x, pose.position.y,
+                            2.0 * math.atan2(pose.orientation.z, pose.orientation.w))
+                elif topic == "/near_obstacles":  # a wall at the hull's port side
+                    x, y, psi = hull
+                    wall = [(0.25 * k, 0.6) for k in range(-4, 30)]
+                    message.x = [x + a * math.cos(psi) - b * math.sin(psi) for a, b in wall]
+                    message.y = [y + a * math.sin(psi) + b * math.cos(psi) for a, b in wall]
+                if topic != "/near_obstacles":
+                    cut.write(topic, message, t, connection_header=header)
+                moved.write(topic, message, t, connection_header=header)
+        done, figures, _ = self.replay(other)
+        self.assertIsNotNone(figures, done.stderr)
+        self.assertGreater(figures["difference_max_n"], 0.01, done.stdout)
+        done, _, _ = self.replay(without)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("near obstacles", done.stderr)
+
     def test_lockstep(self):
         bag = self.record("lockstep.bag", speed=0)
         self.assert_whole(bag, 0.01)
         rows = self.assert_same(bag)
         self.assert_report(bag)
+        self.assert_near_obstacles_count(bag)
 
         done, figures, part = self.replay(bag, "--from", rows[500]["t"], "--to", rows[600]["t"])
         self.assertEqual(len(part), 101, done.stderr)

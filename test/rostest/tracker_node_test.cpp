@@ -1,6 +1,7 @@
 // tracker_node alone on its own clock: a command each 10 ms, trajectories taken and refused, and
 // what it does when the odometry is not a number or ends.
 #include <gtest/gtest.h>
+#include <otter_nav/NearObstacles.h>
 #include <otter_nav/ThrusterCommand.h>
 #include <otter_nav/TrackerCycle.h>
 #include <otter_nav/TrackerStatus.h>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "otter_nav/ros/near_obstacles.hpp"
 #include "otter_nav/ros/trajectories.hpp"
 #include "otter_nav/tracker/tracker.hpp"
 #include "support.hpp"
@@ -70,6 +72,22 @@ TEST(ForeseenMessage, ComesWholeOrNotAtAll) {
   EXPECT_EQ(refusal([&](Foreseen& m) { m.heading[0] = -nan; }), "foreseen: place 0 is not finite");
 }
 
+TEST(NearObstaclesMessage, ComesWholeOrNotAtAll) {
+  const tracker::NearObstacles near{12.5, {{1.0, 2.0}, {3.0, 4e6 + 0.25}}};
+  const std::string map = ros_bridge::frames().map;
+  NearObstacles message = ros_bridge::toMessage(near, 7, map);
+  EXPECT_EQ(message.id, 7U);
+  const auto told = ros_bridge::toNearObstacles(message, map);
+  ASSERT_TRUE(told);
+  EXPECT_DOUBLE_EQ(told->start_s, 12.5);
+  EXPECT_EQ(told->points, near.points);
+  message.x.pop_back();
+  const auto cut = ros_bridge::toNearObstacles(message, map);
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().message, "near obstacles: x and y hold 1 and 2");
+  EXPECT_FALSE(ros_bridge::toNearObstacles(ros_bridge::toMessage(near, 7, "odom"), map));
+}
+
 // The message's constants are the names that the tracker gives its modes.
 TEST(TrackerStatusMessage, NamesTheModes) {
   using tracker::Mode;
@@ -92,14 +110,17 @@ class TrackerNode : public testing::Test {
     });
   }
   void SetUp() override {
-    ASSERT_TRUE(waitUntil(
-        [&] { return odometry_.getNumSubscribers() > 0 && trajectory_.getNumSubscribers() > 0; }));
+    ASSERT_TRUE(waitUntil([&] {
+      return odometry_.getNumSubscribers() > 0 && trajectory_.getNumSubscribers() > 0 &&
+             near_.getNumSubscribers() > 0;
+    }));
     ASSERT_TRUE(commands_.connected());
   }
 
   ros::NodeHandle node_;
   ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
   ros::Publisher trajectory_ = node_.advertise<Trajectory>("trajectory", 10);
+  ros::Publisher near_ = node_.advertise<NearObstacles>("near_obstacles", 10);
   ros::WallTimer timer_;
   bool sending_ = true;
   double x_ = 0.0;
@@ -195,6 +216,19 @@ TEST_F(TrackerNode, RefusesMalformedTrajectories) {
   EXPECT_TRUE(statuses_.waitFor([](const auto& status) {
     return status.accepted_id == 25U && status.refused_id != 25U && status.refused_reason.empty();
   }));
+}
+
+TEST_F(TrackerNode, TakesNearObstaclesAndKeepsThemWhenItRefusesOthers) {
+  NearObstacles message = ros_bridge::toMessage({0.0, {{5.0, 2.0}}}, 3, ros_bridge::frames().map);
+  near_.publish(message);
+  EXPECT_TRUE(statuses_.waitFor([](const auto& s) { return s.near_obstacles_id == 3U; }));
+  EXPECT_TRUE(cycles_.waitFor([](const auto& c) { return c.near_obstacles_taken == 3U; }));
+  message.id = 4;
+  message.y[0] = std::numeric_limits<double>::quiet_NaN();
+  near_.publish(message);
+  EXPECT_TRUE(statuses_.waitFor([](const auto& s) { return s.near_obstacles_id == 4U; }));
+  cycles_.messages.clear();
+  EXPECT_TRUE(cycles_.waitFor([](const auto& c) { return c.near_obstacles_taken == 3U; }));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <nav_msgs/Odometry.h>
+#include <otter_nav/NearObstacles.h>
 #include <otter_nav/ThrusterCommand.h>
 #include <otter_nav/TrackerCycle.h>
 #include <otter_nav/Trajectory.h>
@@ -11,6 +12,7 @@
 
 #include "otter_nav/ros/conversions.hpp"
 #include "otter_nav/ros/frames.hpp"
+#include "otter_nav/ros/near_obstacles.hpp"
 #include "otter_nav/ros/trajectories.hpp"
 #include "replay_tracker/bag_file.hpp"
 #include "replay_tracker/recorded_run.hpp"
@@ -71,6 +73,10 @@ class Vessel {
       return decode<Trajectory>(from).and_then(
           [&](const Trajectory& message) { return takeOrder(message, position); });
     }
+    if (isA<NearObstacles>(from)) {
+      return decode<NearObstacles>(from).map(
+          [&](const NearObstacles& message) { takeNearObstacles(message, position); });
+    }
     if (isA<TrackerCycle>(from)) {
       return decode<TrackerCycle>(from).map(
           [&](const TrackerCycle& message) { takeCycle(message, position); });
@@ -106,8 +112,13 @@ class Vessel {
 
  private:
   RecordedRun& run() { return runs_.back(); }
+  // What lies near goes on being so for another tracker.
   void begin() {
-    runs_.emplace_back();
+    RecordedRun next;
+    if (!runs_.empty() && !run().near.empty()) {
+      next.near.push_back(run().near.back());
+    }
+    runs_.push_back(std::move(next));
     commands_.emplace_back();
   }
 
@@ -132,6 +143,12 @@ class Vessel {
     return {};  // the node refuses what is none
   }
 
+  void takeNearObstacles(const NearObstacles& message, std::size_t position) {
+    if (const auto near = ros_bridge::toNearObstacles(message, message.header.frame_id)) {
+      run().near.push_back({message.id, position, *near});
+    }
+  }
+
   void takeCycle(const TrackerCycle& message, std::size_t position) {
     if (message.cycle == 0) {
       return;  // says only that it is there
@@ -142,6 +159,7 @@ class Vessel {
     cycle.odometry_taken = message.odometry_taken;
     cycle.odometry_stamp_s = message.odometry_time;
     cycle.order_taken = message.trajectory_taken;
+    cycle.near_taken = message.near_obstacles_taken;
     const auto& w = message.weights;
     cycle.weights = {w[0], w[1], w[2], w[3], w[4], w[5]};
     cycle.position = position;
@@ -193,6 +211,7 @@ class Vessel {
     }
     cycle.odometry_stamp_s = run().odometry.empty() ? 0.0 : run().odometry.back().stamp_s;
     cycle.order_taken = run().orders.empty() ? 0 : run().orders.back().id;
+    cycle.near_taken = run().near.empty() ? 0 : run().near.back().id;
     cycle.odometry_taken = run().odometry.size();
     commands_.back().push_back(cycle);
   }
@@ -205,7 +224,8 @@ class Vessel {
 
 // The relative name of what is of use; empty for the rest.
 std::string usefulName(const BagMessage& message, const std::string& odometry) {
-  if (isA<TrackerCycle>(message) || isA<Trajectory>(message) || isA<ThrusterCommand>(message)) {
+  if (isA<TrackerCycle>(message) || isA<Trajectory>(message) || isA<NearObstacles>(message) ||
+      isA<ThrusterCommand>(message)) {
     return lastName(message.topic);
   }
   if (isA<nav_msgs::Odometry>(message)) {
@@ -228,14 +248,20 @@ std::string list(const std::set<std::string>& names) {
   return text.empty() ? "nothing" : text;
 }
 
+// Whether one has that number; zero is none.
+template <typename Recorded>
+bool has(const std::vector<Recorded>& all, std::uint32_t id) {
+  return id == 0 || std::any_of(all.begin(), all.end(),
+                                [&](const Recorded& recorded) { return recorded.id == id; });
+}
+
 // The recorder may have had a step before what the step was made with; where the recording ends in
 // between, the step has nothing to be made with.
 void endWithWhatIsThere(RecordedRun& run) {
   const double end_s = run.odometry.empty() ? 0.0 : run.odometry.back().stamp_s;
   const auto isThere = [&](const RecordedCycle& cycle) {
-    const auto isTaken = [&](const RecordedOrder& order) { return order.id == cycle.order_taken; };
-    return cycle.odometry_stamp_s <= end_s &&
-           (cycle.order_taken == 0 || std::any_of(run.orders.begin(), run.orders.end(), isTaken));
+    return cycle.odometry_stamp_s <= end_s && has(run.orders, cycle.order_taken) &&
+           has(run.near, cycle.near_taken);
   };
   const auto last = std::find_if(run.cycles.rbegin(), run.cycles.rend(), isThere);
   const auto left_out = std::distance(run.cycles.rbegin(), last);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
+#include "otter_nav/tracker/near_obstacles.hpp"
 #include "otter_nav/tracker/options.hpp"
 #include "otter_nav/trajectory/timed_trajectory.hpp"
 #include "otter_nav/vessel/motion_law.hpp"
@@ -26,6 +27,12 @@ struct RecordedOrder {
   trajectory::TimedTrajectory timed;
 };
 
+struct RecordedNearObstacles {
+  std::uint32_t id = 0;
+  std::size_t position = 0;
+  tracker::NearObstacles near;
+};
+
 // One control step (TrackerCycle.msg).
 struct RecordedCycle {
   double time_s = 0.0;
@@ -33,6 +40,7 @@ struct RecordedCycle {
   std::uint64_t odometry_taken = 0;
   double odometry_stamp_s = 0.0;
   std::uint32_t order_taken = 0;
+  std::uint32_t near_taken = 0;
   tracker::Weights weights;  // in force
   std::size_t position = 0;
   vessel::Thrusts thrusts_n = vessel::Thrusts::Zero();
@@ -45,6 +53,7 @@ struct RecordedCycle {
 struct RecordedRun {
   std::vector<RecordedOdometry> odometry;  // as the node takes it: stamps never go backwards
   std::vector<RecordedOrder> orders;
+  std::vector<RecordedNearObstacles> near;
   std::vector<RecordedCycle> cycles;
   std::string parameters;  // of tracker_node, YAML; empty if not recorded
   std::string vessel;      // its file, YAML; empty if not recorded

@@ -5,7 +5,9 @@
 #include <initializer_list>
 #include <memory>
 #include <sstream>
+#include <utility>
 
+#include "otter_nav/base/first_failure.hpp"
 #include "otter_nav/base/rk4.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "replay_tracker/simulated_hull.hpp"
@@ -71,6 +73,20 @@ class OdometryFeed {
   bool first_ = true;   // no odometry yet
 };
 
+// The last with that id recorded before the step, else the next after it: a latched message may
+// have come later to the recorder.
+template <typename Recorded>
+const Recorded* lastBefore(const RecordedCycle& cycle, std::uint32_t id,
+                           const std::vector<Recorded>& all) {
+  const Recorded* found = nullptr;
+  for (const Recorded& each : all) {
+    if (each.id == id && (found == nullptr || each.position < cycle.position)) {
+      found = &each;
+    }
+  }
+  return found;
+}
+
 // Hands the trajectories over before the steps that took them.
 class OrderFeed {
  public:
@@ -81,7 +97,7 @@ class OrderFeed {
       return {};
     }
     taken_ = cycle.order_taken;
-    const RecordedOrder* order = find(cycle);
+    const RecordedOrder* order = lastBefore(cycle, taken_, all_);
     if (order == nullptr) {
       return failure("trajectory " + std::to_string(taken_) + ", taken at " +
                      seconds(cycle.time_s) + ", is not in the recording");
@@ -94,19 +110,34 @@ class OrderFeed {
   }
 
  private:
-  // The last of that id recorded before the step, else the next after it: a latched message may
-  // have come later to the recorder.
-  [[nodiscard]] const RecordedOrder* find(const RecordedCycle& cycle) const {
-    const RecordedOrder* found = nullptr;
-    for (const RecordedOrder& order : all_) {
-      if (order.id == cycle.order_taken && (found == nullptr || order.position < cycle.position)) {
-        found = &order;
-      }
+  const std::vector<RecordedOrder>& all_;
+  std::uint32_t taken_ = 0;
+};
+
+// And the near obstacles.
+class NearFeed {
+ public:
+  explicit NearFeed(const std::vector<RecordedNearObstacles>& all) : all_(all) {}
+
+  Status give(const RecordedCycle& cycle, bool lockstep, Tracker& tracker) {
+    if (cycle.near_taken == taken_) {
+      return {};
     }
-    return found;
+    taken_ = cycle.near_taken;
+    const RecordedNearObstacles* recorded = lastBefore(cycle, taken_, all_);
+    if (recorded == nullptr) {
+      return failure("near obstacles " + std::to_string(taken_) + ", taken at " +
+                     seconds(cycle.time_s) + ", are not in the recording");
+    }
+    tracker::NearObstacles near = recorded->near;
+    if (!lockstep) {
+      near.start_s = 0.0;
+    }
+    return tracker.setNearObstacles(std::move(near), recorded->id);
   }
 
-  const std::vector<RecordedOrder>& all_;
+ private:
+  const std::vector<RecordedNearObstacles>& all_;
   std::uint32_t taken_ = 0;
 };
 
@@ -188,6 +219,7 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const Settings& settin
   WeightsFeed weights(settings);
   OdometryFeed odometry(run.odometry);
   OrderFeed orders(run.orders);
+  NearFeed near(run.near);
   std::vector<Step> steps;
   std::size_t holes = 0;
   std::string first_hole;
@@ -205,7 +237,9 @@ Result<std::vector<Step>> retrack(const RecordedRun& run, const Settings& settin
     last = cycle.number;
     const Status fed = odometry.give(cycle, *tracker);
     const Status ordered = orders.give(cycle, run.lockstep, *tracker);
-    for (const Status* each : std::initializer_list<const Status*>{&status, &fed, &ordered}) {
+    const Status told = near.give(cycle, run.lockstep, *tracker);
+    for (const Status* each :
+         std::initializer_list<const Status*>{&status, &fed, &ordered, &told}) {
       if (!*each) {
         if (!partial) {
           return failure(each->error().message + "; --partial goes on without");
@@ -257,12 +291,15 @@ Result<std::vector<Step>> sailAgain(const RecordedRun& run, const Settings& sett
   const auto tracker = Tracker::create(options, vessel);
   WeightsFeed weights(settings);
   OrderFeed orders(run.orders);
+  NearFeed near(run.near);
   std::vector<Step> steps;
   for (auto cycle = first; cycle != run.cycles.end(); ++cycle) {
     if (!window.has(cycle->time_s)) {
       break;
     }
-    if (const Status status = orders.give(*cycle, run.lockstep, *tracker); !status) {
+    const Status ordered = orders.give(*cycle, run.lockstep, *tracker);
+    const Status told = near.give(*cycle, run.lockstep, *tracker);
+    if (const Status status = firstFailure(ordered, told); !status) {
       return failure(status.error().message);
     }
     tracker->addOdometry(cycle->time_s + options.odometry.latency_s, simulated.state());
