@@ -9,8 +9,8 @@ find_package(catkin REQUIRED COMPONENTS
 # Messages are generated into the Python package of python/.
 catkin_python_setup()
 add_message_files(FILES
-  ContactEvent.msg DisturbanceEstimate.msg Foreseen.msg GuidePath.msg NearObstacles.msg PlannerStatus.msg PlantState.msg Route.msg
-  ThrusterCommand.msg Track.msg TrackerCycle.msg TrackerStatus.msg Tracks.msg Trajectory.msg TrajectoryPiece.msg)
+  ContactEvent.msg DisturbanceEstimate.msg Foreseen.msg GuidePath.msg NearObstacles.msg PlannerStatus.msg
+  PlantState.msg Route.msg ThrusterCommand.msg Track.msg TrackerCycle.msg TrackerStatus.msg Tracks.msg Trajectory.msg TrajectoryPiece.msg)
 add_service_files(FILES FindGuidePath.srv SaveMap.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 

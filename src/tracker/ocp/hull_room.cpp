@@ -10,9 +10,11 @@ namespace otter_nav::tracker {
 HullRoom::HullRoom(double length_m, double beam_m) : half_(0.5 * length_m, 0.5 * beam_m) {}
 
 Gap HullRoom::gapTo(const Eigen::Vector2d& point, const vessel::State& state) const {
-  const Eigen::Vector2d ahead = unitVector(state[vessel::kPsi]);
+  return gapAt(point - state.head<2>(), unitVector(state[vessel::kPsi]));
+}
+
+Gap HullRoom::gapAt(const Eigen::Vector2d& off, const Eigen::Vector2d& ahead) const {
   const Eigen::Vector2d port = across(ahead);
-  const Eigen::Vector2d off = point - state.head<2>();
   const Eigen::Vector2d body(off.dot(ahead), off.dot(port));
   const Eigen::Vector2d beyond = body.cwiseAbs() - half_;
   Gap gap;
@@ -38,14 +40,18 @@ Lacks HullRoom::lacks(const NearObstacles& near, const vessel::State& state,
                       const vessel::State& reference, double room_m) const {
   const double reach_m = half_.norm() + room_m;
   const Eigen::Vector2d ahead = unitVector(state[vessel::kPsi]);
+  const Eigen::Vector2d meant_ahead = unitVector(reference[vessel::kPsi]);
   Lacks lacks;
   for (const Eigen::Vector2d& point : near.points) {
     const Eigen::Vector2d off = point - state.head<2>();
     if (off.squaredNorm() >= reach_m * reach_m) {
       continue;
     }
-    const Gap gap = gapTo(point, state);
-    const double meant_m = gapTo(point, reference).distance_m;
+    const Gap gap = gapAt(off, ahead);
+    if (gap.distance_m >= room_m) {
+      continue;
+    }
+    const double meant_m = gapAt(point - reference.head<2>(), meant_ahead).distance_m;
     const double missing_m = std::min(meant_m, room_m) - gap.distance_m;
     Lack& most = lacks[(off.dot(ahead) > 0.0 ? 2 : 0) + (cross(ahead, off) > 0.0 ? 1 : 0)];
     if (meant_m >= 0.0 && missing_m > most.missing_m) {

@@ -36,6 +36,9 @@ class HullRoom {
                             const vessel::State& reference, double room_m) const;
 
  private:
+  // To a point `off` from the centre of a hull that lies along `ahead`.
+  [[nodiscard]] Gap gapAt(const Eigen::Vector2d& off, const Eigen::Vector2d& ahead) const;
+
   Eigen::Vector2d half_;  // length and beam
 };
 
