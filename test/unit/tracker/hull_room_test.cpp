@@ -95,7 +95,7 @@ TEST(HullRoom, WhatIsMeantToBeTouchedCountsForNothing) {
   const HullRoom hull(kLengthM, kBeamM);
   NearObstacles near;
   near.points = {{0.9, 0.5}};
-  for (const Lack& lack : hull.lacks(near, at(0.1, 0.0, 0.0), at(0.0, 0.0, 0.0), 0.25)) {
+  for (const Lack& lack : hull.lacks(near, at(0.0, 0.02, 0.0), at(0.0, 0.0, 0.0), 0.25)) {
     EXPECT_EQ(lack.missing_m, 0.0);
   }
 }
