@@ -1,6 +1,6 @@
 // lc max(0, clearance wanted - distance)^2 (the paper's f_c), of the hull's centre and of two
-// circles ahead and astern of it, at the time the spline is there; and the same of the centre for
-// room that is preferred, much cheaper.
+// circles ahead and astern of it, at the time the spline is there; and the same of each for room
+// that is preferred, cheaper.
 #pragma once
 
 #include <algorithm>
@@ -33,22 +33,25 @@ class ClearanceCost final : public Cost {
     }
     const Eigen::Vector2d w = point.dynamics.headingForce(z.col(1), z.col(2));
     const vessel::Bow bow = point.dynamics.bow(w, w, point.force_floor_n);
-    addEnds(targets, point, bow, limits.hull_clearance_m);
+    addEnds(targets, point, bow, limits.hull_clearance_m, targets.weights.clearance);
+    if (limits.hull_room_m > 0.0) {
+      addEnds(targets, point, bow, limits.hull_room_m, targets.weights.hull_room);
+    }
     if (targets.leaning != nullptr) {
       const Eigen::Vector2d leans = targets.leaning->headingForce(z.col(1), z.col(2));
       addEnds(targets, point, targets.leaning->bow(leans, leans, point.force_floor_n),
-              limits.leaning_clearance_m);
+              limits.leaning_clearance_m, targets.weights.clearance);
     }
   }
 
  private:
   static void addEnds(const Targets& targets, Point& point, const vessel::Bow& bow,
-                      double clearance_m) {
+                      double clearance_m, double weight) {
     const double offset_m = targets.limits.hull_offset_m;
     for (const double offset : {-offset_m, offset_m}) {
       const map::DistanceField::Smooth end =
           point.piece.obstacles->smooth(point.position() + offset * bow.ahead, point.time_s);
-      point.addHinge(targets.weights.clearance, clearance_m - end.distance_m, kKneeM, [&] {
+      point.addHinge(weight, clearance_m - end.distance_m, kKneeM, [&] {
         Rows rows;
         rows.col(0) = -end.gradient;
         rows.rightCols<4>() = -offset * point.dynamics.byPath(vessel::InverseDynamics::bowGradient(

@@ -31,6 +31,7 @@ struct SplineWeights {
   double dynamics = 0.0;
   double original = 0.0;
   double room = 0.0;
+  double hull_room = 0.0;
 };
 
 // What the penalties leave unpunished.
@@ -39,6 +40,7 @@ struct SplineLimits {
   double room_m = 0.0;               // the same, preferred
   double hull_offset_m = 0.0;        // of two circles ahead and astern of it; 0: not watched
   double hull_clearance_m = 0.0;     // of those circles' centres
+  double hull_room_m = 0.0;          // the same, preferred
   double leaning_clearance_m = 0.0;  // the same of the hull as it leans
   double thrust_ahead_n = 0.0;       // per side
   double thrust_astern_n = 0.0;
@@ -50,7 +52,9 @@ struct SplineLimits {
   // What lies farther from the hull's centre costs nothing; and nothing but for room preferred.
   [[nodiscard]] double reach_m() const { return std::max(room_m, near_m()); }
   [[nodiscard]] double near_m() const {
-    return std::max(clearance_m, hull_offset_m > 0.0 ? hull_offset_m + hull_clearance_m : 0.0);
+    return std::max(clearance_m, hull_offset_m > 0.0
+                                     ? hull_offset_m + std::max(hull_clearance_m, hull_room_m)
+                                     : 0.0);
   }
 };
 

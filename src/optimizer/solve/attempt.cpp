@@ -18,8 +18,11 @@ constexpr double kPieceLengthM = 17.0;
 // Bow to a firm load the vessel gets under way slowly, turning with the path; fewer pieces follow.
 constexpr double kPieceLengthInLoadM = 24.0;
 constexpr double kSlowestInLoadMps = 0.3;
-constexpr double kWeightClearance = 20.0;   // of squared metres too near
-constexpr double kWeightRoom = 0.1;         // the same, nearer than is preferred
+constexpr double kWeightClearance = 20.0;  // of squared metres too near
+constexpr double kWeightRoom = 0.1;        // the same, nearer than is preferred
+constexpr double kWeightHullRoom = 10.0;   // the same, of the hull's ends
+// Preferred beside the hull: what waves set it aside by is made good in seconds.
+constexpr double kBesideM = 0.3;
 constexpr double kWeightDynamics = 5.0;     // of squared shares of a thruster too much
 constexpr double kArrivalSpeedShare = 0.6;  // of the speed wanted, when the brake begins
 constexpr double kGentleBrakeS = 2.0;
@@ -57,6 +60,9 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   const feasibility::HullCover hull(safety.hull, safety.hull_margin_m);
   limits.hull_offset_m = hull.offset_m;
   limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
+  if (safety.hull_margin_m < kBesideM && !care.careful) {
+    limits.hull_room_m = limits.hull_clearance_m + kBesideM - safety.hull_margin_m;
+  }
   const feasibility::HullCover leaning(
       safety.hull, std::min(feasibility::kLeaningMarginM, safety.hull_margin_m));
   limits.leaning_clearance_m = leaning.radius_m + kHullMarginM + kSquareCells * cell_m;
@@ -127,6 +133,7 @@ Attempt attemptOf(int number, const GlobalOptions& options, const vessel::Parame
   attempt.weights.smooth = options.weight_smooth;
   attempt.weights.clearance = kWeightClearance * care.weight_factor;
   attempt.weights.room = kWeightRoom;
+  attempt.weights.hull_room = kWeightHullRoom;
   attempt.weights.dynamics = kWeightDynamics * care.weight_factor;
   const bool firm = vessel::isFirmLoad(vessel, safety.disturbance);
   attempt.initial.piece_length_m =

@@ -51,7 +51,7 @@ class SplineProblemTest : public ::testing::Test {
   SplineProblemTest() : problem(vessel::Parameters()) {
     problem.targets.obstacles = &obstacles;
     problem.targets.originals = &originals;
-    problem.targets.weights = {1.0, 0.1, 0.01, 20.0, 20.0, 0.3, 0.7};
+    problem.targets.weights = {1.0, 0.1, 0.01, 20.0, 20.0, 0.3, 0.7, 5.0};
     problem.targets.limits.thrust_ahead_n = 20.0;
     problem.targets.limits.thrust_astern_n = 10.0;
     problem.targets.limits.speed_mps = 2.0;
@@ -86,6 +86,7 @@ class SplineProblemTest : public ::testing::Test {
 
 TEST_F(SplineProblemTest, GradientIsThatOfTheCost) {
   problem.targets.limits.room_m = 4.0;
+  problem.targets.limits.hull_room_m = 2.5;
   Random random(7);
   const Spline spline = bentSpline(random);
   System system;

@@ -20,15 +20,18 @@ struct Passage {
   double least_m = std::numeric_limits<double>::infinity();  // of the hull's centre, half-way
 };
 
+vessel::Parameters otterGazebo() {
+  return *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) +
+                                 "/config/vessels/otter_gazebo.yaml");
+}
+
 // From 25 m west of the origin to 25 m east of it.
-Passage passageOf(const map::DistanceField& field, double preferred_m) {
-  const vessel::Parameters vessel = *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) +
-                                                            "/config/vessels/otter_gazebo.yaml");
+Passage passageOf(const map::DistanceField& field, const feasibility::SafetyLimits& limits) {
+  const vessel::Parameters vessel = otterGazebo();
   const feasibility::Obstacles obstacles(field);
   Query query;
-  query.limits = feasibility::SafetyLimits::of(vessel);
+  query.limits = limits;
   query.limits.speed_max_mps = 1.0;
-  query.limits.preferred_clearance_m = preferred_m;
   query.start.flat.position = {-25.0, 0.0};
   query.goal.flat.position = {25.0, 0.0};
   Planner planner(Options{}, vessel);
@@ -43,6 +46,19 @@ Passage passageOf(const map::DistanceField& field, double preferred_m) {
     }
   }
   return passage;
+}
+
+Passage passageOf(const map::DistanceField& field, double preferred_m) {
+  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(otterGazebo());
+  limits.preferred_clearance_m = preferred_m;
+  return passageOf(field, limits);
+}
+
+// Of a plan that must leave the hull no more than 5 cm.
+Passage tightPassageOf(const map::DistanceField& field) {
+  feasibility::SafetyLimits limits = feasibility::SafetyLimits::of(otterGazebo(), 0.6);
+  limits.hull_margin_m = 0.05;
+  return passageOf(field, limits);
 }
 
 TEST(PreferredRoom, IsKeptInWideWater) {
@@ -65,6 +81,26 @@ TEST(PreferredRoom, IsGivenUpInANarrowPassage) {
       passageOf(map::DistanceField(grid, map::DistanceFieldOptions{}), kPreferredM);
   ASSERT_TRUE(passage.found);
   EXPECT_GT(passage.least_m, 1.5);
+}
+
+// Little is asked for beside the hull, since somewhere there is no more: not all along the way.
+TEST(PreferredRoom, IsKeptBesideTheHullThoughLittleIsAskedFor) {
+  const double half_beam_m = 0.5 * otterGazebo().hull.beam_m;
+  for (const double side : {1.0, -1.0}) {
+    const map::DistanceField field = test::withObstacle(-1.0, side > 0.0 ? 0.4 : -2.4, 2.0, 2.0);
+    const Passage passage = tightPassageOf(field);
+    ASSERT_TRUE(passage.found);
+    EXPECT_GT(passage.least_m, half_beam_m + 0.45) << side;
+  }
+}
+
+TEST(PreferredRoom, BesideTheHullIsGivenUpInANarrowPassage) {
+  map::OccupancyGrid grid = test::openGrid();
+  test::fill(grid, -1.0, 0.7, 2.0, 39.3);
+  test::fill(grid, -1.0, -40.0, 2.0, 39.3);
+  const Passage passage = tightPassageOf(map::DistanceField(grid, map::DistanceFieldOptions{}));
+  ASSERT_TRUE(passage.found);
+  EXPECT_GT(passage.least_m, 0.6);
 }
 
 }  // namespace
