@@ -1986,9 +1986,9 @@ class Decider final : public Supervisor {
                                               "%d times",
                                               kDriftM, retries_.rounds()));
     }
-    if (isForNarrowWater(asked) && mayLearnTheWaves(m)) {
+    if ((isForNarrowWater(asked) || asked.in_unknown_water) && mayLearnTheWaves(m)) {
       waves_since_s_ = waves_since_s_.value_or(m.now_s);
-      enter(phase_, "learns the waves before it goes through narrow water");
+      enter(phase_, "learns the waves before it goes through narrow or unknown water");
       return holdHere();
     }
     if (leadsFarRound(m, plan) && far_round_ != FarRound::kTaken && safety().timesRefused() == 0) {

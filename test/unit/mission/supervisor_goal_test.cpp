@@ -157,9 +157,15 @@ TEST(Options, ShippedFileLoads) {
 // With `beside_m` of water on either side of the hull, 80 m before the goal; the waves are not
 // known.
 struct BeforeAPassage {
-  explicit BeforeAPassage(double beside_m) : mission(test::openWater(), widths(beside_m)) {
+  explicit BeforeAPassage(double beside_m, bool is_seen = true)
+      : mission(test::openWater(), widths(beside_m)) {
     mission.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
     mission.knows_waves = false;
+    if (!is_seen) {
+      map::OccupancyGrid seen = mission.grid;
+      test::block(seen, {-35.0, -10.0}, {40.0, 10.0});
+      mission.known.emplace(test::fieldOf(seen));
+    }
     asked = mission.goTo({40.0, 0.0})->plan;
   }
   static SupervisorOptions widths(double beside_m) {
@@ -193,6 +199,16 @@ TEST(Goal, LearnsTheWavesBeforeItGoesThroughNarrowWater) {
   narrow.mission.knows_waves = true;
   EXPECT_LT(narrow.waitsFor(10.0), 0.2);
   EXPECT_TRUE(narrow.sails());
+}
+
+// What comes into sight there may be narrow.
+TEST(Goal, LearnsTheWavesBeforeItGoesIntoUnknownWater) {
+  BeforeAPassage unseen(0.5, false);
+  EXPECT_FALSE(unseen.sails());
+  EXPECT_GE(unseen.waitsFor(10.0), 10.0);
+  unseen.mission.knows_waves = true;
+  EXPECT_LT(unseen.waitsFor(10.0), 0.2);
+  EXPECT_TRUE(unseen.asked.has_value());
 }
 
 // The tracker keeps the place about which waves swing the hull abeam: from the end of a swing on it
