@@ -32,32 +32,31 @@ class ClearanceCost final : public Cost {
       return;
     }
     const Eigen::Vector2d w = point.dynamics.headingForce(z.col(1), z.col(2));
-    const vessel::Bow bow = point.dynamics.bow(w, w, point.force_floor_n);
-    addEnds(targets, point, bow, limits.hull_clearance_m, targets.weights.clearance);
-    if (limits.hull_room_m > 0.0) {
-      addEnds(targets, point, bow, limits.hull_room_m, targets.weights.hull_room);
-    }
+    addEnds(targets, point, point.dynamics.bow(w, w, point.force_floor_n), limits.hull_clearance_m);
     if (targets.leaning != nullptr) {
       const Eigen::Vector2d leans = targets.leaning->headingForce(z.col(1), z.col(2));
       addEnds(targets, point, targets.leaning->bow(leans, leans, point.force_floor_n),
-              limits.leaning_clearance_m, targets.weights.clearance);
+              limits.leaning_clearance_m);
     }
   }
 
  private:
   static void addEnds(const Targets& targets, Point& point, const vessel::Bow& bow,
-                      double clearance_m, double weight) {
+                      double clearance_m) {
     const double offset_m = targets.limits.hull_offset_m;
     for (const double offset : {-offset_m, offset_m}) {
       const map::DistanceField::Smooth end =
           point.piece.obstacles->smooth(point.position() + offset * bow.ahead, point.time_s);
-      point.addHinge(weight, clearance_m - end.distance_m, kKneeM, [&] {
+      const auto slope = [&] {
         Rows rows;
         rows.col(0) = -end.gradient;
         rows.rightCols<4>() = -offset * point.dynamics.byPath(vessel::InverseDynamics::bowGradient(
                                             bow, end.gradient));
         return rows;
-      });
+      };
+      point.addHinge(targets.weights.hull_room, targets.limits.hull_room_m - end.distance_m, kKneeM,
+                     slope);
+      point.addHinge(targets.weights.clearance, clearance_m - end.distance_m, kKneeM, slope);
     }
   }
 
