@@ -60,7 +60,8 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   const feasibility::HullCover hull(safety.hull, safety.hull_margin_m);
   limits.hull_offset_m = hull.offset_m;
   limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
-  if (safety.hull_margin_m < kBesideM && !care.careful) {
+  const bool narrow = safety.clearance_m < 0.5 * safety.hull.beam_m + kBesideM;
+  if (narrow && safety.hull_margin_m < kBesideM && !care.careful) {
     limits.hull_room_m = limits.hull_clearance_m + kBesideM - safety.hull_margin_m;
   }
   const feasibility::HullCover leaning(
