@@ -244,7 +244,7 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
   request.query.goal.flat.position = goal.position;
   request.query.goal.psi_rad = safety.restHeading(goal.psi_rad);
   request.query.seed = seed_ + static_cast<std::uint64_t>(request.id);
-  request.query.limits = safety.limits(thrust_share, room);
+  request.query.limits = safety.limits(thrust_share, room, from != From::kRest);
   request.query.may_end_early = safety.atNarrowest();
   request.query.dead_ends = dead_ends_;
   // A stop may have ended nearer to something than plans keep.

@@ -98,7 +98,7 @@ bool Safety::narrowTo(double room_m) {
   return narrows;
 }
 
-feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
+feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m, bool under_way) {
   (void)narrowTo(room_m);
   const double wider = levels_.stepsWider() / static_cast<double>(ClearanceLevels::kSteps);
   const auto between = [&](const auto& of_level) {
@@ -117,7 +117,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m) {
                    }) *
                    weather_.drift();
   limits.disturbance = planDisturbance();
-  if (timesRefused() < kRefusedMost) {
+  if (under_way || timesRefused() < kRefusedMost) {
     limits.felt = leansInto();
   }
   // What it wanders, as far as the level has room for it; half as much each time there was no plan.

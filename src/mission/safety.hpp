@@ -85,8 +85,10 @@ class Safety {
   // To the first level from the present one on that start and goal have room for; whether that is
   // another.
   bool narrowTo(double room_m);
-  // The next request's limits: of that level, and with `thrust_share`.
-  [[nodiscard]] feasibility::SafetyLimits limits(double thrust_share, double room_m);
+  // The next request's limits: of that level, and with `thrust_share`. From rest the last round
+  // leaves aside that the hull leans; a vessel under way can stop first.
+  [[nodiscard]] feasibility::SafetyLimits limits(double thrust_share, double room_m,
+                                                 bool under_way = false);
 
   // What the next plan is made with; the state it starts from has to be one under that too.
   [[nodiscard]] vessel::Disturbance planDisturbance() const;

@@ -83,5 +83,32 @@ TEST_F(PlansFromUnderWay, OnALevelForACrawlDontBeginWhereItStaysFast) {
   EXPECT_FALSE(beginning(10.0, 3));
 }
 
+// However often there was none, for it can stop first; from rest the last round does without.
+TEST(PlanRequests, KnowUnderWayWhatTheHullLeansInto) {
+  vessel::Parameters vessel;
+  vessel.manoeuvring.wind_surge_kgpm = 0.5;
+  vessel.manoeuvring.wind_sway_kgpm = 0.5;
+  PlanRequests requests(SupervisorOptions{}, vessel, 1);
+  vessel::Disturbance weather;
+  weather.wind_mps = {0.0, 3.0};
+  for (int k = 0; k < 50; ++k) {
+    requests.safety.feel(0.1 * k, weather);
+  }
+  for (int round = 0; round < 2; ++round) {
+    while (requests.safety.refused()) {
+    }
+  }
+  const map::DistanceField water = test::fieldOf(test::openWater());
+  const vessel::Pose goal{{20.0, 0.0}, 0.0};
+  const trajectory::TimedTrajectory sailed{test::eastward({-30.0, 0.0}, 48.0, 0.8), 0.0};
+  const auto moving = requests.fromSailed(10.0, sailed, 1.0, goal, water, kAnyTimeS);
+  ASSERT_TRUE(moving);
+  EXPECT_NEAR(moving->query.limits.felt.wind_mps.y(), 3.0, 0.1);
+  vessel::State rests = vessel::State::Zero();
+  rests[vessel::kX] = -30.0;
+  const PlanRequest resting = requests.fromRest(10.0, rests, goal, water);
+  EXPECT_TRUE(resting.query.limits.felt.wind_mps.isZero(0.0));
+}
+
 }  // namespace
 }  // namespace otter_nav::mission

@@ -197,6 +197,7 @@ TEST(Safety, SailsNoSlowerThanALightWindFromAbeamAllows) {
     const feasibility::SafetyLimits limits = safety.limits(0.95, kWideWater);
     const double load_n = 0.5 * wind_mps * wind_mps;
     EXPECT_TRUE(limits.felt.wind_mps.isZero(0.0));  // the last round does without
+    EXPECT_NEAR(safety.limits(0.95, kWideWater, true).felt.wind_mps.norm(), wind_mps, 0.1);
     if (wind_mps > 0.0) {
       EXPECT_GT(limits.speed_max_mps, load_n / (vessel.paper.d2_kgps * std::tan(0.26)));
     } else {
