@@ -60,7 +60,9 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   const feasibility::HullCover hull(safety.hull, safety.hull_margin_m);
   limits.hull_offset_m = hull.offset_m;
   limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
-  const bool narrow = safety.clearance_m < 0.5 * safety.hull.beam_m + kBesideM;
+  // Where some is asked for, on the narrow levels.
+  const bool narrow =
+      safety.hull_margin_m > 0.0 && safety.clearance_m < 0.5 * safety.hull.beam_m + kBesideM;
   if (narrow && safety.hull_margin_m < kBesideM && !care.careful) {
     limits.hull_room_m = limits.hull_clearance_m + kBesideM - safety.hull_margin_m;
   }
