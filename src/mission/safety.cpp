@@ -120,12 +120,7 @@ feasibility::SafetyLimits Safety::limits(double thrust_share, double room_m, boo
   if (under_way || timesRefused() < kRefusedMost) {
     limits.felt = leansInto();
   }
-  // What it wanders, as far as the level has room for it; half as much each time there was no plan.
-  const double most = std::max(kWanderM, options_.side_clearances_m[levels_.level()]);
-  const double least = in_unknown_water_ ? kUnknownMarginM : 0.0;
-  limits.hull_margin_m =
-      std::max(kPlanMarginM,
-               std::pow(0.5, times_refused_) * std::clamp(wandersAt(levels_.level()), least, most));
+  limits.hull_margin_m = hullMargin(levels_.level(), times_refused_);
   limits.limitSpeed(options_.speed_max_mps);
   limits.speed_max_mps = paceAt(levels_.level(), limits.speed_max_mps * slowShare());
   is_slow_ = wandersMuch(levels_.level());
@@ -142,6 +137,19 @@ double Safety::preferredClearance() const {
   const double reach_m = std::min(weather_.gustReach(), vessel_.hull.length_m);
   return planClearance(options_, 0, reach_m, vessel_.hull, kAnyRoomM) +
          vessel::circumscribedRadius(vessel_.hull) - 0.5 * vessel_.hull.beam_m;
+}
+
+// What it wanders, as far as the level has room for it; half as much each time there was no plan.
+double Safety::hullMargin(std::size_t level, int times_refused) const {
+  const double most = std::max(kWanderM, options_.side_clearances_m[level]);
+  const double least = in_unknown_water_ ? kUnknownMarginM : 0.0;
+  return std::max(kPlanMarginM,
+                  std::pow(0.5, times_refused) * std::clamp(wandersAt(level), least, most));
+}
+
+bool Safety::mayKeepLess() const {
+  const std::size_t narrowest = options_.side_clearances_m.size() - 1;
+  return times_refused_ == 1 && hullMargin(narrowest, 1) < hullMargin(narrowest, 0);
 }
 
 double Safety::wandersAt(std::size_t level) const {

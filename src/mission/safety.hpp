@@ -153,6 +153,8 @@ class Safety {
   bool refused();
   // At all levels; for blind plans, since they are.
   [[nodiscard]] int timesRefused() const;
+  // The first refusal at all levels was of plans with more around the hull than the next will keep.
+  [[nodiscard]] bool mayKeepLess() const;
   void planTaken();
   void tryWidest() { levels_.widest(); }
   // The vessel came to rest: what was refused under way is another matter from here.
@@ -173,6 +175,8 @@ class Safety {
   [[nodiscard]] vessel::Disturbance lightLoad() const;
   // Of the thrust, what waves take from plans on this level.
   [[nodiscard]] double waveShare() const;
+  // Around the hull, m, after so many refusals.
+  [[nodiscard]] double hullMargin(std::size_t level, int times_refused) const;
   // Of the hull's centre where it costs little, m.
   [[nodiscard]] double preferredClearance() const;
   // What room that takes, m.

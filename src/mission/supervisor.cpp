@@ -2122,7 +2122,8 @@ class Decider final : public Supervisor {
     if (asked.from != From::kRest || more) {
       return {};  // asked again at the next update, as long as there is room
     }
-    if (!hasFault(m)) {
+    // A way on from here with less around the hull comes before one back.
+    if (!hasFault(m) && !safety().mayKeepLess()) {
       if (std::optional<Trajectory> path =
               stopping::backOff(withoutSwing(m), m.obstacles.startingAt(m.now_s), vessel_,
                                 m.situation.disturbance.mean, safety().reach())) {

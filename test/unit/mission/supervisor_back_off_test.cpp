@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <vector>
 
 #include "otter_nav/stopping/back_off.hpp"
 #include "scripted_mission.hpp"
@@ -8,15 +9,20 @@
 namespace otter_nav::mission {
 namespace {
 
-// At a wall where no plan is found, until the supervisor backs off.
-std::optional<trajectory::TimedTrajectory> backOffFromTheWall(test::ScriptedMission& mission) {
+// At a wall where no plan is found, until the supervisor backs off; with what it asked for.
+std::optional<trajectory::TimedTrajectory> backOffFromTheWall(
+    test::ScriptedMission& mission, std::vector<planner::Query>* asked = nullptr) {
   mission.put({1.3, -10.0}, {2.0, 10.0});
   const auto orders = mission.goTo({-20.0, 0.0});
-  Orders next = mission.refuse(orders.value().plan.value(), "the hull touches");
-  for (int k = 0; k < 20 && !next.sail; ++k) {
-    next = mission.update(0.1);
+  Orders next = *orders;
+  for (int k = 0; k < 30 && !next.sail; ++k) {
     if (next.plan) {
+      if (asked != nullptr) {
+        asked->push_back(next.plan->query);
+      }
       next = mission.refuse(*next.plan, "the hull touches");
+    } else {
+      next = mission.update(0.1);
     }
   }
   return next.sail;
@@ -36,6 +42,21 @@ TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
   ASSERT_TRUE(next.plan);
   EXPECT_GE(mission.field.clearance(next.plan->query.start.flat.position),
             stopping::turningRoom(vessel::Parameters{}.hull));
+}
+
+// What leads on with less around the hull comes before what leads back, once.
+TEST(BackOff, ComesAfterPlansWithLessAroundTheHull) {
+  test::ScriptedMission mission;
+  std::vector<planner::Query> asked;
+  ASSERT_TRUE(backOffFromTheWall(mission, &asked));
+  std::vector<double> margins_m;  // on the narrowest level
+  for (const planner::Query& query : asked) {
+    if (query.may_end_early) {
+      margins_m.push_back(query.limits.hull_margin_m);
+    }
+  }
+  ASSERT_EQ(margins_m.size(), 2U);
+  EXPECT_LT(margins_m[1], margins_m[0]);
 }
 
 // What lay before the bow is remembered for this goal; where other vessels were near, they may have
