@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "goal_check.hpp"
+#include "moment.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/text.hpp"
@@ -20,12 +21,13 @@
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/stopping/stand_aside.hpp"
 #include "otter_nav/stopping/watch.hpp"
-#include "otter_nav/trajectory/straight_leg.hpp"
 #include "otter_nav/vessel/hull.hpp"
 #include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "plan_requests.hpp"
 #include "retry_budget.hpp"
+#include "sea_room.hpp"
+#include "stops.hpp"
 
 namespace otter_nav::mission {
 namespace {
@@ -65,13 +67,6 @@ constexpr double kOvertaxedLongerS = 1.5;
 // which the vessel is off its way, wants for thrust on it, or can't hold the goal's heading.
 enum class Cause { kOther, kClearance, kOff, kLoad, kGoalHeading };
 
-// What a decision is made on.
-struct Moment {
-  double now_s;
-  const Situation& situation;
-  const Obstacles& obstacles;
-};
-
 template <typename Decider>
 struct RuleOf {
   unsigned phases;
@@ -88,6 +83,7 @@ class Decider final : public Supervisor {
       : options_(options),
         vessel_(vessel),
         plans_(options, vessel, seed),
+        stops_(plans_.safety, vessel_),
         retries_(options.rounds_from_rest, options.stops_max),
         pilot_(options.encounter, vessel),
         evasion_(vessel) {}
@@ -195,7 +191,7 @@ class Decider final : public Supervisor {
   [[nodiscard]] const vessel::Pose& goal() const override { return goal_; }
   [[nodiscard]] const TimedTrajectory& sailed() const override { return sailed_; }
   [[nodiscard]] const std::optional<TimedTrajectory>& lastStop() const override {
-    return fallback_;
+    return stops_.kept();
   }
   [[nodiscard]] double plannedClearance() const override { return planned_clearance_m_; }
   [[nodiscard]] std::vector<encounter::Encounter> encounters() const override {
@@ -334,39 +330,24 @@ class Decider final : public Supervisor {
                                       std::max(safety().critical(), asked.hull_margin_m), true,
                                       planned_limits_.disturbance)
                 .found &&
-           leewardRoom(m, sailed_, kAheadS) >= asked.drift_m.norm() - kStepM;
+           seaRoom(m).toLeeward(sailed_, kAheadS) >= asked.drift_m.norm() - kStepM;
   }
   bool isClearAgain(const Moment& m) { return cause_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
-  bool hasNoStop(const Moment& m) { return !findStop(m, sailed_, planned_limits_, offSailed(m)); }
+  bool hasNoStop(const Moment& m) {
+    return !stops_.find(m, sailed_, planned_limits_, offSailed(m));
+  }
   // The hull does not pass on its way, no plan leads round that, and of the stops before it none
   // that begins later ends with as much beside the hull as the one that is kept: to go on only
   // leads into the narrow place.
   bool endsNarrowerLater(const Moment& m) {
-    constexpr double kStepS = 1.0;
-    if (cause_ != Cause::kClearance || !fallback_ || mayPlanRoundIt(m)) {
+    if (cause_ != Cause::kClearance || !stops_.kept() || mayPlanRoundIt(m)) {
       return false;
     }
-    const double at = sailed_.elapsed(m.now_s);
     const stopping::Conflict hull = stopping::outlineConflict(
-        sailed_.trajectory, at, sailed_.trajectory.duration(), alongSailed(m), vessel_,
-        safety().critical(), true, planned_limits_.disturbance);
-    if (!hull.found) {
-      return false;
-    }
-    const Obstacles known = m.obstacles.inKnownWater();
-    const auto room = [&](const Trajectory& stop, double start_s) {
-      return std::min(stopping::kSwingsM,
-                      stopping::roomAtRest(stop, known.startingAt(start_s), vessel_));
-    };
-    const double kept_m = room(fallback_->trajectory, fallback_->start_time_s);
-    for (double later = at + kStepS; later < hull.time_s; later += kStepS) {
-      const stopping::Braking braking = stop(m, sailed_, later, safety().stop(planned_limits_));
-      if (braking.clear && room(braking.trajectory, sailed_.start_time_s + later) >= kept_m) {
-        return false;
-      }
-    }
-    return true;
+        sailed_.trajectory, sailed_.elapsed(m.now_s), sailed_.trajectory.duration(), alongSailed(m),
+        vessel_, safety().critical(), true, planned_limits_.disturbance);
+    return hull.found && stops_.endNarrowerThanKept(m, sailed_, planned_limits_, hull.time_s);
   }
   // From what is sailed, before that is not clear; until there was none at any clearance.
   bool mayPlanRoundIt(const Moment& m) {
@@ -386,7 +367,7 @@ class Decider final : public Supervisor {
       return false;
     }
     stops_looked_for_s_ = m.now_s;
-    other_stop_ = stopNow(m).trajectory;
+    other_stop_ = stops_.now(m, sailed_, planned_limits_, offSailed(m)).trajectory;
     return stopping::firstTouch(other_stop_, 0.0, m.obstacles.startingAt(m.now_s), vessel_, off)
         .milderThan(now);
   }
@@ -467,7 +448,7 @@ class Decider final : public Supervisor {
     later_ = sailed_;
     later_.start_time_s += behind_m / speed;
     behind_m_ = behind_m;
-    return findStop(m, later_, planned_limits_, stopping::Off{});
+    return stops_.find(m, later_, planned_limits_, stopping::Off{});
   }
   // A plan that knows wind and current, made from where they have set the vessel, is one that it
   // can follow again: it need not be far off for that.
@@ -534,7 +515,8 @@ class Decider final : public Supervisor {
         speed > 0.0 ? (wanted.velocity / speed).eval() : Eigen::Vector2d::Zero();
     const double made_good_mps = std::clamp(velocity.dot(along), 0.0, speed);
     const Eigen::Vector2d goes_off = velocity - made_good_mps * along;
-    const bool hurries = mayLoseItsHeading() && off.dot(goes_off) >= 0.0 && hasALeeShore(m);
+    const bool hurries =
+        mayLoseItsHeading() && off.dot(goes_off) >= 0.0 && seaRoom(m).hasALeeShore();
     if (hurries && (off + kSoonS * goes_off).norm() > options_.tracking_error_max_m) {
       return true;
     }
@@ -552,31 +534,14 @@ class Decider final : public Supervisor {
     }
     return false;
   }
-  // Nearer than a hull's length to where a heading that is lost would take the vessel, or half a
-  // length more to where it is: a current sets it across the wind.
-  bool hasALeeShore(const Moment& m) {
-    constexpr double kShare = 0.5;  // of the drift: it is seen before it is over
-    constexpr int kSteps = 8;
-    const Eigen::Vector2d here = m.situation.state.head<2>();
-    const Eigen::Vector2d drift = kShare * weather().drift();
-    for (int k = 0; k <= kSteps; ++k) {
-      const double share = static_cast<double>(k) / kSteps;
-      const double room_m = (1.5 - 0.5 * share) * vessel_.hull.length_m;
-      if (m.obstacles.clearance(here + share * drift, m.now_s) < room_m) {
-        return true;
-      }
-    }
-    return false;
-  }
   // Bow or stern to it, with something near, or to leeward nearer than a lost heading takes, and a
   // better place ahead or astern.
   bool liesOffALeeShore(const Moment& m) {
     constexpr double kShorterM = 0.5;
     const Obstacles now = m.obstacles.startingAt(m.now_s);
-    sea_room_m_ = weather().isKnown() ? seaRoomToMake(m) : 0.0;
+    sea_room_m_ = weather().isKnown() ? seaRoom(m).toMake(retries_.stops()) : 0.0;
     // The bow comes farther than the centre, and something may move.
-    while (sea_room_m_ != 0.0 &&
-           !stopping::backOffIsClear(legAhead(m, sea_room_m_), 0.0, now, vessel_)) {
+    while (sea_room_m_ != 0.0 && !stopping::backOffIsClear(legToMake(m), 0.0, now, vessel_)) {
       sea_room_m_ = std::copysign(std::max(0.0, std::abs(sea_room_m_) - kShorterM), sea_room_m_);
     }
     return sea_room_m_ != 0.0;
@@ -748,7 +713,7 @@ class Decider final : public Supervisor {
       return !leavesRoom(m, sailed_, kShare, kAheadS);
     }
     return mayLoseItsHeading() && planned_level_ > 0 &&
-           leewardRoom(m, sailed_, kAheadS) < kShare * weather().drift().norm();
+           seaRoom(m).toLeeward(sailed_, kAheadS) < kShare * weather().drift().norm();
   }
   // The plan ends on a heading that can't be held there, or not on the goal's though it can.
   bool endsOnAWrongHeading(const Moment& m) {
@@ -992,7 +957,7 @@ class Decider final : public Supervisor {
   Orders planByStopping(const Moment& m) {
     stopping_asked_s_ = m.now_s;
     const double soon = sailed_.elapsed(m.now_s + plans_.latency.seconds());
-    stopping::Braking braking = stop(m, sailed_, soon, safety().stop(planned_limits_));
+    stopping::Braking braking = stops_.from(m, sailed_, soon, safety().stop(planned_limits_));
     if (!braking.clear) {
       return {};
     }
@@ -1103,13 +1068,14 @@ class Decider final : public Supervisor {
     const auto place = [&](const TimedTrajectory& path) {
       return path.trajectory.flat(path.elapsed(m.now_s)).position;
     };
-    if (!fallback_ || (place(*fallback_) - place(sailed_)).norm() > kApartM) {
+    const std::optional<TimedTrajectory>& kept = stops_.kept();
+    if (!kept || (place(*kept) - place(sailed_)).norm() > kApartM) {
       return brakeFor(m, std::move(why), cause);
     }
     plans_.drop();
     cause_ = cause;
     stop_time_s_ = m.now_s;
-    sailed_ = *fallback_;
+    sailed_ = *kept;
     enter(Phase::kStopping, std::move(why));
     return {std::nullopt, sailed_, false};
   }
@@ -1154,7 +1120,7 @@ class Decider final : public Supervisor {
     return holdHere();
   }
   Orders makeSeaRoom(const Moment& m) {
-    Orders orders = manoeuvre(m, Phase::kBackingOff, legAhead(m, sea_room_m_),
+    Orders orders = manoeuvre(m, Phase::kBackingOff, legToMake(m),
                               text("makes room, %.1f m %s", std::abs(sea_room_m_),
                                    sea_room_m_ > 0.0 ? "ahead" : "astern"),
                               Cause::kOff);
@@ -1502,98 +1468,9 @@ class Decider final : public Supervisor {
     }
     return longer;
   }
-  // Bow to what pushes, or stern in strong wind.
-  Trajectory legAhead(const Moment& m, double ahead_m) {
-    constexpr double kSpeedMps = 0.5;
-    constexpr double kInStrongMps = 1.0;  // with way on it can make good what sets it aside
-    constexpr double kLeastS = 4.0;
-    const double speed = mayLoseItsHeading() ? kInStrongMps : kSpeedMps;
-    return Trajectory({trajectory::straightLeg(withoutSwing(m).head<2>(), windward(m), ahead_m,
-                                               std::max(kLeastS, std::abs(ahead_m) / speed))});
-  }
-  // The hull's heading, or in strong wind the one into it, bow or stern, as far as turning there
-  // needs no room.
-  double windward(const Moment& m) {
-    constexpr double kTurnMostRad = 0.35;
-    const double psi = m.situation.state[vessel::kPsi];
-    const Eigen::Vector2d& wind = weather().mean().wind_mps;
-    const Eigen::Vector2d leeward = wind.isZero(0.0) ? weather().drift() : wind;
-    const double to_bow = wrapAngle(angleOf(-leeward) - psi);
-    const double turn = std::abs(to_bow) > 0.5 * kPi ? wrapAngle(to_bow + kPi) : to_bow;
-    return mayLoseItsHeading() ? psi + std::clamp(turn, -kTurnMostRad, kTurnMostRad) : psi;
-  }
-  // How far to leeward of a place nothing lies, m, at most `far_m`.
-  double leewardRoom(const Moment& m, const Eigen::Vector2d& position, double far_m) {
-    constexpr double kStepM = 0.5;
-    const Eigen::Vector2d leeward = weather().drift().normalized();
-    double room = 0.0;
-    while (room < far_m && m.obstacles.clearance(position + (room + kStepM) * leeward, m.now_s) >=
-                               safety().critical()) {
-      room += kStepM;
-    }
-    return std::min(room, far_m);
-  }
-  // The least on the stretch of the way from now on, up to what a lost heading takes.
-  double leewardRoom(const Moment& m, const TimedTrajectory& path, double ahead_s) {
-    constexpr double kStepS = 1.0;
-    const double from = path.elapsed(m.now_s);
-    const double to = std::min(path.trajectory.duration(), from + ahead_s);
-    double room = weather().drift().norm();
-    for (double t = from; t < to; t += kStepS) {
-      room = leewardRoom(m, path.trajectory.flat(t).position, room);
-    }
-    return room;
-  }
-  // How far ahead of a vessel that lies along what pushes, m (negative: astern), there is enough
-  // room round it and to leeward, or most; 0 where it has that already, or there is no better
-  // place.
-  double seaRoomToMake(const Moment& m) {
-    constexpr double kLeewardM = 4.0;
-    constexpr double kRoundM = 1.0;
-    constexpr double kRoundInStrongM = 3.0;  // a gust sets aside to all sides
-    constexpr double kRoundAgainM = 0.7;     // more, each time it had to stop again hereabouts
-    constexpr double kRoundMostM = 4.0;
-    constexpr double kFarthestM = 6.0;
-    constexpr double kStepM = 0.5;
-    constexpr double kWorthM = 0.7;
-    constexpr double kIntoCosine = 0.7;
-    const Eigen::Vector2d drift = weather().drift();
-    const double far = std::min(drift.norm(), kLeewardM);
-    const vessel::State& x = m.situation.state;
-    const Eigen::Vector2d bow = unitVector(windward(m));
-    const double at_first = mayLoseItsHeading() ? kRoundInStrongM : kRoundM;
-    const double round = std::min(kRoundMostM, at_first + kRoundAgainM * retries_.stops());
-    const double along = std::abs(bow.dot(drift));
-    if (far < kRoundM || along < kIntoCosine * drift.norm()) {
-      return 0.0;
-    }
-    const auto clear = [&](const Eigen::Vector2d& p) { return m.obstacles.clearance(p, m.now_s); };
-    const auto room = [&](const Eigen::Vector2d& position) {
-      return leewardRoom(m, position, far) +
-             std::min(clear(position) - safety().narrowest(), round);
-    };
-    // Where a gust sets it aside on the way it goes by nothing that is nearer than what it lies
-    // off.
-    const double least = mayLoseItsHeading() ? kRoundInStrongM : safety().narrowest();
-    const double enough = far + round;
-    const double here = clear(x.head<2>());
-    double best = 0.0;
-    double most = room(x.head<2>()) + kWorthM;
-    for (const double side : {1.0, -1.0}) {
-      double found = 0.0;
-      for (double s = kStepM; s <= kFarthestM && most < enough; s += kStepM) {
-        const Eigen::Vector2d there = x.head<2>() + side * s * bow;
-        if (clear(there) < std::min(here, least)) {
-          break;
-        }
-        if (room(there) >= most) {
-          found = side * s;
-          most = room(there) + 0.5 * kStepM;
-        }
-      }
-      best = found != 0.0 ? found : best;
-    }
-    return best;
+  [[nodiscard]] SeaRoom seaRoom(const Moment& m) { return {m, safety(), vessel_.hull}; }
+  Trajectory legToMake(const Moment& m) {
+    return seaRoom(m).leg(withoutSwing(m).head<2>(), sea_room_m_);
   }
   // Without a trajectory the tracker does nothing: it shall keep the place, once.
   Orders holdHere() { return {std::nullopt, std::nullopt, !std::exchange(holds_, true)}; }
@@ -1744,73 +1621,12 @@ class Decider final : public Supervisor {
     return limits.speed_max_mps < planned_limits_.speed_max_mps;
   }
   Obstacles alongSailed(const Moment& m) { return m.obstacles.startingAt(sailed_.start_time_s); }
-  // What is known ahead of a trajectory, on its clock: what nobody saw to be free stops there.
-  stopping::Braking stop(const Moment& m, const TimedTrajectory& path, double at_s,
-                         const stopping::StopLimits& limits) {
-    return stopping::brakingTrajectory(path.trajectory, at_s,
-                                       m.obstacles.inKnownWater().startingAt(path.start_time_s),
-                                       vessel_, limits);
-  }
-  // With the plan's own margin if that can be had.
-  stopping::Braking stopNow(const Moment& m) {
-    const double at = sailed_.elapsed(m.now_s);
-    stopping::StopLimits limits = safety().stop(planned_limits_);
-    limits.off = offSailed(m);
-    stopping::Braking found = stop(m, sailed_, at, limits);
-    if (!found.clear) {
-      limits = safety().leastStop(planned_limits_);
-      limits.off = offSailed(m);
-      found = stop(m, sailed_, at, limits);
-    }
-    return found;
-  }
   stopping::Off offSailed(const Moment& m) {
     if (sailed_.trajectory.empty() || !m.situation.state.allFinite()) {
       return {};
     }
     return stopping::offTrajectory(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
                                    vessel_, planned_limits_.disturbance);
-  }
-  // A stop that begins a little later than now: when the next decision is due, there is time to
-  // take it. A launch, or sailing crabwise, may leave none that keeps to the thrusters' limits at
-  // the moment: then one that begins later, where the way until then is clear in known water. Kept
-  // if there is one.
-  bool findStop(const Moment& m, const TimedTrajectory& path,
-                const feasibility::SafetyLimits& planned, const stopping::Off& off) {
-    constexpr double kReserveS = 0.25;
-    constexpr double kLaterS[] = {0.5, 1.0, 2.0, 3.5, 5.0};
-    stopping::StopLimits limits = safety().stop(planned);
-    limits.off = off;
-    if (keepStop(m, path, kReserveS, limits)) {
-      return true;
-    }
-    if (!isClearInKnownWater(m, path, limits)) {
-      return false;
-    }
-    for (const double later_s : kLaterS) {
-      if (keepStop(m, path, kReserveS + later_s, limits)) {
-        return true;
-      }
-    }
-    // One with less beside it than the plan has is better than an old one, and that than none.
-    limits = safety().leastStop(planned);
-    limits.off = off;
-    return keepStop(m, path, kReserveS, limits) || fallback_;
-  }
-  // Whether a stop can begin at any time soon. A way to rest is given up for nothing less: going on
-  // and stopping in turns, the hull is soon off all of them.
-  bool hasStopsForAWhile(const Moment& m, const TimedTrajectory& path,
-                         const feasibility::SafetyLimits& planned) {
-    constexpr double kStepS = 0.25;
-    constexpr int kSteps = 5;
-    const stopping::StopLimits limits = safety().stop(planned);
-    for (int k = 1; k <= kSteps; ++k) {
-      const double at = path.elapsed(m.now_s) + k * kStepS;
-      if (at < path.trajectory.duration() && !stop(m, path, at, limits).clear) {
-        return false;
-      }
-    }
-    return true;
   }
   // What the hull is off its way to rest it is off the plan at first, and more while it makes that
   // good in a bend: whether what lies still leaves as much beside the plan.
@@ -1826,35 +1642,6 @@ class Decider final : public Supervisor {
                                       planned.disturbance)
                 .found;
   }
-  // One that begins so much later; the way's own end is one.
-  bool keepStop(const Moment& m, const TimedTrajectory& path, double later_s,
-                const stopping::StopLimits& limits) {
-    const double at = path.elapsed(m.now_s) + later_s;
-    if (at >= path.trajectory.duration()) {
-      fallback_ = path;
-      return true;
-    }
-    stopping::Braking found = stop(m, path, at, limits);
-    if (found.clear) {
-      fallback_ =
-          stopping::splice(path, m.now_s, {std::move(found.trajectory), path.start_time_s + at});
-    }
-    return found.clear;
-  }
-  // For long enough to rest later.
-  bool isClearInKnownWater(const Moment& m, const TimedTrajectory& path,
-                           const stopping::StopLimits& limits) {
-    constexpr double kHorizonS = 8.0;
-    const double at = path.elapsed(m.now_s);
-    const Obstacles known = m.obstacles.inKnownWater().startingAt(path.start_time_s);
-    return !stopping::outlineConflict(path.trajectory, at, at + kHorizonS, known, vessel_,
-                                      std::max(safety().critical(), limits.hull_margin_m), true,
-                                      limits.disturbance)
-                .found &&
-           stopping::firstTouch(path.trajectory, at, known, vessel_, limits.off).after_s >
-               kHorizonS;
-  }
-
   Orders replan(std::string why, Cause cause = Cause::kOther) {
     cause_ = cause;
     return enter(Phase::kReplanning, std::move(why));
@@ -1877,7 +1664,7 @@ class Decider final : public Supervisor {
     phase_ = phase;
     reason_ = std::move(reason);
     if ((in(phase)&kUnderWay) == 0) {
-      fallback_.reset();
+      stops_.forget();
     }
     return {};
   }
@@ -1890,10 +1677,11 @@ class Decider final : public Supervisor {
       return {};  // asked for again, from where it is less
     }
     // That on what was sailed is none on this one.
-    std::optional<TimedTrajectory> last = std::exchange(fallback_, std::nullopt);
-    if ((gives_up_a_stop && !hasStopsForAWhile(m, plan, planned)) ||
-        !findStop(m, plan, planned, from_sailed ? offSailed(m) : stopping::Off{})) {
-      fallback_ = std::move(last);
+    std::optional<TimedTrajectory> last = stops_.kept();
+    stops_.forget();
+    if ((gives_up_a_stop && !stops_.existForAWhile(m, plan, planned)) ||
+        !stops_.find(m, plan, planned, from_sailed ? offSailed(m) : stopping::Off{})) {
+      stops_.keep(std::move(last));
       return asked.gain ? Orders{} : planFailed(m, "no stop in water known to be free", asked);
     }
     countReplan(asked);
@@ -1948,7 +1736,9 @@ class Decider final : public Supervisor {
     return manoeuvre(m, Phase::kStopping, {}, std::move(reason), cause);
   }
   Orders brakeFor(const Moment& m, std::string reason, Cause cause = Cause::kOther) {
-    return manoeuvre(m, Phase::kStopping, stopNow(m).trajectory, std::move(reason), cause);
+    return manoeuvre(m, Phase::kStopping,
+                     stops_.now(m, sailed_, planned_limits_, offSailed(m)).trajectory,
+                     std::move(reason), cause);
   }
   // Plans from rest come next, unless there were too many stops.
   Orders rest(const Moment& m, const std::string& reason, const std::string& last) {
@@ -2087,9 +1877,9 @@ class Decider final : public Supervisor {
     const bool leads_on = asked.left_m < planned_left_m_ - further_m ||
                           (asked.left_m == 0.0 && planned_left_m_ > 0.0);
     const auto has_room = [&] {
-      return safety().plansWithWeather()
-                 ? leavesRoom(m, next, kRoomShare, kRoomS)
-                 : leewardRoom(m, next, kRoomS) >= leewardRoom(m, sailed_, kRoomS) + kMoreRoomM;
+      return safety().plansWithWeather() ? leavesRoom(m, next, kRoomShare, kRoomS)
+                                         : seaRoom(m).toLeeward(next, kRoomS) >=
+                                               seaRoom(m).toLeeward(sailed_, kRoomS) + kMoreRoomM;
     };
     const bool is_better =
         saves_time || asked.gain == Gain::kThrust || (asked.gain == Gain::kRoom && has_room());
@@ -2175,8 +1965,6 @@ class Decider final : public Supervisor {
   std::string reason_;
   vessel::Pose goal_;
   TimedTrajectory sailed_;
-  // From it to rest in known water, as last verified.
-  std::optional<TimedTrajectory> fallback_;
   bool is_last_resort_ = false;
   double planned_left_m_ = 0.0;  // of the way, from the sailed trajectory's end to the goal
   double nearest_left_m_ = std::numeric_limits<double>::infinity();  // where a part of it ended
@@ -2230,6 +2018,7 @@ class Decider final : public Supervisor {
   double weather_asked_s_ = 0.0;
   Replans replans_;
   PlanRequests plans_;
+  Stops stops_;
   RetryBudget retries_;
   std::optional<encounter::NearFuture> near_;  // other vessels now
   std::optional<Obstacles> seen_;              // and what lies still
