@@ -234,6 +234,12 @@ PlanRequest PlanRequests::fromVessel(double now_s, const vessel::State& state,
   return ask(now_s, std::move(request), goal, share, From::kVessel, obstacles);
 }
 
+bool PlanRequests::knowsDeadEndAt(const Eigen::Vector2d& place) const {
+  const double same_m = vessel_.hull.length_m;
+  return std::any_of(dead_ends_.begin(), dead_ends_.end(),
+                     [&](const Eigen::Vector2d& other) { return (other - place).norm() < same_m; });
+}
+
 PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::Pose& goal,
                               double thrust_share, From from,
                               const feasibility::Obstacles& obstacles) {

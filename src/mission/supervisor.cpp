@@ -1912,8 +1912,8 @@ class Decider final : public Supervisor {
     if (asked.from != From::kRest || more) {
       return {};  // asked again at the next update, as long as there is room
     }
-    // A way on from here with less around the hull comes before one back.
-    if (!hasFault(m) && !safety().mayKeepLess()) {
+    // Where it leads to the same place again, a way on with less around the hull comes before that.
+    if (!hasFault(m) && !(plans_.knowsDeadEndAt(bowOf(m)) && safety().mayKeepLess())) {
       if (std::optional<Trajectory> path =
               stopping::backOff(withoutSwing(m), m.obstacles.startingAt(m.now_s), vessel_,
                                 m.situation.disturbance.mean, safety().reach())) {
@@ -1937,9 +1937,12 @@ class Decider final : public Supervisor {
   // Before the bow, where it can't go on. Other vessels may have been why.
   void noteDeadEnd(const Moment& m) {
     if (m.situation.tracks.empty()) {
-      const vessel::State& x = m.situation.state;
-      plans_.addDeadEnd(x.head<2>() + 0.5 * vessel_.hull.length_m * unitVector(x[vessel::kPsi]));
+      plans_.addDeadEnd(bowOf(m));
     }
+  }
+  [[nodiscard]] Eigen::Vector2d bowOf(const Moment& m) const {
+    const vessel::State& x = m.situation.state;
+    return x.head<2>() + 0.5 * vessel_.hull.length_m * unitVector(x[vessel::kPsi]);
   }
 
   // Other vessels near, that leave no plan now: no round is lost to them, but not for ever.

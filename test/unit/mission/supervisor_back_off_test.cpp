@@ -9,23 +9,22 @@
 namespace otter_nav::mission {
 namespace {
 
-// At a wall where no plan is found, until the supervisor backs off; with what it asked for.
-std::optional<trajectory::TimedTrajectory> backOffFromTheWall(
-    test::ScriptedMission& mission, std::vector<planner::Query>* asked = nullptr) {
-  mission.put({1.3, -10.0}, {2.0, 10.0});
-  const auto orders = mission.goTo({-20.0, 0.0});
-  Orders next = *orders;
-  for (int k = 0; k < 30 && !next.sail; ++k) {
-    if (next.plan) {
-      if (asked != nullptr) {
-        asked->push_back(next.plan->query);
-      }
-      next = mission.refuse(*next.plan, "the hull touches");
-    } else {
-      next = mission.update(0.1);
+// With all plans refused, until the supervisor backs off; what it asked for on the narrowest level.
+std::optional<trajectory::TimedTrajectory> backOff(test::ScriptedMission& mission, Orders next,
+                                                   std::vector<planner::Query>& narrow) {
+  for (int k = 0; k < 40 && !next.sail; ++k) {
+    if (next.plan && next.plan->query.may_end_early) {
+      narrow.push_back(next.plan->query);
     }
+    next = next.plan ? mission.refuse(*next.plan, "the hull touches") : mission.update(0.1);
   }
   return next.sail;
+}
+// At a wall.
+std::optional<trajectory::TimedTrajectory> backOffFromTheWall(test::ScriptedMission& mission) {
+  std::vector<planner::Query> narrow;
+  mission.put({1.3, -10.0}, {2.0, 10.0});
+  return backOff(mission, *mission.goTo({-20.0, 0.0}), narrow);
 }
 
 TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
@@ -44,19 +43,26 @@ TEST(BackOff, IsTriedByTheSupervisorBeforeARoundIsLost) {
             stopping::turningRoom(vessel::Parameters{}.hull));
 }
 
-// What leads on with less around the hull comes before what leads back, once.
-TEST(BackOff, ComesAfterPlansWithLessAroundTheHull) {
+// Where it backed off before: what leads on with less around the hull comes first, once.
+TEST(BackOff, ComesAfterPlansWithLessAroundTheHullWhereItWasTriedBefore) {
   test::ScriptedMission mission;
-  std::vector<planner::Query> asked;
-  ASSERT_TRUE(backOffFromTheWall(mission, &asked));
-  std::vector<double> margins_m;  // on the narrowest level
-  for (const planner::Query& query : asked) {
-    if (query.may_end_early) {
-      margins_m.push_back(query.limits.hull_margin_m);
-    }
+  mission.put({1.3, -10.0}, {2.0, 10.0});
+  std::vector<planner::Query> narrow;
+  const auto first = backOff(mission, *mission.goTo({-20.0, 0.0}), narrow);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(narrow.size(), 1U);
+
+  mission.rest = first->trajectory.sample(first->trajectory.duration(), vessel::Parameters{}).state;
+  for (int k = 0; k < 200 && mission.supervisor->phase() == Phase::kBackingOff; ++k) {
+    (void)mission.update(0.1);
   }
-  ASSERT_EQ(margins_m.size(), 2U);
-  EXPECT_LT(margins_m[1], margins_m[0]);
+  const double wall_m = mission.rest.x() + 1.3;
+  ASSERT_LT(1.3 - wall_m, vessel::Hull{}.length_m);
+  mission.put({wall_m, -10.0}, {wall_m + 1.0, 10.0});
+  narrow.clear();
+  ASSERT_TRUE(backOff(mission, mission.update(0.1), narrow));
+  ASSERT_EQ(narrow.size(), 2U);
+  EXPECT_LT(narrow[1].limits.hull_margin_m, narrow[0].limits.hull_margin_m);
 }
 
 // What lay before the bow is remembered for this goal; where other vessels were near, they may have
