@@ -67,6 +67,25 @@ constexpr double kOvertaxedLongerS = 1.5;
 // which the vessel is off its way, wants for thrust on it, or can't hold the goal's heading.
 enum class Cause { kOther, kClearance, kOff, kLoad, kGoalHeading };
 
+// What a plan was made for, and with.
+struct Planned {
+  double left_m = 0.0;  // of the way, from its end to the goal
+  bool is_last_resort = false;
+  std::size_t level = 0;  // of the clearances
+  int steps_wider = 0;    // than that (ClearanceLevels)
+  double clearance_m = 0.0;
+  double thrust_share = 1.0;
+  double pace_share = 1.0;           // of the usual speed
+  double speed_limit_mps = 0.0;      // the mission's
+  feasibility::SafetyLimits limits;  // all of it
+  double goal_psi_rad = 0.0;
+  vessel::Disturbance disturbance;
+  double overtaxed_s = 0.0;  // for so long that takes more than the thrusters have
+  bool in_known_weather = false;
+  bool in_unknown_water = false;
+  bool among_others = false;
+};
+
 template <typename Decider>
 struct RuleOf {
   unsigned phases;
@@ -95,7 +114,7 @@ class Decider final : public Supervisor {
       return failure(status.error().message);
     }
     goal_ = goal;
-    planned_goal_psi_rad_ = goal.psi_rad;
+    planned_.goal_psi_rad = goal.psi_rad;
     calm_by_s_.reset();
     way_.clear();
     plans_.forgetDeadEnds();
@@ -193,7 +212,7 @@ class Decider final : public Supervisor {
   [[nodiscard]] const std::optional<TimedTrajectory>& lastStop() const override {
     return stops_.kept();
   }
-  [[nodiscard]] double plannedClearance() const override { return planned_clearance_m_; }
+  [[nodiscard]] double plannedClearance() const override { return planned_.clearance_m; }
   [[nodiscard]] std::vector<encounter::Encounter> encounters() const override {
     return pilot_.encounters();
   }
@@ -294,11 +313,11 @@ class Decider final : public Supervisor {
     constexpr double kSlackM = 0.3;
     const double at = sailed_.elapsed(m.now_s);
     conflict_ = stopping::firstConflict(sailed_.trajectory, at, alongSailed(m),
-                                        planned_clearance_m_ - kSlackM);
+                                        planned_.clearance_m - kSlackM);
     const double until = conflict_.found ? conflict_.time_s : sailed_.trajectory.duration();
     const stopping::Conflict hull =
         stopping::outlineConflict(sailed_.trajectory, at, until, alongSailed(m), vessel_,
-                                  safety().critical(), true, planned_limits_.disturbance);
+                                  safety().critical(), true, planned_.limits.disturbance);
     conflict_ = hull.found ? hull : conflict_;
     return conflict_.found;
   }
@@ -311,7 +330,7 @@ class Decider final : public Supervisor {
     }
     const vessel::Foreseen& foreseen = m.situation.foreseen;
     return stopping::isAboutToTouch(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
-                                    alongSailed(m), vessel_, planned_limits_.disturbance) ||
+                                    alongSailed(m), vessel_, planned_.limits.disturbance) ||
            (foreseen.start_s >= given_s_ &&
             stopping::isAboutToTouch(foreseen, m.now_s, m.now_s + kForeseesS, m.situation.state,
                                      Obstacles(m.obstacles.field()), vessel_.hull));
@@ -322,20 +341,20 @@ class Decider final : public Supervisor {
     constexpr double kAheadS = 30.0;
     constexpr double kStepM = 0.5;  // that room to leeward is measured in
     const double at = sailed_.elapsed(m.now_s);
-    const double speed_mps = planned_limits_.speed_max_mps;
+    const double speed_mps = planned_.limits.speed_max_mps;
     return safety().paceAt(safety().level(), speed_mps) >= speed_mps &&
            !stopping::firstConflict(sailed_.trajectory, at, alongSailed(m), clearance_m).found &&
            !stopping::outlineConflict(sailed_.trajectory, at, sailed_.trajectory.duration(),
                                       alongSailed(m), vessel_,
                                       std::max(safety().critical(), asked.hull_margin_m), true,
-                                      planned_limits_.disturbance)
+                                      planned_.limits.disturbance)
                 .found &&
            seaRoom(m).toLeeward(sailed_, kAheadS) >= asked.drift_m.norm() - kStepM;
   }
   bool isClearAgain(const Moment& m) { return cause_ == Cause::kClearance && !isNarrow(m); }
   // Of what is sailed; if there is one it is kept until the next is found.
   bool hasNoStop(const Moment& m) {
-    return !stops_.find(m, sailed_, planned_limits_, offSailed(m));
+    return !stops_.find(m, sailed_, planned_.limits, offSailed(m));
   }
   // The hull does not pass on its way, no plan leads round that, and of the stops before it none
   // that begins later ends with as much beside the hull as the one that is kept: to go on only
@@ -346,8 +365,8 @@ class Decider final : public Supervisor {
     }
     const stopping::Conflict hull = stopping::outlineConflict(
         sailed_.trajectory, sailed_.elapsed(m.now_s), sailed_.trajectory.duration(), alongSailed(m),
-        vessel_, safety().critical(), true, planned_limits_.disturbance);
-    return hull.found && stops_.endNarrowerThanKept(m, sailed_, planned_limits_, hull.time_s);
+        vessel_, safety().critical(), true, planned_.limits.disturbance);
+    return hull.found && stops_.endNarrowerThanKept(m, sailed_, planned_.limits, hull.time_s);
   }
   // From what is sailed, before that is not clear; until there was none at any clearance.
   bool mayPlanRoundIt(const Moment& m) {
@@ -367,7 +386,7 @@ class Decider final : public Supervisor {
       return false;
     }
     stops_looked_for_s_ = m.now_s;
-    other_stop_ = stops_.now(m, sailed_, planned_limits_, offSailed(m)).trajectory;
+    other_stop_ = stops_.now(m, sailed_, planned_.limits, offSailed(m)).trajectory;
     return stopping::firstTouch(other_stop_, 0.0, m.obstacles.startingAt(m.now_s), vessel_, off)
         .milderThan(now);
   }
@@ -385,7 +404,7 @@ class Decider final : public Supervisor {
     if (!joint) {
       return false;
     }
-    way_made_ = pilot_.decide({m.now_s, sailed_, goal_.position, *joint, planned_limits_,
+    way_made_ = pilot_.decide({m.now_s, sailed_, goal_.position, *joint, planned_.limits,
                                m.obstacles, PlanRequests::joiningSpeed(sailed_)});
     return way_made_.has_value();
   }
@@ -448,7 +467,7 @@ class Decider final : public Supervisor {
     later_ = sailed_;
     later_.start_time_s += behind_m / speed;
     behind_m_ = behind_m;
-    return stops_.find(m, later_, planned_limits_, stopping::Off{});
+    return stops_.find(m, later_, planned_.limits, stopping::Off{});
   }
   // A plan that knows wind and current, made from where they have set the vessel, is one that it
   // can follow again: it need not be far off for that.
@@ -468,7 +487,7 @@ class Decider final : public Supervisor {
     const double lost_rad = safety().plansWithWeather() ? 1.2 : 0.8;
     constexpr double kFirmShare = 0.25;  // of the thrust; with less the path wants no heading
     const trajectory::Sample wanted =
-        sailed_.trajectory.sample(sailed_.elapsed(m.now_s), vessel_, planned_disturbance_);
+        sailed_.trajectory.sample(sailed_.elapsed(m.now_s), vessel_, planned_.disturbance);
     const bool spins = std::isinf(wanted.heading_force_n);
     const bool firm =
         spins ? vessel::canLie(vessel_.manoeuvring, weather().mean(), wanted.state[vessel::kPsi])
@@ -677,14 +696,14 @@ class Decider final : public Supervisor {
   bool lacksThrust(const Moment& m) {
     constexpr double kAgainS = 5.0;
     return mayReplanForWeather(m) && (replansForLoad() || m.now_s - weather_asked_s_ >= kAgainS) &&
-           overtaxed(m.now_s, sailed_, weather().mean()) > planned_overtaxed_s_ + kOvertaxedLongerS;
+           overtaxed(m.now_s, sailed_, weather().mean()) > planned_.overtaxed_s + kOvertaxedLongerS;
   }
   // At this speed gusts by now take the moment that holds the headings.
   bool isTooFastForGusts(const Moment& m) {
     constexpr double kAgainS = 10.0;
     constexpr double kWorthShare = 0.7;  // of the speed: slowing down for less isn't worth it
     constexpr double kLeftS = 5.0;
-    const double planned_mps = planned_limits_.speed_max_mps;
+    const double planned_mps = planned_.limits.speed_max_mps;
     return mayReplanForWeather(m) && m.now_s - gusts_asked_s_ >= kAgainS &&
            sailed_.left(m.now_s) > kLeftS &&
            safety().sailingSpeed(planned_mps) < kWorthShare * planned_mps;
@@ -712,7 +731,7 @@ class Decider final : public Supervisor {
     if (safety().plansWithWeather()) {
       return !leavesRoom(m, sailed_, kShare, kAheadS);
     }
-    return mayLoseItsHeading() && planned_level_ > 0 &&
+    return mayLoseItsHeading() && planned_.level > 0 &&
            seaRoom(m).toLeeward(sailed_, kAheadS) < kShare * weather().drift().norm();
   }
   // The plan ends on a heading that can't be held there, or not on the goal's though it can.
@@ -722,8 +741,8 @@ class Decider final : public Supervisor {
     constexpr double kSoonS = 30.0;  // what the weather will be later nobody knows
     const double left_s = sailed_.left(m.now_s);
     return mayReplanForWeather(m) && left_s > kLeftS &&
-           (left_s < kSoonS || !planned_in_known_weather_) && !staysOffGoalHeading() &&
-           std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - planned_goal_psi_rad_)) >
+           (left_s < kSoonS || !planned_.in_known_weather) && !staysOffGoalHeading() &&
+           std::abs(wrapAngle(safety().restHeading(goal_.psi_rad) - planned_.goal_psi_rad)) >
                kWrongRad;
   }
   bool isBeyondThrust(const Moment& /*m*/) {
@@ -733,7 +752,9 @@ class Decider final : public Supervisor {
     }
     return is;
   }
-  bool hasNewSpeedMax(const Moment& /*m*/) { return planned_for_mps_ != safety().speedMax(); }
+  bool hasNewSpeedMax(const Moment& /*m*/) {
+    return planned_.speed_limit_mps != safety().speedMax();
+  }
   // A plan that slows down is to be had in time, or there is none.
   bool isTooFastForLong(const Moment& m) {
     constexpr double kPatienceS = 4.0;
@@ -749,23 +770,23 @@ class Decider final : public Supervisor {
     constexpr double kPartS = 2.0;  // what leads a part of the way
     constexpr double kCrawlingS = 2.0;
     constexpr double kCrowdedS = 3.0;
-    const double last_resort = planned_left_m_ > 0.0 ? kPartS : kLastResortS;
+    const double last_resort = planned_.left_m > 0.0 ? kPartS : kLastResortS;
     const bool others_slow_it = m.now_s - plan_time_s_ >= kCrowdedS && waitsForOthers(m.now_s);
     const double usual = crawlsForRoom()  ? kCrawlingS
                          : others_slow_it ? kCrowdedS
                                           : options_.improve_period_s;
-    const double period = is_last_resort_ ? last_resort : usual;
+    const double period = planned_.is_last_resort ? last_resort : usual;
     return period > 0.0 && m.now_s - plan_time_s_ >= period && sailed_.left(m.now_s) > period;
   }
   // A plan that others drove to go slowly, though it may be fast: they will have gone soon.
   bool waitsForOthers(double now_s) const {
     constexpr double kLonger = 1.8;
     constexpr double kSpareS = 5.0;
-    if (!planned_among_others_) {
+    if (!planned_.among_others) {
       return false;
     }
     const double left_s = sailed_.left(now_s);
-    const double at_most_m = planned_limits_.speed_max_mps * (left_s - kSpareS) / kLonger;
+    const double at_most_m = planned_.limits.speed_max_mps * (left_s - kSpareS) / kLonger;
     return at_most_m > wayLeft(now_s);
   }
   double wayLeft(double now_s) const {
@@ -779,14 +800,14 @@ class Decider final : public Supervisor {
   }
   // Past the narrow place there may be a wider way, to be sailed faster.
   bool crawlsForRoom() const {
-    return planned_pace_share_ < 1.0 && planned_level_ > 0 && !planned_in_unknown_water_;
+    return planned_.pace_share < 1.0 && planned_.level > 0 && !planned_.in_unknown_water;
   }
   // A plan was made slow while nobody knew the water or how the vessel wanders; now they do.
   bool isNeedlesslySlow(const Moment& m) {
     constexpr double kAgainS = 1.0;
     constexpr double kLeftS = 4.0;
     return m.now_s - plan_time_s_ >= kAgainS && sailed_.left(m.now_s) > kLeftS &&
-           plans_.mayBeFaster(planned_level_, planned_pace_share_, m.situation.state, m.obstacles);
+           plans_.mayBeFaster(planned_.level, planned_.pace_share, m.situation.state, m.obstacles);
   }
 
   // A plan from a hull under way leads on in its course, and where that can't be turned, round what
@@ -857,7 +878,7 @@ class Decider final : public Supervisor {
     const double rests_by_s = in_the_way ? sailed_.start_time_s + conflict_.time_s
                                          : std::numeric_limits<double>::infinity();
     Orders orders{
-        plans_.fromSailed(m.now_s, sailed_, planned_thrust_share_, goal_, m.obstacles, rests_by_s),
+        plans_.fromSailed(m.now_s, sailed_, planned_.thrust_share, goal_, m.obstacles, rests_by_s),
         {},
         false};
     if (!orders.plan) {
@@ -868,7 +889,7 @@ class Decider final : public Supervisor {
       const double listed_m = std::min(listedClearance(safety().level()), asked.clearance_m);
       const double enough_m = listed_m + kForGustsShare * (asked.clearance_m - listed_m);
       if (hasRoomFor(m, asked, enough_m)) {
-        planned_clearance_m_ = std::min(planned_clearance_m_, enough_m);
+        planned_.clearance_m = std::min(planned_.clearance_m, enough_m);
         return keepThePlan(m);
       }
     }
@@ -877,8 +898,8 @@ class Decider final : public Supervisor {
   Orders makeWay(const Moment& m) {
     TimedTrajectory path = std::move(way_made_->path);
     if (!way_made_->to_the_goal) {
-      Orders orders{plans_.onward(m.now_s, std::move(path), planned_thrust_share_,
-                                  planned_limits_.speed_max_mps, goal_, m.obstacles),
+      Orders orders{plans_.onward(m.now_s, std::move(path), planned_.thrust_share,
+                                  planned_.limits.speed_max_mps, goal_, m.obstacles),
                     {},
                     false};
       plans_.markAsWorthless(m.now_s + way_made_->worth_s);
@@ -914,7 +935,7 @@ class Decider final : public Supervisor {
   Orders planForGusts(const Moment& m) {
     gusts_asked_s_ = m.now_s;
     replan(text("gusts take the moment that holds headings at %.1f m/s",
-                planned_limits_.speed_max_mps),
+                planned_.limits.speed_max_mps),
            Cause::kLoad);
     Orders orders = planFromSailed(m);
     return orders.plan ? orders : enter(Phase::kSailing);
@@ -924,7 +945,7 @@ class Decider final : public Supervisor {
       replan(text("the speed limit is %.2f m/s now", safety().speedMax()));
       return planFromSailed(m);
     }
-    planned_for_mps_ = safety().speedMax();
+    planned_.speed_limit_mps = safety().speedMax();
     Orders orders = planToImprove(m);
     // Nor when it is behind.
     feasibility::SafetyLimits catching_up;
@@ -937,19 +958,19 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders planFaster(const Moment& m) {
-    safety().tryLevel(planned_level_, planned_steps_wider_);
+    safety().tryLevel(planned_.level, planned_.steps_wider);
     return improve(m);
   }
   Orders planSlower(const Moment& m) {
     slower_asked_s_ = m.now_s;
-    safety().tryLevel(planned_level_, planned_steps_wider_);
+    safety().tryLevel(planned_.level, planned_.steps_wider);
     return improve(m, Gain::kThrust);
   }
   // The widest way first; then one like that being sailed, with more beside the hull.
   Orders planWider(const Moment& m) {
     wider_asked_s_ = m.now_s;
     const std::size_t like_it =
-        safety().plansWithWeather() || planned_level_ == 0 ? planned_level_ : planned_level_ - 1;
+        safety().plansWithWeather() || planned_.level == 0 ? planned_.level : planned_.level - 1;
     safety().tryLevel(std::exchange(asks_widest_, !asks_widest_) ? 0 : like_it);
     return improve(m, Gain::kRoom);
   }
@@ -957,14 +978,14 @@ class Decider final : public Supervisor {
   Orders planByStopping(const Moment& m) {
     stopping_asked_s_ = m.now_s;
     const double soon = sailed_.elapsed(m.now_s + plans_.latency.seconds());
-    stopping::Braking braking = stops_.from(m, sailed_, soon, safety().stop(planned_limits_));
+    stopping::Braking braking = stops_.from(m, sailed_, soon, safety().stop(planned_.limits));
     if (!braking.clear) {
       return {};
     }
-    safety().tryLevel(planned_level_, planned_steps_wider_);
+    safety().tryLevel(planned_.level, planned_.steps_wider);
     Orders orders{
         plans_.onward(m.now_s, {std::move(braking.trajectory), sailed_.start_time_s + soon},
-                      planned_thrust_share_, planned_limits_.speed_max_mps, goal_, m.obstacles),
+                      planned_.thrust_share, planned_.limits.speed_max_mps, goal_, m.obstacles),
         {},
         false};
     safety().tryWidest();
@@ -972,10 +993,10 @@ class Decider final : public Supervisor {
     return orders;
   }
   Orders planToImprove(const Moment& m) {
-    if (is_last_resort_) {
-      safety().tryLevel(planned_level_);
+    if (planned_.is_last_resort) {
+      safety().tryLevel(planned_.level);
     } else if (crawlsForRoom()) {
-      safety().tryLevel(std::exchange(asks_widest_, !asks_widest_) ? 0 : planned_level_ - 1);
+      safety().tryLevel(std::exchange(asks_widest_, !asks_widest_) ? 0 : planned_.level - 1);
     }
     return improve(m);
   }
@@ -993,11 +1014,11 @@ class Decider final : public Supervisor {
   Orders planAnew(const Moment& m) {
     constexpr double kNearerM = 1.0;
     plans_.drop();
-    if (planned_left_m_ > 0.0 && planned_left_m_ < nearest_left_m_ - kNearerM) {
-      nearest_left_m_ = planned_left_m_;  // as far as it was planned: no stop that counts
+    if (planned_.left_m > 0.0 && planned_.left_m < nearest_left_m_ - kNearerM) {
+      nearest_left_m_ = planned_.left_m;  // as far as it was planned: no stop that counts
       retries_.madeGood(m.now_s);
       safety().tryWidest();
-      return enter(Phase::kStopped, text("%.0f m of the way are to be planned", planned_left_m_));
+      return enter(Phase::kStopped, text("%.0f m of the way are to be planned", planned_.left_m));
     }
     const std::string why =
         text("not settled at the trajectory's end: %.2f m and %.2f rad from the goal, at %.2f m/s",
@@ -1185,7 +1206,7 @@ class Decider final : public Supervisor {
       stop_time_s_ = m.now_s;
       is_aside_ = makes_room_ = escapes_ = holds_ = false;
       cause_ = Cause::kOther;
-      planned_clearance_m_ = 0.0;
+      planned_.clearance_m = 0.0;
       crowded_s_ = m.now_s;
     }
     enter(Phase::kEvading, text("among %zu other vessels, the nearest %.1f m beside the way",
@@ -1401,7 +1422,7 @@ class Decider final : public Supervisor {
       double sway_mps = 0.0;
       if (!sailed_.trajectory.empty() && sailed_.elapsed(felt_s_) >= 0.0) {
         const vessel::State there =
-            sailed_.trajectory.sample(sailed_.elapsed(felt_s_), vessel_, planned_disturbance_)
+            sailed_.trajectory.sample(sailed_.elapsed(felt_s_), vessel_, planned_.disturbance)
                 .state;
         if (hasMission()) {  // else anybody may move it
           safety().wander(felt_s_, (state.head<2>() - there.head<2>()).norm());
@@ -1424,14 +1445,14 @@ class Decider final : public Supervisor {
   // turned round as soon as the wind slackens or veers. The next gust would take the heading again.
   bool staysOffGoalHeading() {
     return mayLoseItsHeading() &&
-           std::abs(wrapAngle(planned_goal_psi_rad_ - goal_.psi_rad)) >
+           std::abs(wrapAngle(planned_.goal_psi_rad - goal_.psi_rad)) >
                options_.arrival_heading_rad &&
-           vessel::canLie(vessel_.manoeuvring, weather().mean(), planned_goal_psi_rad_);
+           vessel::canLie(vessel_.manoeuvring, weather().mean(), planned_.goal_psi_rad);
   }
   // At once when the weather is known first, later not before the plan has been sailed a while.
   bool mayReplanForWeather(const Moment& m) {
     constexpr double kAgainS = 10.0;
-    return weather().isKnown() && (!planned_in_known_weather_ || m.now_s - plan_time_s_ >= kAgainS);
+    return weather().isKnown() && (!planned_.in_known_weather || m.now_s - plan_time_s_ >= kAgainS);
   }
   // For that share of how far the vessel wanders by now, on the stretch of the way until then.
   bool leavesRoom(const Moment& m, const TimedTrajectory& path, double share, double ahead_s) {
@@ -1504,7 +1525,7 @@ class Decider final : public Supervisor {
         follows ? sailed_.trajectory.flat(sailed_.elapsed(m.now_s)).position : x.head<2>();
     pilot_.observe(m.now_s, {x.head<2>(), map_from_base * x.segment<2>(vessel::kSurge)}, steered,
                    underWay(m.situation.tracks), goal_.position,
-                   kCruiseShare * planned_limits_.speed_max_mps);
+                   kCruiseShare * planned_.limits.speed_max_mps);
   }
   // Who lies there is passed as any other thing is.
   static std::vector<traffic::Track> underWay(const std::vector<traffic::Track>& tracks) {
@@ -1616,9 +1637,9 @@ class Decider final : public Supervisor {
   }
   // The mission's limit fell below that of the plan.
   bool isTooFast() {
-    feasibility::SafetyLimits limits = planned_limits_;
+    feasibility::SafetyLimits limits = planned_.limits;
     limits.limitSpeed(safety().speedMax());
-    return limits.speed_max_mps < planned_limits_.speed_max_mps;
+    return limits.speed_max_mps < planned_.limits.speed_max_mps;
   }
   Obstacles alongSailed(const Moment& m) { return m.obstacles.startingAt(sailed_.start_time_s); }
   stopping::Off offSailed(const Moment& m) {
@@ -1626,7 +1647,7 @@ class Decider final : public Supervisor {
       return {};
     }
     return stopping::offTrajectory(sailed_.trajectory, sailed_.elapsed(m.now_s), m.situation.state,
-                                   vessel_, planned_limits_.disturbance);
+                                   vessel_, planned_.limits.disturbance);
   }
   // What the hull is off its way to rest it is off the plan at first, and more while it makes that
   // good in a bend: whether what lies still leaves as much beside the plan.
@@ -1686,27 +1707,12 @@ class Decider final : public Supervisor {
     }
     countReplan(asked);
     sailed_ = std::move(plan);
-    planned_left_m_ = asked.left_m;
-    planned_among_others_ = near_ && !near_->empty();
-    if (planned_left_m_ == 0.0) {
+    sailed_.speed_max_mps = asked.catch_up_mps;
+    planned_ = plannedAs(m, asked);
+    if (planned_.left_m == 0.0) {
       rememberTheWay();
     }
-    is_last_resort_ =
-        asked.slow || asked.left_m > 0.0 || stopping::restsBeforeItsEnd(sailed_.trajectory);
-    planned_level_ = asked.level;
-    planned_steps_wider_ = asked.steps_wider;
-    planned_pace_share_ = asked.pace_share;
-    planned_in_unknown_water_ = asked.in_unknown_water;
-    planned_clearance_m_ = asked.request.query.limits.clearance_m;
-    planned_limits_ = asked.request.query.limits;
-    planned_thrust_share_ = asked.request.thrust_share;
-    planned_for_mps_ = asked.speed_max_mps;
     too_fast_since_s_ = m.now_s;
-    sailed_.speed_max_mps = asked.catch_up_mps;
-    planned_goal_psi_rad_ = asked.request.query.goal.psi_rad;
-    planned_disturbance_ = weather().mean();
-    planned_in_known_weather_ = weather().isKnown();
-    planned_overtaxed_s_ = overtaxed(m.now_s, sailed_, planned_disturbance_);
     plan_time_s_ = sailed_since_s_ = m.now_s;
     holds_ = is_aside_ = makes_room_ = escapes_ = false;
     rooms_made_ = 0;
@@ -1715,6 +1721,28 @@ class Decider final : public Supervisor {
     enter(Phase::kSailing);
     return {std::nullopt, sailed_, false};
   }
+  // What is sailed, as it was asked for.
+  Planned plannedAs(const Moment& m, const PlanRequests::Asked& asked) {
+    const planner::Query& query = asked.request.query;
+    Planned planned;
+    planned.left_m = asked.left_m;
+    planned.is_last_resort =
+        asked.slow || asked.left_m > 0.0 || stopping::restsBeforeItsEnd(sailed_.trajectory);
+    planned.level = asked.level;
+    planned.steps_wider = asked.steps_wider;
+    planned.clearance_m = query.limits.clearance_m;
+    planned.thrust_share = asked.request.thrust_share;
+    planned.pace_share = asked.pace_share;
+    planned.speed_limit_mps = asked.speed_max_mps;
+    planned.limits = query.limits;
+    planned.goal_psi_rad = query.goal.psi_rad;
+    planned.disturbance = weather().mean();
+    planned.overtaxed_s = overtaxed(m.now_s, sailed_, planned.disturbance);
+    planned.in_known_weather = weather().isKnown();
+    planned.in_unknown_water = asked.in_unknown_water;
+    planned.among_others = near_ && !near_->empty();
+    return planned;
+  }
   // A way to rest, without a plan; an empty one is the tracker's to find.
   Orders manoeuvre(const Moment& m, Phase phase, Trajectory path, std::string reason,
                    Cause cause = Cause::kOther) {
@@ -1722,7 +1750,7 @@ class Decider final : public Supervisor {
     cause_ = cause;
     stop_time_s_ = m.now_s;
     is_aside_ = makes_room_ = escapes_ = false;
-    planned_clearance_m_ = 0.0;
+    planned_.clearance_m = 0.0;
     enter(phase, std::move(reason));
     if (path.empty()) {
       sailed_ = {};
@@ -1737,7 +1765,7 @@ class Decider final : public Supervisor {
   }
   Orders brakeFor(const Moment& m, std::string reason, Cause cause = Cause::kOther) {
     return manoeuvre(m, Phase::kStopping,
-                     stops_.now(m, sailed_, planned_limits_, offSailed(m)).trajectory,
+                     stops_.now(m, sailed_, planned_.limits, offSailed(m)).trajectory,
                      std::move(reason), cause);
   }
   // Plans from rest come next, unless there were too many stops.
@@ -1873,9 +1901,9 @@ class Decider final : public Supervisor {
     const bool saves_time =
         late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.left(m.now_s) &&
         !lacks_thrust();
-    const double further_m = std::max(kFurtherM, kFurtherShare * planned_left_m_);
-    const bool leads_on = asked.left_m < planned_left_m_ - further_m ||
-                          (asked.left_m == 0.0 && planned_left_m_ > 0.0);
+    const double further_m = std::max(kFurtherM, kFurtherShare * planned_.left_m);
+    const bool leads_on = asked.left_m < planned_.left_m - further_m ||
+                          (asked.left_m == 0.0 && planned_.left_m > 0.0);
     const auto has_room = [&] {
       return safety().plansWithWeather() ? leavesRoom(m, next, kRoomShare, kRoomS)
                                          : seaRoom(m).toLeeward(next, kRoomS) >=
@@ -1883,7 +1911,7 @@ class Decider final : public Supervisor {
     };
     const bool is_better =
         saves_time || asked.gain == Gain::kThrust || (asked.gain == Gain::kRoom && has_room());
-    if (asked.gain && !leads_on && (asked.left_m > planned_left_m_ || !is_better)) {
+    if (asked.gain && !leads_on && (asked.left_m > planned_.left_m || !is_better)) {
       return {};
     }
     plans_.latency.onTime();
@@ -1968,20 +1996,8 @@ class Decider final : public Supervisor {
   std::string reason_;
   vessel::Pose goal_;
   TimedTrajectory sailed_;
-  bool is_last_resort_ = false;
-  double planned_left_m_ = 0.0;  // of the way, from the sailed trajectory's end to the goal
+  Planned planned_;                                                  // what is sailed
   double nearest_left_m_ = std::numeric_limits<double>::infinity();  // where a part of it ended
-  std::size_t planned_level_ = 0;
-  int planned_steps_wider_ = 0;      // than that (ClearanceLevels)
-  double planned_pace_share_ = 1.0;  // of the usual speed
-  bool planned_in_unknown_water_ = false;
-  double planned_clearance_m_ = 0.0;          // what the sailed trajectory was planned for
-  double planned_thrust_share_ = 1.0;         // and with
-  feasibility::SafetyLimits planned_limits_;  // all of it
-  double planned_goal_psi_rad_ = 0.0;
-  vessel::Disturbance planned_disturbance_;
-  bool planned_in_known_weather_ = false;
-  double planned_overtaxed_s_ = 0.0;
   double felt_s_ = -std::numeric_limits<double>::infinity();
   double off_since_s_ = 0.0;              // far off the trajectory
   double sea_room_m_ = 0.0;               // to be made
@@ -1998,11 +2014,9 @@ class Decider final : public Supervisor {
   int rooms_made_ = 0;               // since a plan was sailed
   double calmer_by_s_ = 0.0;         // until then it waits for less wind
   std::optional<double> calm_by_s_;  // or the mission fails
-  double planned_for_mps_ = 0.0;     // the mission's speed limit then
   double too_fast_since_s_ = 0.0;
   stopping::Conflict conflict_;  // what the last condition found on the way
-  bool planned_among_others_ = false;
-  double plan_time_s_ = 0.0;  // when the plan was taken, or an improvement asked for
+  double plan_time_s_ = 0.0;     // when the plan was taken, or an improvement asked for
   // When the tracker was given what is sailed, or to stop.
   double given_s_ = -std::numeric_limits<double>::infinity();
   // When a plan was asked for that leaves the waves what they take.
