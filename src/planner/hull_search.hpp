@@ -46,7 +46,7 @@ class HullSearch {
                                 const vessel::Pose& pose) const;
 
  private:
-  static constexpr int kHeadings = 40;
+  static constexpr int kHeadings = 80;
   enum class Motion : std::uint8_t { kTurn, kAhead, kAstern };
   struct Node {
     Eigen::Vector2d position;

@@ -61,7 +61,7 @@ constexpr double kNearM = 0.3;  // a goal nearer than this needs no search
 // A hull that a load from abeam carries off holds its place and its way by turning to and fro:
 // its corners swing by what it is carried in so long, s.
 constexpr double kSwingS = 1.2;
-constexpr int kPosesMost = 200000;  // that a way for the hull's rectangle is looked for through
+constexpr int kPosesMost = 400000;  // that a way for the hull's rectangle is looked for through
 constexpr int kTrySamples = 150;    // what one more try may draw, and any try counts for
 
 double costOf(const trajectory::Trajectory& trajectory, double sigma) {

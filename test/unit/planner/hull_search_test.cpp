@@ -122,6 +122,25 @@ TEST(HullSearch, FindsNothingThroughASlotNarrowerThanTheHull) {
   EXPECT_TRUE(search.find(field, start, {{0.0, 7.0}, kPi / 2.0}, {0.5, 0.02}, kMost).empty());
 }
 
+// A canal longer than what is gone straight to the goal, 4 degrees off the heading that she lies
+// on, with 5 cm beside what is to be kept there.
+TEST(HullSearch, PassesATightCanalThatLiesAskew) {
+  constexpr double kAskewRad = 0.07;
+  map::OccupancyGrid grid = test::openGrid();
+  test::fill(grid, -40.0, 3.0, 39.25, 12.0);
+  test::fill(grid, 0.75, 3.0, 39.25, 12.0);
+  const map::DistanceField field(grid, {});
+  HullSearch search(kHull);
+  const HullRoom room{0.55, 0.03};
+  for (const double askew_rad : {kAskewRad, -kAskewRad}) {
+    const Pose start{{0.0, 0.0}, kPi / 2.0 + askew_rad};
+    const Pose goal{{0.0, 18.0}, kPi / 2.0};
+    const std::vector<Pose> way = search.find(field, start, goal, room, kMost);
+    expectLeads(way, start, goal);
+    EXPECT_GE(keeps(way, field), room.beside_m);
+  }
+}
+
 // A wall four metres thick to the north, with a gap straight ahead and a wide one aside.
 map::DistanceField twoGaps(double from_x, double to_x) {
   map::OccupancyGrid grid = test::openGrid();
