@@ -196,7 +196,7 @@ void HullSearch::measureLeft() {
   }
 }
 
-// There are 24 MB of it: what the last search reached is put back, and nothing else.
+// There are 47 MB of it: what the last search reached is put back, and nothing else.
 void HullSearch::forgetLast() {
   if (least_s_.empty()) {
     least_s_.assign(static_cast<std::size_t>(kCells) * kCells * kHeadings, kFar);
