@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -38,7 +39,7 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 }  // namespace
 
 double HullSearch::psiOf(int heading) const {
-  return start_.psi_rad + heading * (2.0 * kPi / kHeadings);
+  return start_.psi_rad + heading * (2.0 * kPi / headings_);
 }
 
 HullRoom HullSearch::roomAt(const feasibility::Obstacles& obstacles, const Pose& pose) const {
@@ -83,7 +84,7 @@ double HullSearch::turnCost(const Eigen::Vector2d& position, double psi_rad,
   if (!turnIsClear(position, psi_rad, turn_rad)) {
     return std::numeric_limits<double>::infinity();
   }
-  const int parts = partsOf(std::abs(turn_rad), 2.0 * kPi / kHeadings, 1);
+  const int parts = partsOf(std::abs(turn_rad), 2.0 * kPi / headings_, 1);
   double cost_s = kRestS * price(slack(position, psi_rad), psi_rad);
   for (int k = 0; k < parts; ++k) {
     const double psi = psi_rad + (k + 0.5) / parts * turn_rad;
@@ -126,9 +127,9 @@ bool HullSearch::legIsClear(const Eigen::Vector2d& from, const Eigen::Vector2d& 
 std::size_t HullSearch::keyOf(const Node& node) const {
   const Eigen::Vector2d cell =
       ((node.position - start_.position).array() + kReachM).matrix() / kCellM;
-  const int heading = ((node.heading % kHeadings) + kHeadings) % kHeadings;
+  const int heading = ((node.heading % headings_) + headings_) % headings_;
   return (static_cast<std::size_t>(cell.y()) * kCells + static_cast<std::size_t>(cell.x())) *
-             kHeadings +
+             static_cast<std::size_t>(headings_) +
          static_cast<std::size_t>(heading);
 }
 
@@ -199,7 +200,7 @@ void HullSearch::measureLeft() {
 // There are 47 MB of it: what the last search reached is put back, and nothing else.
 void HullSearch::forgetLast() {
   if (least_s_.empty()) {
-    least_s_.assign(static_cast<std::size_t>(kCells) * kCells * kHeadings, kFar);
+    least_s_.assign(static_cast<std::size_t>(kCells) * kCells * *std::rbegin(kHeadings), kFar);
   }
   for (const Node& node : nodes_) {
     least_s_[keyOf(node)] = kFar;
@@ -238,7 +239,7 @@ void HullSearch::expand(int k) {
       double takes_s = from.motion == motion ? 0.0 : kRestS;
       if (motion == Motion::kTurn) {
         to.heading += side;
-        takes_s += 2.0 * kPi / kHeadings / kTurnRadps;
+        takes_s += 2.0 * kPi / headings_ / kTurnRadps;
       } else {
         to.position += side * kMoveM * unitVector(psiOf(from.heading));
         takes_s += (side > 0 ? 1.0 : kAsternShare) * kMoveM / kLegMps;
@@ -369,20 +370,32 @@ std::vector<Pose> HullSearch::shortened(const std::vector<Pose>& way) const {
 std::vector<Pose> HullSearch::find(const feasibility::Obstacles& obstacles, const Pose& start,
                                    const Pose& goal, const HullRoom& room, int expansions_most,
                                    const std::function<bool()>& is_late) {
-  constexpr int kLookEach = 256;
-  forgetLast();  // by its own start
+  forgetLast();  // by its own start and headings
   obstacles_ = &obstacles;
   room_ = room;
   start_ = start;
   goal_ = goal;
   found_ = -1;
-  front_.clear();
   if ((goal.position - start.position).cwiseAbs().maxCoeff() >= kReachM ||
       slack(start.position, start.psi_rad) < 0.0 || slack(goal.position, goal.psi_rad) < 0.0) {
     return {};
   }
   beginLeft(goal.position);
-  push({start.position, 0, Motion::kTurn, 0.0F, -1});
+  for (const int headings : kHeadings) {
+    forgetLast();
+    headings_ = headings;
+    look(expansions_most, is_late);
+    if (found_ >= 0) {
+      return shortened(posesTo(found_));
+    }
+  }
+  return {};
+}
+
+void HullSearch::look(int expansions_most, const std::function<bool()>& is_late) {
+  constexpr int kLookEach = 256;
+  front_.clear();
+  push({start_.position, 0, Motion::kTurn, 0.0F, -1});
   for (int looked = 0; found_ < 0 && !front_.empty() && looked < expansions_most; ++looked) {
     std::pop_heap(front_.begin(), front_.end());
     const int k = front_.back().second;
@@ -399,7 +412,6 @@ std::vector<Pose> HullSearch::find(const feasibility::Obstacles& obstacles, cons
       expand(k);
     }
   }
-  return found_ < 0 ? std::vector<Pose>{} : shortened(posesTo(found_));
 }
 
 }  // namespace otter_nav::planner
