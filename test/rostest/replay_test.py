@@ -129,9 +129,9 @@ class Replay(unittest.TestCase):
                     pose = message.pose.pose
                     hull = (pose.position.x, pose.position.y,
                             2.0 * math.atan2(pose.orientation.z, pose.orientation.w))
-                elif topic == "/near_obstacles":  # a wall at the hull's port side
+                elif topic == "/near_obstacles":  # a wall at either side of the hull
                     x, y, psi = hull
-                    wall = [(0.25 * k, 0.6) for k in range(-4, 30)]
+                    wall = [(0.25 * k, side) for k in range(-4, 30) for side in (0.6, -0.6)]
                     message.x = [x + a * math.cos(psi) - b * math.sin(psi) for a, b in wall]
                     message.y = [y + a * math.sin(psi) + b * math.cos(psi) for a, b in wall]
                 if topic != "/near_obstacles":
