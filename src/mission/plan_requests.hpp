@@ -108,6 +108,7 @@ class PlanRequests {
 
   // No way on was found there: for this goal, guide paths lead elsewhere where they can.
   void addDeadEnd(const Eigen::Vector2d& place) { dead_ends_.push_back(place); }
+  // Within a hull's length.
   [[nodiscard]] bool knowsDeadEndAt(const Eigen::Vector2d& place) const;
   void forgetDeadEnds() { dead_ends_.clear(); }
 

@@ -1940,7 +1940,7 @@ class Decider final : public Supervisor {
     if (asked.from != From::kRest || more) {
       return {};  // asked again at the next update, as long as there is room
     }
-    // Where it leads to the same place again, a way on with less around the hull comes before that.
+    // Where it did so before, a way on with less around the hull comes first.
     if (!hasFault(m) && !(plans_.knowsDeadEndAt(bowOf(m)) && safety().mayKeepLess())) {
       if (std::optional<Trajectory> path =
               stopping::backOff(withoutSwing(m), m.obstacles.startingAt(m.now_s), vessel_,

@@ -33,7 +33,7 @@ class HullSearch {
 
   // Poses from start to goal: between neighbours the hull turns on the spot, or goes straight along
   // its heading, ahead or astern. Empty where there is none within `kReachM` of the start, or
-  // `expansions_most` places were looked at, or `is_late` says so.
+  // `expansions_most` places were looked at for each number of headings, or `is_late` says so.
   [[nodiscard]] std::vector<vessel::Pose> find(const feasibility::Obstacles& obstacles,
                                                const vessel::Pose& start, const vessel::Pose& goal,
                                                const HullRoom& room, int expansions_most,
