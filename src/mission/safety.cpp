@@ -282,6 +282,12 @@ double Safety::turnIntoLoad(double psi_rad) const {
   return plansWithWeather() ? wrapAngle(restHeading(psi_rad) - psi_rad) : 0.0;
 }
 
+bool Safety::isHeldInWind(double psi_rad) const {
+  constexpr double kHeldRad = 0.6;
+  const double bow = vessel::headingIntoLoad(vessel_.manoeuvring, weather_.mean(), psi_rad);
+  return std::abs(std::sin(psi_rad - bow)) < std::sin(kHeldRad);
+}
+
 // Bow to it, the gusts' force must not exceed the thrust; and on the way from one heading to
 // another the mean wind's moment must leave some to turn with.
 std::string Safety::beyondThrust() const {

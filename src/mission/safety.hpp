@@ -132,6 +132,8 @@ class Safety {
   [[nodiscard]] bool plansWithWeather() const;
   // From `psi_rad` to the heading that a plan from rest begins on; 0 in a light load.
   [[nodiscard]] double turnIntoLoad(double psi_rad) const;
+  // Bow or stern to the wind, nearly: where its moment is small.
+  [[nodiscard]] bool isHeldInWind(double psi_rad) const;
   // Why no leg can be sailed nor a spot be held in this weather; empty if that's not so.
   [[nodiscard]] std::string beyondThrust() const;
 
