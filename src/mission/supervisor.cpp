@@ -7,6 +7,7 @@
 
 #include "arrival.hpp"
 #include "better_plans.hpp"
+#include "driven.hpp"
 #include "following.hpp"
 #include "goal_check.hpp"
 #include "moment.hpp"
@@ -15,7 +16,6 @@
 #include "otter_nav/base/text.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/stopping/braking.hpp"
-#include "otter_nav/stopping/escape.hpp"
 #include "otter_nav/stopping/splice.hpp"
 #include "otter_nav/stopping/stand_aside.hpp"
 #include "otter_nav/stopping/watch.hpp"
@@ -72,6 +72,7 @@ class Decider final : public Supervisor {
         stops_(plans_.safety, vessel_),
         retries_(options.rounds_from_rest, options.stops_max),
         following_(options_, plans_.safety, vessel_),
+        driven_(plans_.safety, vessel_),
         better_(options_, plans_, vessel_),
         others_(options_, plans_.safety, vessel_) {}
 
@@ -310,18 +311,7 @@ class Decider final : public Supervisor {
   bool isSetAside(const Moment& m) { return following_.isSetAside(m, sailed_); }
   // It had to stop hereabouts before: in such a wind it waits longer each time, for less of it.
   bool waitsForLessWind(const Moment& m) { return weather().isStrong() && m.now_s < calmer_by_s_; }
-  // Bow or stern to it, with something near, or to leeward nearer than a lost heading takes, and a
-  // better place ahead or astern.
-  bool liesOffALeeShore(const Moment& m) {
-    constexpr double kShorterM = 0.5;
-    const Obstacles now = m.obstacles.startingAt(m.now_s);
-    sea_room_m_ = weather().isKnown() ? seaRoom(m).toMake(retries_.stops()) : 0.0;
-    // The bow comes farther than the centre, and something may move.
-    while (sea_room_m_ != 0.0 && !stopping::backOffIsClear(legToMake(m), 0.0, now, vessel_)) {
-      sea_room_m_ = std::copysign(std::max(0.0, std::abs(sea_room_m_) - kShorterM), sea_room_m_);
-    }
-    return sea_room_m_ != 0.0;
-  }
+  bool liesOffALeeShore(const Moment& m) { return driven_.liesOffALeeShore(m, retries_.stops()); }
   // So in strong wind, whether it lies still or not: holding the place against a gust takes the
   // moment that holds the heading, and to windward there is a way out.
   bool isDrivenAshore(const Moment& m) { return weather().isStrong() && liesOffALeeShore(m); }
@@ -337,48 +327,13 @@ class Decider final : public Supervisor {
     }
     return aside_.has_value();
   }
-  // Something, by wind and current, in the seconds that the tracker foresees, while its thrust is
-  // spent on turning the hull; and there are thrusts by which it passes. On a plan there may be
-  // little room, and a load that turns no hull lets it keep its place with little; what is foreseen
-  // soon after an escape from there is the same again. Where it lies bow to strong wind, and slowly
-  // drifts onto something beyond those seconds, a way out is sought now: later there may be none.
   bool isDrivenOnto(const Moment& m) {
-    constexpr double kWithinS = 5.0;
-    constexpr double kNearM = 1.0;
-    constexpr double kNearOnItsWayM = 0.1;
-    constexpr double kNearerM = 0.5;  // than it lies
-    constexpr double kWorthM = 0.7;
-    constexpr double kDriftsS = 10.0;
-    constexpr double kDriftsOntoM = 0.3;
-    constexpr double kAgainS = 0.2;
-    constexpr double kAnotherS = 60.0;
-    const vessel::Foreseen& foreseen = m.situation.foreseen;
-    const bool may_lose_heading = weather().isNearlyStrong();
+    const bool under_way = (in(phase_)&kUnderWay) != 0;
     const bool is_escaping = escapes_ && phase_ == Phase::kBackingOff;
-    const bool may_be_driven = may_lose_heading || safety().plansWithWeather();
-    if (!may_be_driven || !knowsPlace(m) || foreseen.start_s < sailed_.given_s ||
-        m.now_s - escaped_s_ < (may_lose_heading || is_escaping ? kAgainS : kAnotherS)) {
-      return false;
-    }
-    const vessel::State& x = m.situation.state;
-    const vessel::Foreseen here{m.now_s, 0.0, {{x.head<2>(), x[vessel::kPsi]}}};
-    const auto least = [&](const vessel::Foreseen& motion, double within_s) {
-      return stopping::leastClearance(motion, m.now_s, m.now_s + within_s, m.obstacles,
-                                      vessel_.hull);
-    };
-    const bool lies = may_lose_heading && (in(phase_)&kUnderWay) == 0;
-    const double near_m = lies ? kNearM : kNearOnItsWayM;
-    double comes_m = least(foreseen, kWithinS);
-    if (lies && !is_escaping) {
-      const double drifts_m = least(stopping::driftingOn(foreseen, m.now_s + kDriftsS), kDriftsS);
-      comes_m = drifts_m < kDriftsOntoM ? std::min(comes_m, drifts_m) : comes_m;
-    }
-    if (comes_m > std::min(near_m, least(here, kWithinS) - kNearerM)) {
-      return false;
-    }
-    escape_ =
-        stopping::escape(x, m.obstacles.startingAt(m.now_s), vessel_, m.situation.disturbance.mean);
-    return escape_.clearance_m > comes_m + kWorthM;
+    return knowsPlace(m) && driven_.isDrivenOntoSomething(m, sailed_,
+                                                          under_way     ? Driven::Lies::kOnItsWay
+                                                          : is_escaping ? Driven::Lies::kEscaping
+                                                                        : Driven::Lies::kOffPlans);
   }
   bool mustEvade(const Moment& m) {
     const bool under_way = (in(phase_)&kUnderWay) != 0;
@@ -730,16 +685,16 @@ class Decider final : public Supervisor {
     return holdHere();
   }
   Orders makeSeaRoom(const Moment& m) {
-    Orders orders = manoeuvre(m, Phase::kBackingOff, legToMake(m),
-                              text("makes room, %.1f m %s", std::abs(sea_room_m_),
-                                   sea_room_m_ > 0.0 ? "ahead" : "astern"),
-                              Cause::kOff);
+    const double room_m = driven_.roomToMake();
+    Orders orders = manoeuvre(
+        m, Phase::kBackingOff, driven_.legToMakeIt(m),
+        text("makes room, %.1f m %s", std::abs(room_m), room_m > 0.0 ? "ahead" : "astern"),
+        Cause::kOff);
     makes_room_ = true;
     return orders;
   }
   Orders escape(const Moment& m) {
-    escaped_s_ = m.now_s;
-    (void)manoeuvre(m, Phase::kBackingOff, std::move(escape_.path),
+    (void)manoeuvre(m, Phase::kBackingOff, driven_.takeEscape(m.now_s),
                     "out of what wind and current drive it onto", Cause::kOff);
     escapes_ = true;
     sailed_.path.rolled_out = true;
@@ -1001,9 +956,6 @@ class Decider final : public Supervisor {
   }
   [[nodiscard]] WayAhead wayAhead(const Moment& m) { return {m, safety(), vessel_, sailed_}; }
   [[nodiscard]] SeaRoom seaRoom(const Moment& m) { return {m, safety(), vessel_.hull}; }
-  Trajectory legToMake(const Moment& m) {
-    return seaRoom(m).leg(withoutSwing(m).head<2>(), sea_room_m_);
-  }
   // Without a trajectory the tracker does nothing: it shall keep the place, once.
   Orders holdHere() { return {std::nullopt, std::nullopt, !std::exchange(holds_, true)}; }
 
@@ -1029,20 +981,6 @@ class Decider final : public Supervisor {
   bool knowsPlace(const Moment& m) {
     return m.situation.state.allFinite() &&
            m.now_s - m.situation.odometry_stamp_s <= options_.odometry_timeout_s;
-  }
-  // Where the hull lies but for the waves that swing it abeam, which the tracker leaves it to at
-  // crawling pace. What begins at the end of a swing would be off by all of it half a wave later,
-  // and by half of it from its middle.
-  static vessel::State withoutSwing(const Moment& m) {
-    constexpr double kOldS = 0.5;
-    const vessel::Foreseen& foreseen = m.situation.foreseen;
-    vessel::State x = m.situation.state;
-    if (!foreseen.poses.empty() && std::abs(foreseen.start_s - m.now_s) < kOldS) {
-      const Eigen::Vector2d port = across(unitVector(x[vessel::kPsi]));
-      const double swing_m = port.dot(foreseen.poses.front().position - x.head<2>());
-      x.head<2>() += std::clamp(swing_m, -stopping::kSwingsM, stopping::kSwingsM) * port;
-    }
-    return x;
   }
   double inside(const Moment& m) {
     return stopping::insideMap(m.obstacles.field().geometry(), m.situation.state.head<2>());
@@ -1389,7 +1327,6 @@ class Decider final : public Supervisor {
   Sailed sailed_;
   double nearest_left_m_ = std::numeric_limits<double>::infinity();  // where a part of it ended
   double felt_s_ = -std::numeric_limits<double>::infinity();
-  double sea_room_m_ = 0.0;               // to be made
   std::optional<double> across_since_s_;  // at rest, not bow to a firm load
   bool holds_ = false;                    // the tracker was told to keep the place
   Trajectory other_stop_;                 // that is milder
@@ -1397,9 +1334,7 @@ class Decider final : public Supervisor {
   std::optional<Trajectory> aside_;  // out of another vessel's way, if that is asked for
   bool is_aside_ = false;            // and is being sailed
   bool makes_room_ = false;          // so, before it plans
-  stopping::Escape escape_;          // that was found
   bool escapes_ = false;             // and is being sailed
-  double escaped_s_ = -std::numeric_limits<double>::infinity();
   int rooms_made_ = 0;               // since a plan was sailed
   double calmer_by_s_ = 0.0;         // until then it waits for less wind
   std::optional<double> calm_by_s_;  // or the mission fails
@@ -1416,6 +1351,7 @@ class Decider final : public Supervisor {
   Stops stops_;
   RetryBudget retries_;
   Following following_;
+  Driven driven_;
   BetterPlans better_;
   Others others_;
   std::optional<Following::Later> later_;  // for a vessel that is behind
