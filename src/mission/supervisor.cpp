@@ -49,6 +49,7 @@ constexpr unsigned kWaiting = in(Phase::kPlanning) | in(Phase::kStopped);
 constexpr unsigned kManoeuvring = in(Phase::kBackingOff) | in(Phase::kTurningBack);
 constexpr unsigned kComingToRest = in(Phase::kStopping) | kManoeuvring;
 constexpr unsigned kEvading = in(Phase::kEvading);
+
 // Why a plan is given up, or the vessel stops: something in the way, or the weather's doing, by
 // which the vessel is off its way, wants for thrust on it, or can't hold the goal's heading.
 enum class Cause { kOther, kClearance, kOff, kLoad, kGoalHeading };
@@ -1334,7 +1335,7 @@ class Decider final : public Supervisor {
   std::optional<Trajectory> aside_;  // out of another vessel's way, if that is asked for
   bool is_aside_ = false;            // and is being sailed
   bool makes_room_ = false;          // so, before it plans
-  bool escapes_ = false;             // and is being sailed
+  bool escapes_ = false;             // an escape is being sailed
   int rooms_made_ = 0;               // since a plan was sailed
   double calmer_by_s_ = 0.0;         // until then it waits for less wind
   std::optional<double> calm_by_s_;  // or the mission fails
