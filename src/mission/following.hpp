@@ -20,10 +20,10 @@ class Following {
             const vessel::Parameters& vessel)
       : options_(options), safety_(safety), vessel_(vessel) {}
 
-  // A plan from where the vessel is can be followed, and this one can't any more.
+  // It can't be followed any more: what comes next has to begin where the vessel is.
   [[nodiscard]] bool isFarOff(const Moment& m, const Sailed& sailed) const;
-  // Nor can this one that knows wind and current; a plan from where they have set the vessel can be
-  // followed again: it need not be far off for that.
+  // So far that another plan is asked for. One that knows wind and current, made from where they
+  // have set the vessel, is one that it can follow again: it need not be far off for that.
   [[nodiscard]] bool isLeftBehind(const Moment& m, const Sailed& sailed) const;
 
   // The same way later, for a vessel that is so far behind on it.
@@ -38,7 +38,7 @@ class Following {
   [[nodiscard]] std::optional<Later> fallsBehind(const Moment& m, const Sailed& sailed) const;
   // That is sailed: what is put off again and again counts as being left behind.
   void putOff(double now_s, const Later& later);
-  // It is planned anew.
+  // Another plan is asked for: nothing of it is put off yet.
   void startAnew() { late_m_ = 0.0; }
 
   // Broadside to where it should point and carried off.

@@ -158,14 +158,14 @@ void Others::rememberTheWay(const trajectory::Trajectory& plan) {
   }
 }
 
-std::vector<Track> Others::movers(const Moment& m) const {
+std::vector<Track> Others::movers(const Moment& m) {
   std::vector<Track> some;
   std::copy_if(m.situation.tracks.begin(), m.situation.tracks.end(), std::back_inserter(some),
                [](const Track& track) { return track.makesWay(); });
   return some;
 }
 
-int Others::moversWithin(const Moment& m, double range_m) const {
+int Others::moversWithin(const Moment& m, double range_m) {
   const Eigen::Vector2d here = m.situation.state.head<2>();
   return static_cast<int>(
       std::count_if(m.situation.tracks.begin(), m.situation.tracks.end(), [&](const Track& track) {

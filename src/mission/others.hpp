@@ -39,9 +39,9 @@ class Others {
   [[nodiscard]] const std::optional<encounter::NearFuture>& future() const { return near_; }
   [[nodiscard]] bool areSome() const { return near_ && !near_->empty(); }
 
-  // Several times a second: where they go is remembered.
+  // At each decision: where they go is remembered.
   void observe(const Moment& m) { evasion_.observe(m.situation.tracks); }
-  // And if it is known where the vessel is: who meets whom.
+  // Likewise, where it is known where the vessel is: who meets it, and by which rule of the road.
   void lookOut(const Moment& m, const Sailed& sailed, const Eigen::Vector2d& goal);
   [[nodiscard]] std::vector<encounter::Encounter> encounters() const { return pilot_.encounters(); }
   // They ask for another way than the one being sailed, which something new can leave at `joint_s`,
@@ -81,8 +81,9 @@ class Others {
  private:
   static constexpr double kAgainS = 0.25;  // from one decision about them to the next
 
-  [[nodiscard]] std::vector<traffic::Track> movers(const Moment& m) const;
-  [[nodiscard]] int moversWithin(const Moment& m, double range_m) const;
+  // Those who make way.
+  [[nodiscard]] static std::vector<traffic::Track> movers(const Moment& m);
+  [[nodiscard]] static int moversWithin(const Moment& m, double range_m);
   // A little ahead on what is sailed, or where the hull is if it is off that or lies still.
   [[nodiscard]] encounter::Evasion::Task task(const Moment& m, const Sailed& sailed,
                                               const vessel::Pose& goal) const;
