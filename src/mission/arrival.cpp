@@ -8,9 +8,10 @@
 #include "otter_nav/vessel/thrusters.hpp"
 
 namespace otter_nav::mission {
-
 namespace {
+
 constexpr double kSettleS = 10.0;  // at a trajectory's end
+
 }  // namespace
 
 double Arrival::distance() const {

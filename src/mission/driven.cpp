@@ -4,24 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "otter_nav/base/planar.hpp"
 #include "otter_nav/stopping/back_off.hpp"
-#include "otter_nav/stopping/braking.hpp"
 #include "sea_room.hpp"
 
 namespace otter_nav::mission {
-
-vessel::State withoutSwing(const Moment& m) {
-  constexpr double kOldS = 0.5;
-  const vessel::Foreseen& foreseen = m.situation.foreseen;
-  vessel::State x = m.situation.state;
-  if (!foreseen.poses.empty() && std::abs(foreseen.start_s - m.now_s) < kOldS) {
-    const Eigen::Vector2d port = across(unitVector(x[vessel::kPsi]));
-    const double swing_m = port.dot(foreseen.poses.front().position - x.head<2>());
-    x.head<2>() += std::clamp(swing_m, -stopping::kSwingsM, stopping::kSwingsM) * port;
-  }
-  return x;
-}
 
 bool Driven::liesOffALeeShore(const Moment& m, int stops) {
   constexpr double kShorterM = 0.5;

@@ -13,11 +13,6 @@
 
 namespace otter_nav::mission {
 
-// Where the hull lies but for the waves that swing it abeam, which the tracker leaves it to at
-// crawling pace. What begins at the end of a swing would be off by all of it half a wave later,
-// and by half of it from its middle.
-[[nodiscard]] vessel::State withoutSwing(const Moment& m);
-
 // What it is made of outlives it.
 class Driven {
  public:

@@ -1,6 +1,5 @@
 #include "following.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -9,13 +8,6 @@
 #include "sea_room.hpp"
 
 namespace otter_nav::mission {
-namespace {
-
-Eigen::Vector2d velocityInMap(const vessel::State& x) {
-  return Eigen::Rotation2D<double>(x[vessel::kPsi]) * x.segment<2>(vessel::kSurge);
-}
-
-}  // namespace
 
 double Following::error(const Moment& m, const Sailed& sailed) const {
   constexpr double kSpeaksOfItS = 0.3;

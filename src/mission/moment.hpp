@@ -1,6 +1,7 @@
 // What a decision is made on.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "otter_nav/feasibility/obstacles.hpp"
@@ -21,5 +22,15 @@ struct Moment {
   constexpr double kAtRestRadps = 0.1;
   return vessel::speedOf(state) < kAtRestMps && std::abs(state[vessel::kYawRate]) < kAtRestRadps;
 }
+
+// Over ground, map frame, m/s.
+[[nodiscard]] inline Eigen::Vector2d velocityInMap(const vessel::State& state) {
+  return Eigen::Rotation2D<double>(state[vessel::kPsi]) * state.segment<2>(vessel::kSurge);
+}
+
+// Where the hull lies but for the waves that swing it abeam, which the tracker leaves it to at
+// crawling pace. What begins at the end of a swing would be off by all of it half a wave later,
+// and by half of it from its middle.
+[[nodiscard]] vessel::State withoutSwing(const Moment& m);
 
 }  // namespace otter_nav::mission

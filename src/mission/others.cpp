@@ -1,6 +1,5 @@
 #include "others.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -35,7 +34,6 @@ void Others::lookOut(const Moment& m, const Sailed& sailed, const Eigen::Vector2
     return;
   }
   const vessel::State& x = m.situation.state;
-  const Eigen::Rotation2D<double> map_from_base(x[vessel::kPsi]);
   const bool follows =
       has_way && m.situation.tracking_error_m < 0.5 * options_.tracking_error_max_m;
   const Eigen::Vector2d steered = follows ? sailed.at(m.now_s).position : x.head<2>();
@@ -43,8 +41,8 @@ void Others::lookOut(const Moment& m, const Sailed& sailed, const Eigen::Vector2
   std::vector<Track> under_way;
   std::copy_if(m.situation.tracks.begin(), m.situation.tracks.end(), std::back_inserter(under_way),
                [](const Track& track) { return !track.keeps_place; });
-  pilot_.observe(m.now_s, {x.head<2>(), map_from_base * x.segment<2>(vessel::kSurge)}, steered,
-                 under_way, goal, kCruiseShare * sailed.plan.limits.speed_max_mps);
+  pilot_.observe(m.now_s, {x.head<2>(), velocityInMap(x)}, steered, under_way, goal,
+                 kCruiseShare * sailed.plan.limits.speed_max_mps);
 }
 
 std::optional<encounter::Manoeuvre> Others::makeWay(const Moment& m, const Sailed& sailed,
@@ -198,8 +196,7 @@ encounter::Evasion::Task Others::task(const Moment& m, const Sailed& sailed,
     if (vessel::speedOf(x) < kStillMps) {
       task.state.tail<3>().setZero();
     }
-    task.start.velocity =
-        Eigen::Rotation2D<double>(x[vessel::kPsi]) * task.state.segment<2>(vessel::kSurge);
+    task.start.velocity = velocityInMap(task.state);
   }
   task.disturbance = safety_.weather().mean();
   feasibility::SafetyLimits limits =
