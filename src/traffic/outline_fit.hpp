@@ -17,6 +17,9 @@ struct Cluster {
   bool first_hidden = false;       // it goes on behind something nearer, beyond its first point
   bool last_hidden = false;        // or its last
 
+  // There is more of it than its echoes show.
+  [[nodiscard]] bool isCut() const { return out_of_range || first_hidden || last_hidden; }
+
   // It is seen whole, and nothing of it is where nothing was: of a vessel under way at least the
   // bow would be.
   [[nodiscard]] bool stands() const {

@@ -17,6 +17,8 @@ constexpr double kGuessedSideM = 0.7;
 constexpr double kMeasuredSideM = 0.2;  // where the sides themselves tell how the hull lies
 constexpr double kLeastSizeM = 0.5;
 constexpr int kYoungHits = 5;
+// A heading that is known within this much tells how long and how broad a hull is.
+constexpr double kHeadingForSizeRad = 0.3;
 
 constexpr double kLeastCourseSpeedMps = 0.3;
 constexpr double kLeastUnderWayMps = 0.6;
@@ -97,7 +99,7 @@ Middle middleAlong(const Span& span, const View::Hidden& hidden, double eye, boo
   if (whole || (whole_seen && !hidden.any() && !size_known)) {
     return {span.middle(), seen_side_m};
   }
-  const double half = 0.5 * std::max(size_m, span.length());
+  const double half = 0.5 * size_m;
   if (hidden.low && hidden.high) {
     return {span.middle(), std::max(kGuessedSideM, half)};
   }
@@ -105,6 +107,43 @@ Middle middleAlong(const Span& span, const View::Hidden& hidden, double eye, boo
   const bool from_low =
       hidden.any() ? hidden.high : std::abs(eye - span.low) < std::abs(eye - span.high);
   return {from_low ? span.low + half : span.high - half, deviation};
+}
+
+// Of who comes into range abeam only a part is seen, and more with every scan: along `axis`, at a
+// steady distance from her end that is in range.
+double besideTheNearerEnd(const Cluster& cluster, const Eigen::Vector2d& eye,
+                          const Eigen::Vector2d& axis, double distance_m) {
+  const Eigen::Vector2d& first = cluster.points.front();
+  const Eigen::Vector2d& last = cluster.points.back();
+  const bool first_is_nearer = (first - eye).norm() < (last - eye).norm();
+  const double near = axis.dot(first_is_nearer ? first : last);
+  const double far = axis.dot(first_is_nearer ? last : first);
+  return near + (far > near ? distance_m : -distance_m);
+}
+
+// What a cluster shows of her size; `anew`: it counts as if nothing were known. Whether she is as
+// large as that from now on, or at least so large.
+bool takeSize(TrackedVessel& vessel, const Cluster& cluster, const View& view, double shrinks,
+              bool anew) {
+  constexpr double kGrows = 0.3;  // of the difference, a scan
+  const bool unknown = anew || vessel.size == TrackedVessel::Size::kGuessed;
+  const auto learn = [&](double& known_m, double seen_m) {
+    known_m += (unknown ? 1.0 : (seen_m > known_m ? kGrows : shrinks)) * (seen_m - known_m);
+  };
+  // Both have to be seen before a guess is left; what is cut off is longer than it seems.
+  if (cluster.isCut() || (unknown && !(view.from_beside && view.from_end))) {
+    vessel.length_m = std::max(vessel.length_m, view.along.length());
+    vessel.beam_m = std::max(vessel.beam_m, view.athwart.length());
+    return false;
+  }
+  if (view.from_beside) {
+    learn(vessel.length_m, std::max(view.along.length(), kLeastSizeM));
+  }
+  if (view.from_end) {
+    learn(vessel.beam_m, std::max(view.athwart.length(), kLeastSizeM));
+  }
+  vessel.size = TrackedVessel::Size::kSeen;
+  return true;
 }
 
 }  // namespace
@@ -244,6 +283,28 @@ std::optional<double> TrackedVessel::sidesOf(const Cluster& cluster) {
   return direction;
 }
 
+std::optional<double> TrackedVessel::axisOf(const Cluster& cluster, const Eigen::Vector2d& eye) {
+  constexpr double kClearlyLonger = 1.4;
+  const std::optional<double> sides = sidesOf(cluster);
+  if (!sides || cluster.isCut()) {
+    return std::nullopt;
+  }
+  const View view(cluster, eye, unitVector(*sides));
+  const double along = view.along.length();
+  const double athwart = view.athwart.length();
+  if (!view.from_beside || !view.from_end ||
+      std::max(along, athwart) < kClearlyLonger * std::min(along, athwart)) {
+    return std::nullopt;
+  }
+  return along > athwart ? *sides : *sides + 0.5 * kPi;
+}
+
+double TrackedVessel::headingDeviation() const {
+  const double speed = motion.usualState().segment<2>(2).norm();
+  const double deviation = std::sqrt(0.5 * motion.usualCovariance().block<2, 2>(2, 2).trace());
+  return mmsi != 0 ? 0.0 : std::min(kPi, deviation / std::max(speed, kLeastCourseSpeedMps));
+}
+
 std::optional<double> TrackedVessel::headingBySides(const Cluster& cluster) const {
   const std::optional<double> sides = sidesOf(cluster);
   if (!sides) {
@@ -255,30 +316,44 @@ std::optional<double> TrackedVessel::headingBySides(const Cluster& cluster) cons
 }
 
 Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d& eye,
-                                   bool by_sides) const {
+                                   bool among_many) const {
+  const bool guessed = size == Size::kGuessed;
+  const std::optional<double> axis =
+      guessed && !among_many ? axisOf(cluster, eye) : std::optional<double>{};
+  const bool young = hits < kYoungHits && guessed;
+  const bool vague = guessed && !among_many && headingDeviation() > kHeadingForSizeRad;
+  const bool headed = heading_rad && !young && !vague;
+  const std::optional<double> sides =
+      headed && among_many ? headingBySides(cluster) : std::optional<double>{};
   // Without a heading, along the line of sight: its near end doesn't shift as more of a hull comes
   // into sight behind it.
-  const bool young = hits < kYoungHits && size == Size::kGuessed;
-  const bool headed = heading_rad && !young;
-  const std::optional<double> sides =
-      headed && by_sides ? headingBySides(cluster) : std::optional<double>{};
   const Eigen::Vector2d ahead =
-      headed ? unitVector(sides.value_or(*heading_rad))
-             : (cluster.points[cluster.points.size() / 2] - eye).normalized();
+      axis     ? unitVector(*axis)
+      : headed ? unitVector(sides.value_or(*heading_rad))
+               : Eigen::Vector2d((cluster.points[cluster.points.size() / 2] - eye).normalized());
   const Eigen::Vector2d port = across(ahead);
   const View view(cluster, eye, ahead);
   Middle middle[2];
-  if (!headed) {
+  if (axis) {  // whatever her course, her middle is that of both sides
+    middle[0] = {view.along.middle(), kSeenSideM};
+    middle[1] = {view.athwart.middle(), kSeenSideM};
+  } else if (!headed) {
     middle[0] = {view.along.low + 0.5 * beam_m, kGuessedSideM};
     middle[1] = {view.athwart.middle(), kGuessedSideM};
+    if (cluster.out_of_range && !among_many) {
+      middle[1].at = besideTheNearerEnd(cluster, eye, port, 0.5 * beam_m);
+    }
   } else {
-    const bool known = size != Size::kGuessed || sides;
+    // What she turns out to be longer by is learned apart, and is no motion.
+    const double length = among_many ? std::max(length_m, view.along.length()) : length_m;
+    const double beam = among_many ? std::max(beam_m, view.athwart.length()) : beam_m;
+    const bool known = !guessed || sides;
     const bool in_range = !cluster.out_of_range;
     const double seen_side_m = sides ? kMeasuredSideM : kSeenSideM;
     middle[0] = middleAlong(view.along, view.along_hidden, view.eye_along,
-                            view.from_beside && in_range, length_m, known, seen_side_m);
+                            view.from_beside && in_range, length, known, seen_side_m);
     middle[1] = middleAlong(view.athwart, view.athwart_hidden, view.eye_athwart,
-                            view.from_end && in_range, beam_m, known, seen_side_m);
+                            view.from_end && in_range, beam, known, seen_side_m);
   }
   const Eigen::Matrix2d axes = (Eigen::Matrix2d() << ahead, port).finished();
   const Eigen::Vector2d variances(middle[0].deviation_m * middle[0].deviation_m,
@@ -289,11 +364,12 @@ Measurement TrackedVessel::measure(const Cluster& cluster, const Eigen::Vector2d
   return measurement;
 }
 
-void TrackedVessel::followMiddle(const Cluster& cluster, const Eigen::Vector2d& eye) {
+void TrackedVessel::followMiddle(const Cluster& cluster, const Eigen::Vector2d& eye,
+                                 bool among_many) {
   const std::optional<double> heading = heading_rad;
-  const Eigen::Vector4d headed = measure(cluster, eye).value;
+  const Eigen::Vector4d headed = measure(cluster, eye, among_many).value;
   heading_rad.reset();
-  const Eigen::Vector4d before = measure(cluster, eye).value;
+  const Eigen::Vector4d before = measure(cluster, eye, among_many).value;
   heading_rad = heading;
   motion.shift((headed - before).head<2>());
 }
@@ -306,41 +382,40 @@ bool TrackedVessel::isShownAgain(const Eigen::Vector2d& size_m) {
   return shown_alike >= kOften;
 }
 
-void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye, bool among_many) {
-  if (size == Size::kReported) {
+void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye) {
+  constexpr double kShrinks = 0.01;    // of the difference, a scan
+  constexpr double kByBothRad = 0.05;  // how well both sides tell how she lies
+  constexpr double kClearlyBetter = 0.7;
+  if (size == Size::kReported || !heading_rad) {
     return;
   }
-  constexpr double kGrows = 0.3;  // of the difference, a scan
-  constexpr double kShrinks = 0.01;
-  constexpr double kShrinksAmongMany = 0.1;  // what was taken for hers before may have been more
-  const double shrinks = among_many ? kShrinksAmongMany : kShrinks;
-  const auto learn = [shrinks](double& known, double seen, bool guessed) {
-    known += (guessed ? 1.0 : (seen > known ? kGrows : shrinks)) * (seen - known);
-  };
+  const std::optional<double> axis = axisOf(cluster, eye);
+  const double within = axis ? std::min(kByBothRad, headingDeviation()) : headingDeviation();
+  if (within > kHeadingForSizeRad) {
+    return;
+  }
+  const double heading = axis ? *axis + kPi * std::round((*heading_rad - *axis) / kPi)
+                              : headingBySides(cluster).value_or(*heading_rad);
+  const Eigen::Vector4d before = measure(cluster, eye).value;
+  // What a worse heading made of her counts no more.
+  const bool anew = within < kClearlyBetter * sized_within_rad;
+  if (takeSize(*this, cluster, View(cluster, eye, unitVector(heading)), kShrinks, anew)) {
+    sized_within_rad = std::min(within, sized_within_rad);
+  }
+  motion.shift((measure(cluster, eye).value - before).head<2>());
+}
+
+void TrackedVessel::learnSizeAmongMany(const Cluster& cluster, const Eigen::Vector2d& eye) {
+  constexpr double kShrinks = 0.1;  // what was taken for hers before may have been more
   const std::optional<double> heading =
-      heading_rad && among_many ? headingBySides(cluster) : heading_rad;
-  if (!heading) {
+      heading_rad ? headingBySides(cluster) : std::optional<double>{};
+  if (size == Size::kReported || !heading) {
     return;
   }
   const View view(cluster, eye, unitVector(*heading));
-  if (among_many && !isShownAgain({view.along.length(), view.athwart.length()})) {
-    return;
+  if (isShownAgain({view.along.length(), view.athwart.length()})) {
+    takeSize(*this, cluster, view, kShrinks, false);
   }
-  const bool guessed = size == Size::kGuessed;
-  // Both have to be seen before a guess is left; what is cut off is longer than it seems.
-  const bool cut = cluster.out_of_range || cluster.first_hidden || cluster.last_hidden;
-  if (cut || (guessed && !(view.from_beside && view.from_end))) {
-    length_m = std::max(length_m, view.along.length());
-    beam_m = std::max(beam_m, view.athwart.length());
-    return;
-  }
-  if (view.from_beside) {
-    learn(length_m, std::max(view.along.length(), kLeastSizeM), guessed);
-  }
-  if (view.from_end) {
-    learn(beam_m, std::max(view.athwart.length(), kLeastSizeM), guessed);
-  }
-  size = Size::kSeen;
 }
 
 void TrackedVessel::takeDimensions(const ais::Message& message) {

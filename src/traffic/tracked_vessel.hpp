@@ -7,6 +7,7 @@
 
 #include "motion_filter.hpp"
 #include "otter_nav/ais/message.hpp"
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/traffic/track.hpp"
 #include "outline_fit.hpp"
 
@@ -46,6 +47,8 @@ struct TrackedVessel {
   Size size = Size::kGuessed;
   double length_m = 7.0;
   double beam_m = 2.5;
+  // How well the heading was known along which that was measured, rad.
+  double sized_within_rad = kPi;
   std::optional<double> heading_rad;
   double leeway_rad = 0.0;  // heading less course, by the last report of both
   // Along and athwart, as the last echoes showed it among many, and how often in a row alike.
@@ -102,22 +105,30 @@ struct TrackedVessel {
   // The direction of the sides that a cluster shows next to the heading, which has to be known;
   // none if it shows none clearly.
   [[nodiscard]] std::optional<double> headingBySides(const Cluster& cluster) const;
+  // The direction of the longer side, but for half a turn, where a cluster shows both of them whole
+  // and one is clearly longer: how a hull lies, whatever her course.
+  [[nodiscard]] static std::optional<double> axisOf(const Cluster& cluster,
+                                                    const Eigen::Vector2d& eye);
+  // Standard deviation of the heading; of who reports herself it is taken as known.
+  [[nodiscard]] double headingDeviation() const;
   // Unit vector; asks for a heading.
   [[nodiscard]] Eigen::Vector2d ahead() const;
   // From the outline's middle to its side, along a unit vector.
   [[nodiscard]] double halfDepth(const Eigen::Vector2d& along) const;
   // Where the outline's middle is if `cluster`, seen from `eye`, is this vessel: not the points'
-  // middle, but the sides that are seen, with half the size from there on.
-  // `by_sides`: along the sides where they tell a heading, for the course of who turns at once, or
-  // all the time, lags behind.
+  // middle, but the sides that are seen, with half the size from there on. `among_many`: along the
+  // sides where they tell a heading, for the course of who turns at once, or all the time, lags
+  // behind.
   [[nodiscard]] Measurement measure(const Cluster& cluster, const Eigen::Vector2d& eye,
-                                    bool by_sides = false) const;
+                                    bool among_many = false) const;
   // The first heading is known now: the hull's middle is followed from here on.
-  void followMiddle(const Cluster& cluster, const Eigen::Vector2d& eye);
-  // What a cluster that is this vessel says of its size. `among_many`: it may be a part of her that
-  // something hides, or two who pass close by, so that only a rectangle counts that is shown the
-  // same again and again.
-  void learnSize(const Cluster& cluster, const Eigen::Vector2d& eye, bool among_many = false);
+  void followMiddle(const Cluster& cluster, const Eigen::Vector2d& eye, bool among_many = false);
+  // What a cluster that is this vessel says of its size; that the middle lies elsewhere by a new
+  // size is no motion.
+  void learnSize(const Cluster& cluster, const Eigen::Vector2d& eye);
+  // The same among many: it may be a part of her that something hides, or two who pass close by, so
+  // that only a rectangle counts that is shown the same again and again.
+  void learnSizeAmongMany(const Cluster& cluster, const Eigen::Vector2d& eye);
   // To be called with each size that echoes show: whether the last few were alike.
   bool isShownAgain(const Eigen::Vector2d& size_m);
   // Dimensions reported by AIS: the size, and where in the outline the reported position is.

@@ -127,15 +127,17 @@ class Tracker::Impl {
     };
     look.seen = [&](TrackedVessel& vessel, std::size_t k, bool first_course) {
       if (first_course && isTheLidarsAlone(vessel)) {
-        vessel.followMiddle(clusters[k], eye);
+        vessel.followMiddle(clusters[k], eye, crowded_);
       }
       if (clusters[k].new_points >= kFewestNew) {
         ++vessel.moving_hits;
         vessel.last_new_s = look.stamp_s;
       }
       vessel.lookedAt(clusters[k], look.stamp_s);
-      if (!crowded_ || !clusters[k].shared) {
-        vessel.learnSize(clusters[k], eye, crowded_);
+      if (!crowded_) {
+        vessel.learnSize(clusters[k], eye);
+      } else if (!clusters[k].shared) {
+        vessel.learnSizeAmongMany(clusters[k], eye);
       }
       if (!vessel.confirmed) {
         vessel.unconfirmed_points.insert(vessel.unconfirmed_points.end(),

@@ -73,6 +73,56 @@ TEST(TrafficTracker, IsNeverTooSureOfWhatTheRadarSees) {
   }
 }
 
+// Met by the radar first, whose first courses may be off by a right angle, and then by the lidar:
+// neither her size nor her middle stays as a wrong course has shown it.
+TEST(TrafficTracker, IsNotMisledByTheFirstCourse) {
+  constexpr int kRuns = 24;
+  int wrong_size = 0;
+  double sum = 0.0;
+  int count = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    Random random(static_cast<std::uint64_t>(run) + 200);
+    Sea sea(test::plantOptions(), {}, {passing(random, 16.0)}, static_cast<std::uint64_t>(run) + 1);
+    for (double time_s = 8.0; time_s < 26.5; time_s += 3.0) {
+      sea.run(time_s, {0.0, 0.0});
+      const std::optional<Track> track = sea.trackOf(0);
+      ASSERT_TRUE(track) << run;
+      sum += test::nees(*track, sea.trueMotion(0, track->stamp_s));
+      ++count;
+    }
+    const std::optional<Track> track = sea.trackOf(0);
+    const vessel::Hull& hull = sea.scripts[0].hull;
+    wrong_size += std::abs(track->length_m - hull.length_m) > 0.6 ||
+                          std::abs(track->beam_m - hull.beam_m) > 0.6
+                      ? 1
+                      : 0;
+  }
+  EXPECT_LE(wrong_size, 1);
+  EXPECT_LT(sum / count, 4.0 + 1.96 * std::sqrt(8.0 / kRuns));
+}
+
+// Abeam at the edge of the lidar's range more of her is seen with every scan: she is no slower for
+// that.
+TEST(TrafficTracker, KnowsTheSpeedOfWhoComesIntoRangeAbeam) {
+  constexpr int kRuns = 20;
+  double sum = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    Random random(static_cast<std::uint64_t>(run) + 300);
+    const double speed = random.uniform(1.5, 2.5);
+    const double length = random.uniform(6.0, 9.0);
+    const double miss = random.uniform(12.0, 18.0);
+    const double before = std::sqrt(25.0 * 25.0 - miss * miss) + 0.5 * length + 2.0 * speed;
+    const vessel::ScriptedVessel vessel{
+        1, {length, 2.5}, false, {{-before, miss}, {300.0, miss}}, {speed}};
+    Sea sea(lidarOnly("none"), {}, {vessel}, static_cast<std::uint64_t>(run) + 1);
+    sea.run(2.0 + length / speed, {0.0, 0.0});  // just seen whole
+    const std::optional<Track> track = sea.trackOf(0);
+    ASSERT_TRUE(track) << run;
+    sum += std::abs(track->velocity.x() - speed) / kRuns;
+  }
+  EXPECT_LT(sum, 0.3);
+}
+
 // A hull is where its middle is, not where its echoes are; and as long as it is.
 TEST(TrafficTracker, MeasuresHullsByLidar) {
   constexpr int kRuns = 16;
