@@ -134,10 +134,9 @@ class Tracker::Impl {
         vessel.last_new_s = look.stamp_s;
       }
       vessel.lookedAt(clusters[k], look.stamp_s);
-      if (!crowded_) {
-        vessel.learnSize(clusters[k], eye);
-      } else if (!clusters[k].shared) {
-        vessel.learnSizeAmongMany(clusters[k], eye);
+      if (!clusters[k].shared) {
+        crowded_ ? vessel.learnSizeAmongMany(clusters[k], eye)
+                 : vessel.learnSize(clusters[k], eye);
       }
       if (!vessel.confirmed) {
         vessel.unconfirmed_points.insert(vessel.unconfirmed_points.end(),
