@@ -386,6 +386,8 @@ void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye
   constexpr double kShrinks = 0.01;    // of the difference, a scan
   constexpr double kByBothRad = 0.05;  // how well both sides tell how she lies
   constexpr double kClearlyBetter = 0.7;
+  constexpr double kKnownCourseRad = 0.15;
+  constexpr double kBroaderM = 0.2;  // than long, by the echoes' noise
   if (size == Size::kReported || !heading_rad) {
     return;
   }
@@ -396,10 +398,17 @@ void TrackedVessel::learnSize(const Cluster& cluster, const Eigen::Vector2d& eye
   }
   const double heading = axis ? *axis + kPi * std::round((*heading_rad - *axis) / kPi)
                               : headingBySides(cluster).value_or(*heading_rad);
+  const View view(cluster, eye, unitVector(heading));
+  const bool across_her_course = std::abs(wrapAngle(heading - *heading_rad)) > 0.25 * kPi &&
+                                 headingDeviation() < kKnownCourseRad;
+  if (across_her_course ||
+      view.athwart.length() > std::max(length_m, view.along.length()) + kBroaderM) {
+    return;  // two that look like one
+  }
   const Eigen::Vector4d before = measure(cluster, eye).value;
   // What a worse heading made of her counts no more.
   const bool anew = within < kClearlyBetter * sized_within_rad;
-  if (takeSize(*this, cluster, View(cluster, eye, unitVector(heading)), kShrinks, anew)) {
+  if (takeSize(*this, cluster, view, kShrinks, anew)) {
     sized_within_rad = std::min(within, sized_within_rad);
   }
   motion.shift((measure(cluster, eye).value - before).head<2>());

@@ -135,8 +135,7 @@ class Tracker::Impl {
       }
       vessel.lookedAt(clusters[k], look.stamp_s);
       if (!clusters[k].shared) {
-        crowded_ ? vessel.learnSizeAmongMany(clusters[k], eye)
-                 : vessel.learnSize(clusters[k], eye);
+        crowded_ ? vessel.learnSizeAmongMany(clusters[k], eye) : vessel.learnSize(clusters[k], eye);
       }
       if (!vessel.confirmed) {
         vessel.unconfirmed_points.insert(vessel.unconfirmed_points.end(),

@@ -1,0 +1,80 @@
+// What single views of a hull tell of her.
+#include "traffic/tracked_vessel.hpp"
+
+#include <gtest/gtest.h>
+
+#include "otter_nav/base/planar.hpp"
+
+namespace otter_nav::traffic {
+namespace {
+
+constexpr double kSpacingM = 0.1;
+
+// Northbound at 2 m/s, north-east of the sensor at the origin.
+TrackedVessel northbound(double speed_deviation_mps = 0.1) {
+  Measurement first;
+  first.has_velocity = true;
+  first.value << 15.0, 10.0, 0.0, 2.0;
+  first.covariance.diagonal() << 0.1, 0.1, speed_deviation_mps * speed_deviation_mps,
+      speed_deviation_mps * speed_deviation_mps;
+  TrackedVessel vessel(1, first, 0.0, kLidar);
+  vessel.followCourse();
+  return vessel;
+}
+
+// The sides of a hull that the origin sees: her port side and her stern, with her middle at (15,
+// 6).
+Cluster sidesOf(double length_m, double beam_m) {
+  const Eigen::Vector2d corner(15.0 - 0.5 * beam_m, 10.0 - 0.5 * length_m);
+  Cluster cluster;
+  for (double off = beam_m; off > 0.0; off -= kSpacingM) {
+    cluster.points.emplace_back(corner.x() + off, corner.y());
+  }
+  for (double off = 0.0; off < length_m; off += kSpacingM) {
+    cluster.points.emplace_back(corner.x(), corner.y() + off);
+  }
+  cluster.beams.resize(cluster.points.size());
+  return cluster;
+}
+
+TEST(TrackedVessel, LearnsHerSizeAndIsNoFasterForIt) {
+  TrackedVessel vessel = northbound();
+  ASSERT_TRUE(vessel.heading_rad);
+  vessel.learnSize(sidesOf(5.0, 2.0), {0.0, 0.0});
+  EXPECT_NEAR(vessel.length_m, 5.0, 0.2);
+  EXPECT_NEAR(vessel.beam_m, 2.0, 0.2);
+  EXPECT_NEAR(vessel.motion.state()[3], 2.0, 1e-9);
+}
+
+// Two abreast that look like one.
+TEST(TrackedVessel, IsNotBroaderThanLong) {
+  TrackedVessel vessel = northbound();
+  vessel.size = TrackedVessel::Size::kSeen;
+  vessel.length_m = 5.0;
+  vessel.beam_m = 2.0;
+  vessel.learnSize(sidesOf(5.5, 9.0), {0.0, 0.0});
+  EXPECT_EQ(vessel.length_m, 5.0);
+  EXPECT_EQ(vessel.beam_m, 2.0);
+}
+
+TEST(TrackedVessel, LiesAlongHerLongerSide) {
+  const std::optional<double> axis = TrackedVessel::axisOf(sidesOf(5.0, 2.0), {0.0, 0.0});
+  ASSERT_TRUE(axis);
+  EXPECT_NEAR(std::abs(unitVector(*axis).y()), 1.0, 0.01);
+  EXPECT_FALSE(TrackedVessel::axisOf(sidesOf(4.0, 3.5), {0.0, 0.0}));  // about as broad as long
+  Cluster cut = sidesOf(5.0, 2.0);
+  cut.out_of_range = true;
+  EXPECT_FALSE(TrackedVessel::axisOf(cut, {0.0, 0.0}));
+}
+
+// What a first course is off by, her sides make good.
+TEST(TrackedVessel, IsMeasuredAlongHerSidesWhereHerCourseIsHardlyKnown) {
+  TrackedVessel vessel = northbound(0.5);
+  vessel.heading_rad = 0.0;
+  vessel.learnSize(sidesOf(5.0, 2.0), {0.0, 0.0});
+  EXPECT_NEAR(vessel.length_m, 5.0, 0.2);
+  EXPECT_NEAR(vessel.beam_m, 2.0, 0.2);
+}
+
+}  // namespace
+}  // namespace otter_nav::traffic
