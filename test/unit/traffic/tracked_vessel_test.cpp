@@ -52,9 +52,11 @@ TEST(TrackedVessel, IsNotBroaderThanLong) {
   vessel.size = TrackedVessel::Size::kSeen;
   vessel.length_m = 5.0;
   vessel.beam_m = 2.0;
-  vessel.learnSize(sidesOf(5.5, 9.0), {0.0, 0.0});
-  EXPECT_EQ(vessel.length_m, 5.0);
-  EXPECT_EQ(vessel.beam_m, 2.0);
+  for (const double beam_m : {6.5, 9.0}) {
+    vessel.learnSize(sidesOf(5.5, beam_m), {0.0, 0.0});
+    EXPECT_EQ(vessel.length_m, 5.0);
+    EXPECT_EQ(vessel.beam_m, 2.0);
+  }
 }
 
 TEST(TrackedVessel, LiesAlongHerLongerSide) {
@@ -71,6 +73,8 @@ TEST(TrackedVessel, LiesAlongHerLongerSide) {
 TEST(TrackedVessel, IsMeasuredAlongHerSidesWhereHerCourseIsHardlyKnown) {
   TrackedVessel vessel = northbound(0.5);
   vessel.heading_rad = 0.0;
+  const Eigen::Vector2d middle = vessel.measure(sidesOf(5.0, 2.0), {0.0, 0.0}).value.head<2>();
+  EXPECT_LT((middle - Eigen::Vector2d(15.0, 10.0)).norm(), 0.1);
   vessel.learnSize(sidesOf(5.0, 2.0), {0.0, 0.0});
   EXPECT_NEAR(vessel.length_m, 5.0, 0.2);
   EXPECT_NEAR(vessel.beam_m, 2.0, 0.2);
