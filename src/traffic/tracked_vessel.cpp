@@ -109,6 +109,11 @@ Middle middleAlong(const Span& span, const View::Hidden& hidden, double eye, boo
   return {from_low ? span.low + half : span.high - half, deviation};
 }
 
+// m/s, either axis.
+double velocityDeviation(const MotionFilter& motion) {
+  return std::sqrt(0.5 * motion.usualCovariance().block<2, 2>(2, 2).trace());
+}
+
 // Of who comes into range abeam only a part is seen, and more with every scan: along `axis`, at a
 // steady distance from her end that is in range.
 double besideTheNearerEnd(const Cluster& cluster, const Eigen::Vector2d& eye,
@@ -151,8 +156,7 @@ bool takeSize(TrackedVessel& vessel, const Cluster& cluster, const View& view, d
 std::optional<double> TrackedVessel::course() const {
   const MotionState x = motion.usualState();
   const double speed = x.segment<2>(2).norm();
-  const double deviation = std::sqrt(0.5 * motion.usualCovariance().block<2, 2>(2, 2).trace());
-  if (speed < kLeastCourseSpeedMps || speed < kCourseSigmas * deviation) {
+  if (speed < kLeastCourseSpeedMps || speed < kCourseSigmas * velocityDeviation(motion)) {
     return std::nullopt;
   }
   return std::atan2(x[3], x[2]);
@@ -301,8 +305,8 @@ std::optional<double> TrackedVessel::axisOf(const Cluster& cluster, const Eigen:
 
 double TrackedVessel::headingDeviation() const {
   const double speed = motion.usualState().segment<2>(2).norm();
-  const double deviation = std::sqrt(0.5 * motion.usualCovariance().block<2, 2>(2, 2).trace());
-  return mmsi != 0 ? 0.0 : std::min(kPi, deviation / std::max(speed, kLeastCourseSpeedMps));
+  const double deviation = velocityDeviation(motion) / std::max(speed, kLeastCourseSpeedMps);
+  return mmsi != 0 ? 0.0 : std::min(kPi, deviation);
 }
 
 std::optional<double> TrackedVessel::headingBySides(const Cluster& cluster) const {

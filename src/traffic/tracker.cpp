@@ -134,8 +134,10 @@ class Tracker::Impl {
         vessel.last_new_s = look.stamp_s;
       }
       vessel.lookedAt(clusters[k], look.stamp_s);
-      if (!clusters[k].shared) {
-        crowded_ ? vessel.learnSizeAmongMany(clusters[k], eye) : vessel.learnSize(clusters[k], eye);
+      if (!clusters[k].shared && crowded_) {
+        vessel.learnSizeAmongMany(clusters[k], eye);
+      } else if (!clusters[k].shared) {
+        vessel.learnSize(clusters[k], eye);
       }
       if (!vessel.confirmed) {
         vessel.unconfirmed_points.insert(vessel.unconfirmed_points.end(),

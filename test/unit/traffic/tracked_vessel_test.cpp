@@ -9,12 +9,14 @@ namespace otter_nav::traffic {
 namespace {
 
 constexpr double kSpacingM = 0.1;
+const Eigen::Vector2d kEye(0.0, 0.0);
+const Eigen::Vector2d kMiddle(15.0, 10.0);
 
 // Northbound at 2 m/s, north-east of the sensor at the origin.
 TrackedVessel northbound(double speed_deviation_mps = 0.1) {
   Measurement first;
   first.has_velocity = true;
-  first.value << 15.0, 10.0, 0.0, 2.0;
+  first.value << kMiddle.x(), kMiddle.y(), 0.0, 2.0;
   first.covariance.diagonal() << 0.1, 0.1, speed_deviation_mps * speed_deviation_mps,
       speed_deviation_mps * speed_deviation_mps;
   TrackedVessel vessel(1, first, 0.0, kLidar);
@@ -22,10 +24,9 @@ TrackedVessel northbound(double speed_deviation_mps = 0.1) {
   return vessel;
 }
 
-// The sides of a hull that the origin sees: her port side and her stern, with her middle at (15,
-// 6).
+// The sides of a hull that the origin sees: her port side and her stern. Her middle is kMiddle.
 Cluster sidesOf(double length_m, double beam_m) {
-  const Eigen::Vector2d corner(15.0 - 0.5 * beam_m, 10.0 - 0.5 * length_m);
+  const Eigen::Vector2d corner = kMiddle - 0.5 * Eigen::Vector2d(beam_m, length_m);
   Cluster cluster;
   for (double off = beam_m; off > 0.0; off -= kSpacingM) {
     cluster.points.emplace_back(corner.x() + off, corner.y());
@@ -40,7 +41,7 @@ Cluster sidesOf(double length_m, double beam_m) {
 TEST(TrackedVessel, LearnsHerSizeAndIsNoFasterForIt) {
   TrackedVessel vessel = northbound();
   ASSERT_TRUE(vessel.heading_rad);
-  vessel.learnSize(sidesOf(5.0, 2.0), {0.0, 0.0});
+  vessel.learnSize(sidesOf(5.0, 2.0), kEye);
   EXPECT_NEAR(vessel.length_m, 5.0, 0.2);
   EXPECT_NEAR(vessel.beam_m, 2.0, 0.2);
   EXPECT_NEAR(vessel.motion.state()[3], 2.0, 1e-9);
@@ -53,30 +54,55 @@ TEST(TrackedVessel, IsNotBroaderThanLong) {
   vessel.length_m = 5.0;
   vessel.beam_m = 2.0;
   for (const double beam_m : {6.5, 9.0}) {
-    vessel.learnSize(sidesOf(5.5, beam_m), {0.0, 0.0});
+    vessel.learnSize(sidesOf(5.5, beam_m), kEye);
     EXPECT_EQ(vessel.length_m, 5.0);
     EXPECT_EQ(vessel.beam_m, 2.0);
   }
 }
 
 TEST(TrackedVessel, LiesAlongHerLongerSide) {
-  const std::optional<double> axis = TrackedVessel::axisOf(sidesOf(5.0, 2.0), {0.0, 0.0});
+  const std::optional<double> axis = TrackedVessel::axisOf(sidesOf(5.0, 2.0), kEye);
   ASSERT_TRUE(axis);
   EXPECT_NEAR(std::abs(unitVector(*axis).y()), 1.0, 0.01);
-  EXPECT_FALSE(TrackedVessel::axisOf(sidesOf(4.0, 3.5), {0.0, 0.0}));  // about as broad as long
+  EXPECT_FALSE(TrackedVessel::axisOf(sidesOf(4.0, 3.5), kEye));  // about as broad as long
   Cluster cut = sidesOf(5.0, 2.0);
   cut.out_of_range = true;
-  EXPECT_FALSE(TrackedVessel::axisOf(cut, {0.0, 0.0}));
+  EXPECT_FALSE(TrackedVessel::axisOf(cut, kEye));
 }
 
 // What a first course is off by, her sides make good.
 TEST(TrackedVessel, IsMeasuredAlongHerSidesWhereHerCourseIsHardlyKnown) {
   TrackedVessel vessel = northbound(0.5);
   vessel.heading_rad = 0.0;
-  const Eigen::Vector2d middle = vessel.measure(sidesOf(5.0, 2.0), {0.0, 0.0}).value.head<2>();
-  EXPECT_LT((middle - Eigen::Vector2d(15.0, 10.0)).norm(), 0.1);
-  vessel.learnSize(sidesOf(5.0, 2.0), {0.0, 0.0});
+  const Eigen::Vector2d middle = vessel.measure(sidesOf(5.0, 2.0), kEye).value.head<2>();
+  EXPECT_LT((middle - kMiddle).norm(), 0.1);
+  vessel.learnSize(sidesOf(5.0, 2.0), kEye);
   EXPECT_NEAR(vessel.length_m, 5.0, 0.2);
+  EXPECT_NEAR(vessel.beam_m, 2.0, 0.2);
+}
+
+// And where they don't, as where she is half in range, that course makes nothing of her.
+TEST(TrackedVessel, IsNotMeasuredAlongACourseThatIsHardlyKnown) {
+  Cluster cut = sidesOf(6.0, 2.0);
+  cut.out_of_range = true;
+  TrackedVessel vessel = northbound(0.7);
+  vessel.hits = 100;
+  vessel.heading_rad = 0.5 * kPi;
+  const Eigen::Vector2d middle = vessel.measure(cut, kEye).value.head<2>();
+  vessel.heading_rad = 0.0;
+  EXPECT_LT((vessel.measure(cut, kEye).value.head<2>() - middle).norm(), 1e-9);
+  const double beam_m = vessel.beam_m;
+  vessel.learnSize(cut, kEye);
+  EXPECT_EQ(vessel.beam_m, beam_m);
+}
+
+TEST(TrackedVessel, ForgetsWhatAWorseHeadingMadeOfHer) {
+  TrackedVessel vessel = northbound();
+  vessel.size = TrackedVessel::Size::kSeen;
+  vessel.length_m = 5.0;
+  vessel.beam_m = 4.0;
+  vessel.sized_within_rad = 0.3;
+  vessel.learnSize(sidesOf(5.0, 2.0), kEye);
   EXPECT_NEAR(vessel.beam_m, 2.0, 0.2);
 }
 

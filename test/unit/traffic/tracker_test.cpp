@@ -34,6 +34,12 @@ vessel::ScriptedVessel passing(Random& random, double passes_s) {
   return {1, hull, false, {middle - passes_s * speed * along, middle + 300.0 * along}, {speed}};
 }
 
+bool isOfTheSizeOf(const Track& track, const vessel::Hull& hull) {
+  constexpr double kOffM = 0.6;
+  return std::abs(track.length_m - hull.length_m) <= kOffM &&
+         std::abs(track.beam_m - hull.beam_m) <= kOffM;
+}
+
 // Beyond the lidar, by a noisy radar that now and then misses and now and then sees what isn't
 // there: confirmed in time, and no surer than it may be. Vessels that never turn are known better
 // than a tracker can claim that has to reckon with turns.
@@ -92,10 +98,7 @@ TEST(TrafficTracker, IsNotMisledByTheFirstCourse) {
     }
     const std::optional<Track> track = sea.trackOf(0);
     const vessel::Hull& hull = sea.scripts[0].hull;
-    wrong_size += std::abs(track->length_m - hull.length_m) > 0.6 ||
-                          std::abs(track->beam_m - hull.beam_m) > 0.6
-                      ? 1
-                      : 0;
+    wrong_size += isOfTheSizeOf(*track, hull) ? 0 : 1;
   }
   EXPECT_LE(wrong_size, 1);
   EXPECT_LT(sum / count, 4.0 + 1.96 * std::sqrt(8.0 / kRuns));
@@ -159,10 +162,7 @@ TEST(TrafficTracker, MeasuresHullsByLidar) {
     confirmed_late += confirmed_s < 0.0 || confirmed_s - seen_s > 3.0 ? 1 : 0;
     ASSERT_GT(count, 0) << run;
     worst = std::max(worst, sum / count);
-    wrong_size += std::abs(last->length_m - vessel.hull.length_m) > 0.6 ||
-                          std::abs(last->beam_m - vessel.hull.beam_m) > 0.6
-                      ? 1
-                      : 0;
+    wrong_size += isOfTheSizeOf(*last, vessel.hull) ? 0 : 1;
   }
   // Those who are slow and in sight from the first scan on take longer: no water is known to have
   // been free, before their bows are in some.
