@@ -95,11 +95,12 @@ bool ReferenceSource::joining(double time_s) const {
   return joins_ && time_s - joining_start_s_ < joining_.duration_s;
 }
 
-void ReferenceSource::rest(const Vector2d& position, double psi_rad) {
+void ReferenceSource::rest(const Vector2d& position, double psi_rad, double free_abeam_m) {
   rests_ = true;
   joins_ = false;
   rest_position_ = position;
   rest_psi_rad_ = psi_rad;
+  rest_free_abeam_m_ = free_abeam_m;
 }
 
 double ReferenceSource::end() const {
@@ -265,6 +266,7 @@ void ReferenceSource::fill(double start_s, double step_s, int stages, double psi
     }
     fillFlat(start_s, step_s, stages, disturbance, reference);
   }
+  reference.free_abeam_m = rests_ ? rest_free_abeam_m_ : 0.0;
   const double turns =
       unwrapNear(reference.states[0][kPsi], psi_near_rad) - reference.states[0][kPsi];
   for (int k = 0; k <= stages; ++k) {

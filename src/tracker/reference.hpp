@@ -27,8 +27,9 @@ class ReferenceSource {
   void join(double now_s, const Eigen::Vector2d& offset, const Eigen::Vector2d& velocity_offset,
             double duration_s);
 
-  // From now on, until the next start(): at rest there, on this heading.
-  void rest(const Eigen::Vector2d& position, double psi_rad);
+  // From now on, until the next start(): at rest there, on this heading; what lies abeam by less
+  // than `free_abeam_m` is not worth turning for.
+  void rest(const Eigen::Vector2d& position, double psi_rad, double free_abeam_m = 0.0);
 
   // Stages at `start_s` + k step_s; psi near `psi_near_rad`, continuous along the horizon, and on
   // the side of the wind that the reference's corridor is on.
@@ -70,6 +71,7 @@ class ReferenceSource {
   bool rests_ = false;
   Eigen::Vector2d rest_position_ = Eigen::Vector2d::Zero();
   double rest_psi_rad_ = 0.0;
+  double rest_free_abeam_m_ = 0.0;
   // The heading's own state, at a time.
   double psi_rad_ = 0.0;
   double psi_time_s_ = 0.0;

@@ -28,6 +28,9 @@ using vessel::kYawRate;
 
 constexpr double kStoppedMps = 0.2;
 constexpr double kStoppedRadps = 0.2;
+// Who has stopped in open water doesn't turn for less: waves take it there and back, and a launch
+// begins better from a hull that lies still.
+constexpr double kNotWorthTurningM = 0.1;
 constexpr double kBrakingShare = 0.6;  // of the thrust astern: how far ahead a stop ends
 // A reference farther from the vessel than this is approached along a curve, on which the offset
 // shrinks at this mean speed.
@@ -306,7 +309,9 @@ vessel::Thrusts PredictiveTracker::track(double now_s, const vessel::State& stat
 
 vessel::Thrusts PredictiveTracker::hold(double now_s, const vessel::State& state,
                                         Command& command) {
-  reference_source_.rest(keeper_.position(), keeper_.heading(now_s, navigator_.disturbance()));
+  const bool is_open = surroundings_ != nullptr && surroundings_->near.points.empty();
+  reference_source_.rest(keeper_.position(), keeper_.heading(now_s, navigator_.disturbance()),
+                         is_open && mode_ != Mode::kHolding ? kNotWorthTurningM : 0.0);
   const auto thrusts =
       controller_.step(now_s, state, last_thrusts_, navigator_, reference_source_, command);
   if (command.reason.empty() && keeper_.weathervaning()) {

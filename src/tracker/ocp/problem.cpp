@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::tracker {
 namespace {
@@ -31,6 +32,21 @@ void ControlProblem::limitRates(const vessel::Thrusts& acting, double rate_nps) 
 
 vessel::Thrusts ControlProblem::clampToBounds(int stage, const vessel::Thrusts& thrusts) const {
   return thrusts.cwiseMax(lower_[stage]).cwiseMin(upper_[stage]);
+}
+
+// A hull without a thruster abeam turns to make good an error there, or backs off and drives ahead
+// again, as a car parks. The share is that of the headings as they are, without its slope by them.
+Eigen::Matrix2d ControlProblem::positionShare(const vessel::State& state,
+                                              const vessel::State& reference,
+                                              double free_abeam_m) const {
+  Eigen::Matrix2d share = Eigen::Matrix2d::Identity();
+  if (free_abeam_m > 0.0) {
+    const Eigen::Vector2d abeam = across(unitVector(state[vessel::kPsi]));
+    const double off_m = std::abs(abeam.dot((state - reference).head<2>()));
+    const double free = off_m > free_abeam_m ? free_abeam_m / off_m : 1.0;
+    share -= free * (1.0 - options_.free_share) * abeam * abeam.transpose();
+  }
+  return share;
 }
 
 // A square of what is missing, by quarter, of the room that the reference has. No more than that is
@@ -86,9 +102,13 @@ void ControlProblem::expand(const Plan& plan, const OcpReference& reference, qp:
       cost.weight_q[0] += weight;
       cost.gradient_q[0] += weight * std::copysign(astray, off);
     }
+    // The diagonal that bounds it stands for the coupling of x and y.
+    const Eigen::Matrix2d share =
+        positionShare(plan.states[k], reference.states[k], reference.free_abeam_m);
+    const Eigen::Vector2d slope = share * g.head<2>();
     for (int i = 0; i < 2; ++i) {
-      cost.weight_p[i] = w[i];
-      cost.gradient_p[i] = g[i];
+      cost.weight_p[i] = w[i] * share.row(i).lpNorm<1>();
+      cost.gradient_p[i] = slope[i];
     }
     if (reference.near != nullptr && k * options_.step_s <= options_.crowded_s) {
       keepOff(plan.states[k], reference.states[k], *reference.near, cost);

@@ -5,7 +5,8 @@
 //
 // Position errors e cost far_m^2 (sqrt(1 + (e / far_m)^2) - 1) times their weight instead
 // (Charbonnier's loss): as e^2 / 2 when near, in proportion when far, so that a vessel blown off
-// its path does not make the problem ever stiffer. x and y weigh alike.
+// its path does not make the problem ever stiffer. x and y weigh alike, but for errors abeam that a
+// reference at rest leaves free.
 #pragma once
 
 #include <array>
@@ -33,12 +34,13 @@ struct OcpOptions {
   vessel::Thrusts lower_n = vessel::Thrusts::Constant(-50.0);
   vessel::Thrusts upper_n = vessel::Thrusts::Constant(50.0);
   double far_m = 1e3;
-  double overspeed = 3e4;  // per (m/s)^2 and second, as the weights before their step
-  double astray = 400.0;   // per rad^2 and second, of a heading outside its corridor
-  double crowded = 1e4;    // per m^2 and second, of what is missing beside the outline
-  double room_m = 0.25;    // that counts there, where the reference has so much
-  double crowded_s = 2.0;  // how far ahead; what comes into sight farther off is the planner's
-  double length_m = 0.0;   // of the hull
+  double overspeed = 3e4;   // per (m/s)^2 and second, as the weights before their step
+  double astray = 400.0;    // per rad^2 and second, of a heading outside its corridor
+  double crowded = 1e4;     // per m^2 and second, of what is missing beside the outline
+  double room_m = 0.25;     // that counts there, where the reference has so much
+  double crowded_s = 2.0;   // how far ahead; what comes into sight farther off is the planner's
+  double free_share = 0.3;  // of the position's weight, within what the reference leaves free
+  double length_m = 0.0;    // of the hull
   double beam_m = 0.0;
 };
 
@@ -62,6 +64,7 @@ struct OcpReference {
   std::array<double, kMaxStages + 1> speed_max_mps;  // over ground; beyond it costs
   std::array<vessel::Thrusts, kMaxStages> thrusts;
   HeadingCorridor corridor;
+  double free_abeam_m = 0.0;            // from the bow's line to either side: not worth turning for
   const NearObstacles* near = nullptr;  // to keep off; none: nothing is known to be near
 };
 
@@ -90,6 +93,10 @@ class ControlProblem {
   void expand(const Plan& plan, const OcpReference& reference, qp::BoxQp& qp) const;
 
  private:
+  // The position's weight as a share of the one in the options, in the earth frame.
+  [[nodiscard]] Eigen::Matrix2d positionShare(const vessel::State& state,
+                                              const vessel::State& reference,
+                                              double free_abeam_m) const;
   void keepOff(const vessel::State& state, const vessel::State& reference,
                const NearObstacles& near, qp::StateCost& cost) const;
 

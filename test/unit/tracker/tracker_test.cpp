@@ -17,6 +17,8 @@
 namespace otter_nav::tracker {
 namespace {
 
+using vessel::kPsi;
+
 const std::string kSource = OTTER_NAV_SOURCE_DIR;
 
 // Tracker and the model as its plant, 100 Hz.
@@ -164,6 +166,47 @@ TEST_F(TrackerTest, RefusesNearObstaclesThatMakeNoSense) {
   const Status many = tracker_->setNearObstacles(near);
   ASSERT_FALSE(many);
   EXPECT_EQ(many.error().message, "501 near obstacles are more than 500");
+}
+
+class Stopped : public TrackerTest {
+ protected:
+  void stop() {
+    const auto otter = vessel::loadParameters(kSource + "/config/vessels/otter.yaml");
+    ASSERT_TRUE(otter) << otter.error().message;
+    vessel_ = *otter;
+    tracker_ = Tracker::create(load(), vessel_);
+    state_.setZero();
+    disturbance_ = {};
+    sail(0.1);
+    tracker_->requestStop("on request");
+    EXPECT_EQ(sail(1.0).mode, Mode::kStopped);
+  }
+
+  // How far the bow is off at most within 20 s of a swell of 0.1 m and 5 s from abeam.
+  double swing(const std::vector<Eigen::Vector2d>& near) {
+    stop();
+    EXPECT_TRUE(tracker_->setNearObstacles({0.0, near}));
+    double most_rad = 0.0;
+    for (int k = 0; k < 200; ++k) {
+      disturbance_.current_mps.y() = 0.125 * std::cos(0.4 * kPi * 0.1 * k);
+      sail(0.1);
+      most_rad = std::max(most_rad, std::abs(state_[kPsi]));
+      EXPECT_LT(state_.head<2>().norm(), 0.3);
+    }
+    return most_rad;
+  }
+};
+
+TEST_F(Stopped, LiesStillInASwellWhereNothingIsNear) {
+  EXPECT_LT(swing({}), 0.4 * swing(wall({-5.0, 1.5}, {5.0, 1.5})));
+}
+
+TEST_F(Stopped, ComesBackFromWhereItWasSetTo) {
+  stop();
+  ASSERT_TRUE(tracker_->setNearObstacles({}));
+  state_.y() += 0.8;
+  sail(30.0);
+  EXPECT_LT(state_.head<2>().norm(), 0.2);
 }
 
 // Abeam of 20 N a hull with 20 kg/s of drag is set aside by 1 m/s: a turn there, as at a launch
