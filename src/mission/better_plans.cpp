@@ -33,13 +33,16 @@ bool BetterPlans::isTooFastForGusts(const Moment& m, const Sailed& sailed) const
          plans_.safety.sailingSpeed(planned_mps) < kWorthShare * planned_mps;
 }
 
+// A plan that begins above its limit slows down after a while: asked for again before, it never
+// would.
 bool BetterPlans::isTooFastForWaves(const Moment& m, const Sailed& sailed) const {
   constexpr double kAgainS = 2.0;
   constexpr double kWorthShare = 0.93;  // of the speed: slowing down for less isn't worth it
   constexpr double kLeftS = 4.0;
   return weather().knowsWaves() && !wasAsked(For::kWaves, m.now_s, kAgainS) &&
          sailed.path.left(m.now_s) > kLeftS &&
-         plans_.safety.speedInWaves() < kWorthShare * fastestAhead(m, sailed);
+         plans_.safety.speedInWaves() <
+             kWorthShare * std::min(fastestAhead(m, sailed), sailed.plan.limits.speed_max_mps);
 }
 
 double BetterPlans::fastestAhead(const Moment& m, const Sailed& sailed) {

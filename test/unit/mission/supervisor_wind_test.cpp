@@ -197,6 +197,25 @@ TEST(SupervisorInWind, PlansSlowerOnceItKnowsWhatWavesTake) {
   EXPECT_GT(taken.sail->speed_max_mps, 2.7);
 }
 
+// Begun above its limit it slows down later; a plan in its place would begin there again.
+TEST(SupervisorInWind, KeepsTheSlowerPlanWhileThatIsStillFast) {
+  ScriptedMission mission(openWater(), knowing());
+  const Swayed found = sailInWaves(mission, 0.25);
+  ASSERT_TRUE(found.plan.has_value());
+  const trajectory::TimedTrajectory& sailed = mission.supervisor->sailed();
+  const Vector2d from =
+      sailed.trajectory.flat(found.plan->start_time_s - sailed.start_time_s).position;
+  ASSERT_TRUE(
+      mission.answer(*found.plan, test::eastward(from, 40.0 - from.x(), found.speed_mps)).sail);
+  for (int k = 0; k < 60; ++k) {
+    mission.now_s += 0.1;
+    Situation situation = mission.situation();
+    situation.state[vessel::kSway] += 0.25 * std::sin(0.25 * k);
+    EXPECT_FALSE(mission.supervisor->update(mission.now_s, situation, mission.obstacles()).plan)
+        << k;
+  }
+}
+
 // What is asked for within that time by a vessel that is set aside by `off_m`.
 std::optional<PlanRequest> sailAside(ScriptedMission& mission, double within_s, double off_m) {
   for (int k = 0; k < static_cast<int>(10.0 * within_s); ++k) {
