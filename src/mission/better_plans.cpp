@@ -75,6 +75,23 @@ bool BetterPlans::passesTooNear(const Moment& m, const Sailed& sailed) const {
              kShare * weather().drift().norm();
 }
 
+bool BetterPlans::passesNearInWideWater(const Moment& m, const Sailed& sailed,
+                                        const Eigen::Vector2d& goal) const {
+  constexpr double kAgainS = 2.0;
+  constexpr double kLeftS = 4.0;
+  if (sailed.plan.level == 0 || sailed.plan.among_others || sailed.plan.in_unknown_water ||
+      plans_.safety.plansWithWeather() || wasAsked(For::kWideWater, m.now_s, kAgainS) ||
+      sailed.path.left(m.now_s) <= kLeftS) {
+    return false;
+  }
+  const map::DistanceField& field = m.obstacles.field();
+  const double wide_m = plans_.safety.widest();
+  const Eigen::Vector2d start = sailed.at(m.now_s + plans_.latency.seconds()).position;
+  return std::min(field.clearance(start), field.clearance(goal)) > wide_m &&
+         WayAhead(m, plans_.safety, vessel_, sailed).leastRoom(sailed.path, m.now_s) <
+             wide_m - kMoreRoomM;
+}
+
 bool BetterPlans::endsOnAWrongHeading(const Moment& m, const Sailed& sailed,
                                       double goal_psi_rad) const {
   constexpr double kWrongRad = 0.7;

@@ -14,10 +14,14 @@
 
 namespace otter_nav::mission {
 
+// So much more room is worth another plan, m.
+constexpr double kMoreRoomM = 0.2;
+
 // What it is made of outlives it.
 class BetterPlans {
  public:
-  enum class For { kThrust, kGusts, kWaves, kRoom, kStop };  // the last: one that begins with it
+  // The last: one that begins with it.
+  enum class For { kThrust, kGusts, kWaves, kRoom, kWideWater, kStop };
 
   BetterPlans(const SupervisorOptions& options, PlanRequests& plans,
               const vessel::Parameters& vessel)
@@ -35,6 +39,10 @@ class BetterPlans {
   // The plan was made before it showed how far gusts and waves set the vessel aside; or where
   // something far off left no room for all that a lost heading takes to leeward.
   [[nodiscard]] bool passesTooNear(const Moment& m, const Sailed& sailed) const;
+  // There was no more room where it began than it keeps all along: what lies ahead it passes nearer
+  // than a plan from here may.
+  [[nodiscard]] bool passesNearInWideWater(const Moment& m, const Sailed& sailed,
+                                           const Eigen::Vector2d& goal) const;
   // It ends on a heading that can't be held there, or not on the goal's though it can. What the
   // weather will be later nobody knows.
   [[nodiscard]] bool endsOnAWrongHeading(const Moment& m, const Sailed& sailed,
@@ -77,7 +85,7 @@ class BetterPlans {
   const SupervisorOptions& options_;
   PlanRequests& plans_;
   const vessel::Parameters& vessel_;
-  double asked_s_[5] = {kNever, kNever, kNever, kNever, kNever};  // last, for what
+  double asked_s_[6] = {kNever, kNever, kNever, kNever, kNever, kNever};  // last, for what
   double planned_s_ = 0.0;
   bool asks_widest_ = true;  // next
 };

@@ -17,8 +17,8 @@ namespace otter_nav::mission {
 enum class From { kRest, kSailed, kVessel };
 
 // What a plan is asked for though the one being sailed is sound: to be there sooner, to leave the
-// waves what they take, or more room for how the vessel wanders.
-enum class Gain { kTime, kThrust, kRoom };
+// waves what they take, more room for how the vessel wanders, or as much as wide water has.
+enum class Gain { kTime, kThrust, kRoom, kClearance };
 
 // A hull at rest that is off the load by less lies bow to it.
 constexpr double kIntoLoadRad = 0.35;

@@ -70,6 +70,10 @@ double Safety::narrowest() const {
   return centreClearance(vessel_.hull, options_.side_clearances_m.back());
 }
 
+double Safety::widest() const {
+  return centreClearance(vessel_.hull, options_.side_clearances_m.front());
+}
+
 stopping::StopLimits Safety::stop(const feasibility::SafetyLimits& planned) const {
   stopping::StopLimits limits = leastStop(planned);
   limits.hull_margin_m =

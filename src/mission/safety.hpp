@@ -76,6 +76,8 @@ class Safety {
 
   // Of the hull's centre, m: no plan is made with less.
   [[nodiscard]] double narrowest() const;
+  // The same of plans on the widest level in calm weather.
+  [[nodiscard]] double widest() const;
   // Of the hull's outline in its planned attitude, m: with less the vessel looks for another way.
   [[nodiscard]] double critical() const { return options_.critical_side_clearance_m; }
   // What a stop should keep, from a trajectory planned to these limits; and what every stop keeps.

@@ -369,6 +369,9 @@ class Decider final : public Supervisor {
   bool lacksThrust(const Moment& m) { return better_.lacksThrust(m, sailed_, replansForLoad()); }
   bool isTooFastForGusts(const Moment& m) { return better_.isTooFastForGusts(m, sailed_); }
   bool isTooFastForWaves(const Moment& m) { return better_.isTooFastForWaves(m, sailed_); }
+  bool passesNearInWideWater(const Moment& m) {
+    return better_.passesNearInWideWater(m, sailed_, goal_.position);
+  }
   bool passesTooNear(const Moment& m) { return better_.passesTooNear(m, sailed_); }
   bool endsOnAWrongHeading(const Moment& m) {
     return better_.endsOnAWrongHeading(m, sailed_, goal_.psi_rad) &&
@@ -545,6 +548,11 @@ class Decider final : public Supervisor {
     better_.chooseWiderLevel(sailed_);
     return improve(m, Gain::kRoom);
   }
+  Orders planInWideWater(const Moment& m) {
+    better_.asked(BetterPlans::For::kWideWater, m.now_s);
+    safety().tryWidest();
+    return improve(m, Gain::kClearance);
+  }
   // A stop first, and from there a plan as from rest, if that is sooner at the goal.
   Orders planByStopping(const Moment& m) {
     better_.asked(BetterPlans::For::kStop, m.now_s);
@@ -570,7 +578,8 @@ class Decider final : public Supervisor {
     return improve(m);
   }
   Orders improve(const Moment& m, Gain gain = Gain::kTime) {
-    if (gain != Gain::kRoom) {  // which is no reason for the weather to wait
+    // More room is no reason for the weather to wait.
+    if (gain != Gain::kRoom && gain != Gain::kClearance) {
       better_.planned(m.now_s);
     }
     Orders orders = planFromSailed(m);
@@ -900,6 +909,7 @@ class Decider final : public Supervisor {
       {kReplanning, &Decider::always, &Decider::planFromSailed},
       {kSailing, &Decider::isTooFastForWaves, &Decider::planSlower},
       {kSailing, &Decider::passesTooNear, &Decider::planWider},
+      {kSailing, &Decider::passesNearInWideWater, &Decider::planInWideWater},
       {kSailing, &Decider::isNeedlesslySlow, &Decider::planFaster},
       {kSailing, &Decider::goesFarRound, &Decider::planByStopping},
       {kSailing, &Decider::mayImprove, &Decider::planToImprove},
@@ -1014,7 +1024,7 @@ class Decider final : public Supervisor {
     if (asked.from == From::kRest && phase_ != Phase::kStopped) {
       return;
     }
-    const bool for_weather = asked.gain ? *asked.gain != Gain::kTime
+    const bool for_weather = asked.gain ? *asked.gain == Gain::kThrust || *asked.gain == Gain::kRoom
                                         : cause_ != Cause::kOther && cause_ != Cause::kClearance;
     ++replans_.all;
     replans_.for_weather += for_weather ? 1 : 0;
@@ -1205,12 +1215,13 @@ class Decider final : public Supervisor {
   }
   Orders takeMoving(const Moment& m, const planner::Plan& plan, const PlanRequests::Asked& asked) {
     constexpr double kLateM = 0.3;
-    constexpr double kImproveShare = 0.05;  // of the time left, that an improvement saves
-    constexpr double kFurtherM = 2.0;       // or leads so much nearer to the goal,
-    constexpr double kFurtherShare = 0.1;   // or of what is left, if that is more
-    constexpr double kRoomShare = 0.95;     // or leaves that much room
-    constexpr double kRoomS = 40.0;         // for so long
-    constexpr double kMoreRoomM = 1.0;      // or so much more to leeward
+    constexpr double kImproveShare = 0.05;   // of the time left, that an improvement saves
+    constexpr double kFurtherM = 2.0;        // or leads so much nearer to the goal,
+    constexpr double kFurtherShare = 0.1;    // or of what is left, if that is more
+    constexpr double kRoomShare = 0.95;      // or leaves that much room
+    constexpr double kRoomS = 40.0;          // for so long
+    constexpr double kMoreToLeewardM = 1.0;  // or so much more to leeward
+    constexpr double kLongerS = 2.0;         // that more room may cost
     TimedTrajectory next{plan.trajectory, asked.request.start_time_s};
     if (!asked.lead.trajectory.empty()) {
       std::vector<trajectory::Piece> pieces = asked.lead.trajectory.pieces();
@@ -1247,10 +1258,16 @@ class Decider final : public Supervisor {
       return safety().plansWithWeather()
                  ? wayAhead(m).leavesRoomOn(next, kRoomShare, kRoomS)
                  : seaRoom(m).toLeeward(next, kRoomS) >=
-                       seaRoom(m).toLeeward(sailed_.path, kRoomS) + kMoreRoomM;
+                       seaRoom(m).toLeeward(sailed_.path, kRoomS) + kMoreToLeewardM;
     };
-    const bool is_better =
-        saves_time || asked.gain == Gain::kThrust || (asked.gain == Gain::kRoom && has_room());
+    const auto uses_wide_water = [&] {
+      return next.left(m.now_s) <= sailed_.path.left(m.now_s) + kLongerS && !lacks_thrust() &&
+             wayAhead(m).leastRoom(next, starts) >=
+                 wayAhead(m).leastRoom(sailed_.path, starts) + kMoreRoomM;
+    };
+    const bool is_better = saves_time || asked.gain == Gain::kThrust ||
+                           (asked.gain == Gain::kRoom && has_room()) ||
+                           (asked.gain == Gain::kClearance && uses_wide_water());
     if (asked.gain && !leads_on && (asked.left_m > sailed_.plan.left_m || !is_better)) {
       return {};
     }

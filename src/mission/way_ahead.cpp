@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "otter_nav/vessel/hull.hpp"
 #include "sea_room.hpp"
@@ -78,6 +79,15 @@ bool WayAhead::leavesRoomOn(const TimedTrajectory& path, double share, double ah
                                     moment_.obstacles.startingAt(path.start_time_s), vessel_,
                                     share * safety_.reach(), true, safety_.weather().mean())
               .found;
+}
+
+double WayAhead::leastRoom(const TimedTrajectory& path, double from_s) const {
+  constexpr double kStepS = 0.1;
+  double least = std::numeric_limits<double>::infinity();
+  for (double t = path.elapsed(from_s); t < path.trajectory.duration(); t += kStepS) {
+    least = std::min(least, moment_.obstacles.field().clearance(path.trajectory.flat(t).position));
+  }
+  return least;
 }
 
 Conflict WayAhead::ofHull(double until_s, double margin_m) const {

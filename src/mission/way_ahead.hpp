@@ -39,6 +39,9 @@ class WayAhead {
   [[nodiscard]] bool leavesRoomOn(const trajectory::TimedTrajectory& path, double share,
                                   double ahead_s) const;
 
+  // Of the hull's centre to what lies still, m, on a path from then on.
+  [[nodiscard]] double leastRoom(const trajectory::TimedTrajectory& path, double from_s) const;
+
  private:
   [[nodiscard]] stopping::Conflict ofHull(double until_s, double margin_m) const;
 

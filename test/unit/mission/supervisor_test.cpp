@@ -504,6 +504,50 @@ TEST(Supervisor, LeavesOffCrawlingWhereAWiderWayLeadsOn) {
   EXPECT_NEAR(clearances[1], m.clearance(m.options.side_clearances_m.size() - 2), 1e-9);
 }
 
+// One narrow place, where it begins, makes a plan narrow all along: past it a wider one is asked
+// for, and taken where it keeps more room beside what lies ahead.
+TEST(Supervisor, KeepsOffWhatLiesInWideWaterOnceTheNarrowPlaceIsBehind) {
+  ScriptedMission m;
+  m.rest << -40.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+  m.put({-41.0, 1.25}, {-35.0, 3.0});
+  m.put({20.0, 1.25}, {21.0, 3.0});
+  std::optional<PlanRequest> asked = m.goTo({40.0, 0.0})->plan;
+  ASSERT_NEAR(asked->query.limits.clearance_m, m.clearance(1), 1e-9);
+  ASSERT_TRUE(m.answer(*asked, test::eastward({-40.0, 0.0}, 80.0, 4.0)).sail);
+  const auto asksAgain = [&]() -> std::optional<PlanRequest> {
+    for (int k = 0; k < 60; ++k) {
+      if (std::optional<PlanRequest> wider = m.update(0.1).plan) {
+        return wider;
+      }
+    }
+    return std::nullopt;
+  };
+  asked = asksAgain();
+  ASSERT_TRUE(asked);
+  EXPECT_GT(m.situation().state.x(), -35.0);
+  EXPECT_NEAR(asked->query.limits.clearance_m, m.clearance(0), 1e-9);
+  EXPECT_FALSE(m.answer(*asked, asked->query.warm_start).sail);
+  vessel::FlatPoint beside;
+  beside.position = {20.5, -1.0};
+  beside.velocity = {4.0, 0.0};
+  vessel::FlatPoint end;
+  end.position = {40.0, 0.0};
+  const auto leadsAside = [&](const vessel::FlatPoint& start, double longer_s) {
+    const double way_s = 0.25 * (beside.position.x() - start.position.x());
+    return trajectory::Trajectory({trajectory::hermitePiece(start, beside, way_s),
+                                   trajectory::hermitePiece(beside, end, 7.0 + longer_s)});
+  };
+  for (const double longer_s : {3.0, 1.0}) {
+    asked = asksAgain();
+    ASSERT_TRUE(asked);
+    EXPECT_EQ(m.answer(*asked, leadsAside(asked->query.start.flat, longer_s)).sail.has_value(),
+              longer_s < 2.0)
+        << longer_s;
+  }
+  EXPECT_EQ(m.supervisor->replans().for_weather, 0);
+  EXPECT_FALSE(asksAgain());
+}
+
 // A plan that was made slow because nobody had seen the water is not sailed slowly for all the way:
 // once it is known, a faster one is asked for, and taken, once.
 TEST(Supervisor, WhatWasPlannedSlowInUnknownWaterIsPlannedAnewOnceItIsKnown) {
