@@ -1178,7 +1178,7 @@ class Decider final : public Supervisor {
   [[nodiscard]] bool setsOutMoving(const Moment& m) {
     constexpr double kMovesMps = 0.25;
     constexpr double kPatienceS = 3.0;
-    if (!safety().mayPlanWithWeather() || vessel::speedOf(m.situation.state) < kMovesMps ||
+    if (vessel::speedOf(m.situation.state) < kMovesMps ||
         m.obstacles.clearance(m.situation.state.head<2>(), m.now_s) < vessel_.hull.length_m) {
       moves_since_s_.reset();
       return false;
