@@ -337,7 +337,7 @@ class Replay(unittest.TestCase):
             env={**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}"}, text=True,
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
         self.addCleanup(self.kill, recorder, port)
-        self.assertTrue(wait_until(lambda: self.size(bag) > 100000, 60), self.size(bag))
+        self.assertTrue(wait_until(lambda: self.size(bag) > 250000, 60), self.size(bag))
         recorder.send_signal(signal.SIGINT)
         output, _ = recorder.communicate(timeout=60)
         self.assertTrue(os.path.exists(bag), output)
