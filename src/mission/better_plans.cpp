@@ -86,9 +86,9 @@ bool BetterPlans::passesNearInWideWater(const Moment& m, const Sailed& sailed,
   }
   const map::DistanceField& field = m.obstacles.field();
   const double wide_m = plans_.safety.widest();
-  const Eigen::Vector2d start = sailed.at(m.now_s + plans_.latency.seconds()).position;
-  return std::min(field.clearance(start), field.clearance(goal)) > wide_m &&
-         WayAhead(m, plans_.safety, vessel_, sailed).leastRoom(sailed.path, m.now_s) <
+  const double starts_s = m.now_s + plans_.latency.seconds();
+  return std::min(field.clearance(sailed.at(starts_s).position), field.clearance(goal)) > wide_m &&
+         WayAhead(m, plans_.safety, vessel_, sailed).leastRoom(sailed.path, starts_s) <
              wide_m - kMoreRoomM;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "otter_nav/vessel/hull.hpp"
 #include "sea_room.hpp"
@@ -82,12 +81,8 @@ bool WayAhead::leavesRoomOn(const TimedTrajectory& path, double share, double ah
 }
 
 double WayAhead::leastRoom(const TimedTrajectory& path, double from_s) const {
-  constexpr double kStepS = 0.1;
-  double least = std::numeric_limits<double>::infinity();
-  for (double t = path.elapsed(from_s); t < path.trajectory.duration(); t += kStepS) {
-    least = std::min(least, moment_.obstacles.field().clearance(path.trajectory.flat(t).position));
-  }
-  return least;
+  return stopping::leastClearance(path.trajectory, path.elapsed(from_s),
+                                  Obstacles(moment_.obstacles.field()));
 }
 
 Conflict WayAhead::ofHull(double until_s, double margin_m) const {

@@ -39,7 +39,7 @@ class WayAhead {
   [[nodiscard]] bool leavesRoomOn(const trajectory::TimedTrajectory& path, double share,
                                   double ahead_s) const;
 
-  // Of the hull's centre to what lies still, m, on a path from then on.
+  // Of the hull's centre beside what lies still, m, on a path from then on.
   [[nodiscard]] double leastRoom(const trajectory::TimedTrajectory& path, double from_s) const;
 
  private:

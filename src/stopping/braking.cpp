@@ -101,17 +101,6 @@ Trajectory slowed(const Trajectory& sailed, double at_s, double duration_s) {
   return Trajectory(std::move(pieces));
 }
 
-double leastClearance(const Trajectory& trajectory, const feasibility::Obstacles& obstacles) {
-  constexpr double kStepS = 0.05;
-  double least = std::numeric_limits<double>::infinity();
-  const int steps = partsOf(trajectory.duration(), kStepS, 0);
-  for (int k = 0; k <= steps; ++k) {
-    const double t = k * kStepS;
-    least = std::min(least, obstacles.clearance(trajectory.flat(t).position, t));
-  }
-  return least;
-}
-
 // Astern, a planned stop leaves part of the thrust to the tracker.
 bool keepsAsternShare(const Trajectory& trajectory, const vessel::Parameters& vessel) {
   constexpr double kShare = 0.9;
@@ -387,7 +376,7 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
       continue;
     }
     const Touch touch = firstTouch(candidate, 0.0, ahead, vessel, stop.off);
-    const double clearance = leastClearance(candidate, ahead);
+    const double clearance = leastClearance(candidate, 0.0, ahead);
     const double path_m =
         (candidate.flat(candidate.duration()).position - here.flat.position).norm();
     const Follows followed = follows(candidate);

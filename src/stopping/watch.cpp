@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "otter_nav/base/angles.hpp"
+#include "otter_nav/base/parts.hpp"
 #include "otter_nav/feasibility/clearance_walk.hpp"
 #include "otter_nav/stopping/back_off.hpp"
 #include "otter_nav/vessel/hull.hpp"
@@ -86,6 +87,17 @@ Conflict firstConflict(const Trajectory& trajectory, double from_s, const Obstac
     }
   }
   return {};
+}
+
+double leastClearance(const Trajectory& trajectory, double from_s, const Obstacles& obstacles) {
+  constexpr double kStepS = 0.05;
+  double least = std::numeric_limits<double>::infinity();
+  const int steps = partsOf(trajectory.duration() - from_s, kStepS, 0);
+  for (int k = 0; k <= steps; ++k) {
+    const double t = from_s + k * kStepS;
+    least = std::min(least, obstacles.clearance(trajectory.flat(t).position, t));
+  }
+  return least;
 }
 
 Conflict outlineConflict(const Trajectory& trajectory, double from_s, double to_s,

@@ -23,6 +23,10 @@ struct Conflict {
 [[nodiscard]] Conflict firstConflict(const trajectory::Trajectory& trajectory, double from_s,
                                      const feasibility::Obstacles& obstacles, double clearance_m);
 
+// The least, m, that the hull's centre has from `from_s` on, in steps of 0.05 s.
+[[nodiscard]] double leastClearance(const trajectory::Trajectory& trajectory, double from_s,
+                                    const feasibility::Obstacles& obstacles);
+
 // How the hull truly lies beside where a trajectory has it: the tracker makes that good within a
 // few seconds.
 struct Off {
