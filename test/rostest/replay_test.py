@@ -247,6 +247,16 @@ class Replay(unittest.TestCase):
         for order in ("/thruster_command", "/trajectory"):
             self.assertNotIn(order, published)
 
+    def until(self, name, bag, **ends):
+        """What was sent by then, of the topics named."""
+        path = self.path(name)
+        with rosbag.Bag(bag) as source, rosbag.Bag(path, "w") as target:
+            for topic, message, t, header in source.read_messages(return_connection_header=True):
+                end = ends.get(topic[1:], math.inf)
+                if not message._has_header or message.header.stamp.to_sec() <= end:
+                    target.write(topic, message, t, connection_header=header)
+        return path
+
     def damaged(self, bag):
         with open(bag, "rb") as file:
             whole = file.read()
@@ -263,18 +273,19 @@ class Replay(unittest.TestCase):
         self.assertIn("cut off", done.stdout)
 
         # The recorder had the last two steps before the odometry that they were made with.
-        early = self.path("early.bag")
-        with rosbag.Bag(bag) as source, rosbag.Bag(early, "w") as target:
-            for topic, message, t, header in source.read_messages(return_connection_header=True):
-                end = {"/odom": 5.004, "/tracker_cycle": 5.024}.get(topic, math.inf)
-                if message._has_header and message.header.stamp.to_sec() > end:
-                    continue
-                target.write(topic, message, t, connection_header=header)
+        early = self.until("early.bag", bag, odom=5.004, tracker_cycle=5.024)
+        done, figures, rows = self.replay(early)
+        self.assertIn("the last 2 steps are left out", done.stdout, done.stderr)
+        self.assertLess(figures["difference_max_n"], SAME_N)
         with open(early, "rb+") as file:
             file.truncate(os.path.getsize(early) - 1000)
         done, figures, rows = self.replay(early, "--partial")
         self.assertIn("the last 2 steps are left out", done.stdout)
         self.assertLess(figures["difference_max_n"], SAME_N)
+        # Odometry that ends seconds before the steps do is a hole.
+        done, _, _ = self.replay(self.until("blind.bag", bag, odom=5.004, tracker_cycle=7.0))
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("at 5.010 s", done.stderr)
 
         hole = self.path("hole.bag")
         with rosbag.Bag(bag) as source, rosbag.Bag(hole, "w") as target:

@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -23,6 +24,7 @@ namespace {
 using ros_bridge::BagMessage;
 
 constexpr double kJumpBackS = 1.0;  // a clock set back by more begins another run
+constexpr double kRunsDownS = 1.0;  // the nodes of a run that is ended go down within this
 
 std::string lastName(const std::string& topic) {
   return topic.substr(topic.rfind('/') + 1);
@@ -256,8 +258,9 @@ bool has(const std::vector<Recorded>& all, std::uint32_t id) {
 }
 
 // The recorder may have had a step before what the step was made with; where the recording ends in
-// between, the step has nothing to be made with.
-void endWithWhatIsThere(RecordedRun& run) {
+// between, the step has nothing to be made with. A run that is ended does so as well: a node that
+// goes down may have served the tracker and not the recorder. Longer than `longest_s` it is a hole.
+void endWithWhatIsThere(RecordedRun& run, double longest_s) {
   const double end_s = run.odometry.empty() ? 0.0 : run.odometry.back().stamp_s;
   const auto isThere = [&](const RecordedCycle& cycle) {
     return cycle.odometry_stamp_s <= end_s && has(run.orders, cycle.order_taken) &&
@@ -265,7 +268,8 @@ void endWithWhatIsThere(RecordedRun& run) {
   };
   const auto last = std::find_if(run.cycles.rbegin(), run.cycles.rend(), isThere);
   const auto left_out = std::distance(run.cycles.rbegin(), last);
-  if (left_out > 0 && last != run.cycles.rend()) {
+  if (left_out > 0 && last != run.cycles.rend() &&
+      run.cycles.back().time_s - last->time_s <= longest_s) {
     run.notes.push_back("the last " + std::to_string(left_out) +
                         " steps are left out: what they were made with came later");
     run.cycles.erase(last.base(), run.cycles.end());
@@ -361,8 +365,8 @@ Result<RecordedRun> readRun(const std::string& path, const ReadOptions& options)
   RecordedRun run = std::move(runs[static_cast<std::size_t>(options.run - 1)]);
   if (!note->empty()) {
     run.notes.push_back(*note);
-    endWithWhatIsThere(run);
   }
+  endWithWhatIsThere(run, note->empty() ? kRunsDownS : std::numeric_limits<double>::infinity());
   if (runs.size() > 1) {
     run.notes.push_back("it holds " + std::to_string(runs.size()) + " runs; this is number " +
                         std::to_string(options.run));

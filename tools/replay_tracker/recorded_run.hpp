@@ -59,7 +59,7 @@ struct RecordedRun {
   std::string vessel;      // its file, YAML; empty if not recorded
   bool lockstep = true;    // by `parameters`
   bool from_commands = false;
-  std::vector<std::string> notes;  // what is missing, for who asked for a part
+  std::vector<std::string> notes;  // what is missing
 };
 
 struct ReadOptions {
