@@ -55,16 +55,39 @@ def read_csv(path, columns):
     return {name: data[:, k] for k, name in enumerate(names)}
 
 
+def read_missions(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            missions = json.load(file)["missions"]
+        for key in ("scenario", "mission", "seed", "vessel", "outcome"):
+            [mission[key] for mission in missions]
+        return missions
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        why = getattr(error, "strerror", None) or f"no result of missions ({error})"
+        sys.exit(f"judge_encounters: {path}: {why}")
+
+
+def read_scenario(folder, name):
+    path = os.path.join(folder, name + ".yaml")
+    try:
+        with open(path, encoding="utf-8") as file:
+            return yaml.safe_load(file)
+    except (OSError, yaml.YAMLError) as error:
+        sys.exit(f"judge_encounters: {path}: {getattr(error, 'strerror', None) or error}")
+
+
 def find(named, folder):
-    """A file as named, beside the result, or in a folder below it."""
+    """A file as named, beside the result, or the only one of its name in a folder below it."""
     base = os.path.basename(named)
     for place in (named, os.path.join(folder, named), os.path.join(folder, base)):
         if os.path.isfile(place):
             return place
-    for parent, _, files in os.walk(folder or "."):
-        if base in files:
-            return os.path.join(parent, base)
-    sys.exit(f"judge_encounters: {named}: no such file, nor one of its name in '{folder or '.'}'")
+    below = [os.path.join(parent, base) for parent, _, files in os.walk(folder or ".") if base in files]
+    if not below:
+        sys.exit(f"judge_encounters: {named}: no such file, nor one of its name in '{folder or '.'}'")
+    if len(below) > 1:
+        sys.exit(f"judge_encounters: {named}: no such file, and several of its name: {', '.join(below)}")
+    return below[0]
 
 
 class Track:
@@ -450,16 +473,12 @@ def main():
     lost, scores, contacts, near_misses, arrivals, count = [], [], 0, 0, 0, 0
     faults, judged = [], []
     for path in arguments.json:
-        with open(path, encoding="utf-8") as file:
-            entries = json.load(file)["missions"]
-        for entry in entries:
+        for entry in read_missions(path):
             name = entry["scenario"]
             if name not in scenarios:
-                with open(os.path.join(arguments.scenarios, name + ".yaml"),
-                          encoding="utf-8") as file:
-                    scenarios[name] = yaml.safe_load(file)
+                scenarios[name] = read_scenario(arguments.scenarios, name)
             run, arrived, late, wrong = judge_mission(
-                entry, scenarios[name], os.getcwd(), hull)
+                entry, scenarios[name], os.path.dirname(path), hull)
             count += 1
             arrivals += arrived
             faults += [f"{name} {entry['mission']}: {w}" for w in wrong]

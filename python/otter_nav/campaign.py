@@ -198,7 +198,11 @@ def _worst_missions(page, found, charts, pictures):
     for path, mission in order:
         if len(drawn) == _WORST:
             break
-        if find_track(mission, os.path.dirname(os.path.abspath(path))) is None:
+        try:
+            if find_track(mission, os.path.dirname(os.path.abspath(path))) is None:
+                continue
+        except RecordingError as error:
+            print(f"left out: {path}: {error}", file=sys.stderr)
             continue
         title = (f"{_name(mission)}: {mission.get('outcome')}, "
                  f"{_largest_error(mission):.2f} m at most")

@@ -34,7 +34,8 @@ def load_missions(path):
 
 
 def find_track(mission, folder):
-    """The track's file as named, beside the result, or in a folder below it; None without."""
+    """The track's file as named, beside the result, or the only one of its name in a folder below it;
+    None without."""
     named = mission.get("track") or ""
     if not named:
         return None
@@ -42,10 +43,10 @@ def find_track(mission, folder):
     for candidate in (named, os.path.join(folder, named), os.path.join(folder, base)):
         if os.path.isfile(candidate):
             return candidate
-    for parent, _, files in os.walk(folder):
-        if base in files:
-            return os.path.join(parent, base)
-    return None
+    below = [os.path.join(parent, base) for parent, _, files in os.walk(folder) if base in files]
+    if len(below) > 1:
+        raise RecordingError(f"track {named}: is not there, and several have its name: {', '.join(below)}")
+    return below[0] if below else None
 
 
 def load_track(path):

@@ -1,9 +1,13 @@
 """The judge of encounters on tracks whose figures are known."""
+import contextlib
 import importlib.util
+import io
+import json
 import math
 import os
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -74,6 +78,41 @@ class Judge(unittest.TestCase):
                 file.write("t,x,y,psi\n0,0,-200,1.57\n200,0,-199,1.57\n")
             arrived = judge.judge_mission(entry, scenario, folder, (2.0, 1.08))[1]
             self.assertTrue(arrived)
+
+    def test_judges_the_tracks_beside_the_result(self):
+        entry = {"scenario": "sea", "mission": 0, "seed": 1, "vessel": "otter", "outcome": "arrived",
+                 "track": "run/own.csv"}
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "sea.yaml"), "w") as file:
+                json.dump({"missions": [MISSION]}, file)
+            results = []
+            for name, end in (("a", 0), ("b", 200)):
+                os.mkdir(os.path.join(folder, name))
+                with open(os.path.join(folder, name, "own.csv"), "w") as file:
+                    file.write("t,x,y,psi\n" + "".join(f"{t},0,{end * t / 200 - 200},1.57\n"
+                                                       for t in range(401)))
+                results.append(os.path.join(folder, name, "result.json"))
+                with open(results[-1], "w") as file:
+                    json.dump({"missions": [entry]}, file)
+            claims = ["arrival claimed" in self.say(folder, result) for result in results]
+            self.assertEqual(claims, [True, False])
+            # Of two of that name below it, either may be another's.
+            above = os.path.join(folder, "above.json")
+            with open(above, "w") as file:
+                json.dump({"missions": [entry]}, file)
+            for result in (above, os.path.join(folder, "none.json"), os.path.join(folder, "sea.yaml")):
+                with self.assertRaisesRegex(SystemExit, "several" if result == above else result):
+                    self.say(folder, result)
+            with self.assertRaisesRegex(SystemExit, "elsewhere/sea.yaml"):
+                self.say(os.path.join(folder, "elsewhere"), results[0])
+
+    @staticmethod
+    def say(scenarios, result):
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), mock.patch("sys.argv", [
+                "judge_encounters.py", "--scenarios", scenarios, "--json", result]):
+            judge.main()
+        return said.getvalue()
 
     def test_scores(self):
         for r, score in ((12, 1.0), (10, 1.0), (6, 0.625), (3, 0.0), (8, 0.8125), (0, 0.0)):

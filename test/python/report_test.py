@@ -4,6 +4,7 @@ import io
 import json
 import os
 import re
+import shutil
 import tempfile
 import unittest
 from unittest import mock
@@ -111,6 +112,17 @@ class ReportTest(unittest.TestCase):
                           ["--result", path, "--run", "5"], ["--campaign", self.folder + "/none"]):
             self.assertEqual(report([*arguments, "--out", self.out]), 1, arguments)
             self.assertFalse(os.path.exists(self.out))
+
+    def test_takes_no_other_missions_track(self):
+        path = synthetic.write_result(self.folder, 2)
+        track = os.path.join(self.folder, "tracks", "pond_0.csv")
+        os.mkdir(os.path.join(self.folder, "other"))
+        shutil.copy(track, os.path.join(self.folder, "other"))
+        self.assertEqual(report(["--result", path, "--out", self.out]), 1)
+        _, _, figures = self.make("--campaign", self.folder)
+        self.assertEqual(figures["missions"]["count"], 2)
+        shutil.move(track, self.folder)
+        self.assertEqual(report(["--result", path, "--out", self.out]), 0)
 
     def test_never_writes_over_its_source(self):
         path = synthetic.write_result(self.folder)
