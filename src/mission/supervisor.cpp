@@ -444,7 +444,27 @@ class Decider final : public Supervisor {
     return planFromSailed(m);
   }
   Orders planFromRest(const Moment& m) {
-    return {plans_.fromRest(m.now_s, withoutSwing(m), goal_, m.obstacles), {}, false};
+    return {plans_.fromRest(m.now_s, whereItIsHeld(m), goal_, m.obstacles), {}, false};
+  }
+  // Near something what begins from rest begins where the hull is held, not where a swing has it:
+  // else each way that is begun and broken off holds it a centimetre farther down the wind than the
+  // one before, and at last onto what lies there.
+  [[nodiscard]] vessel::State whereItIsHeld(const Moment& m) const {
+    constexpr double kOffM = 0.1;
+    constexpr double kOffRad = 0.1;
+    vessel::State x = withoutSwing(m);
+    if (sailed_.isEmpty() || !sailed_.isAtTheEnd(m.now_s) ||
+        m.obstacles.clearance(x.head<2>(), m.now_s) > vessel_.hull.length_m) {
+      return x;
+    }
+    const Trajectory& path = sailed_.path.trajectory;
+    const vessel::State held = path.sample(path.duration(), vessel_).state;
+    const vessel::State& now = m.situation.state;
+    if ((now - held).head<2>().norm() < kOffM &&
+        std::abs(wrapAngle(now[vessel::kPsi] - held[vessel::kPsi])) < kOffRad) {
+      x.head<3>() = held.head<3>();
+    }
+    return x;
   }
   // Nothing if the vessel is about to come to rest: what comes then is for the rules at the
   // trajectory's end, or for the brake.

@@ -181,6 +181,48 @@ TEST(Supervisor, StopsInTimeWithoutAPlanAndGoesOnFromRest) {
   EXPECT_EQ(mission.supervisor->replans().for_weather, 0);
 }
 
+// At rest before a wall 10 m away: a way that was begun and broken off at once, with the hull off
+// the place where it is held, would hold it where it was then.
+TEST(Supervisor, BeginsNearSomethingWhereItIsHeldWhateverTheSwing) {
+  struct Case {
+    Eigen::Vector2d off_m;  // of the place, ahead and to port
+    double off_rad;
+    bool is_near;         // the wall is still there
+    bool begins_at_rest;  // where it is held
+  };
+  const Case cases[] = {{{0.0, 0.0}, 0.0, true, true},     {{0.08, 0.0}, 0.0, true, true},
+                        {{-0.05, 0.06}, 0.08, true, true}, {{0.12, 0.0}, 0.0, true, false},
+                        {{0.05, 0.0}, 0.12, true, false},  {{0.08, 0.0}, 0.0, false, false}};
+  for (const Case& c : cases) {
+    ScriptedMission mission;
+    mission.setOut(6.0);
+    mission.put({5.0, -40.0}, {6.0, 40.0});
+    for (int k = 0; k < 400 && mission.supervisor->phase() != Phase::kStopped; ++k) {
+      const Orders orders = mission.update(0.1);
+      if (orders.plan) {
+        (void)mission.refuse(*orders.plan, "walled in");
+      }
+    }
+    ASSERT_EQ(mission.supervisor->phase(), Phase::kStopped);
+    Situation swung = mission.situation();
+    const Eigen::Vector3d held = swung.state.head<3>();
+    ASSERT_LT(mission.field.clearance(held.head<2>()), vessel::Hull{}.length_m);
+    if (!c.is_near) {
+      mission.grid = test::openWater();
+      mission.field = test::fieldOf(mission.grid);
+    }
+    swung.state += (vessel::State() << c.off_m, c.off_rad, 0.1, 0.0, 0.0).finished();
+    mission.now_s += 0.1;
+    swung.odometry_stamp_s = mission.now_s;
+    const Orders orders = mission.supervisor->update(mission.now_s, swung, mission.obstacles());
+    ASSERT_TRUE(orders.plan);
+    const Eigen::Vector2d begins = orders.plan->query.start.flat.position;
+    const Eigen::Vector2d wanted =
+        c.begins_at_rest ? held.head<2>().eval() : swung.state.head<2>().eval();
+    EXPECT_LT((begins - wanted).norm(), 1e-9) << c.off_m.transpose() << ", " << c.off_rad;
+  }
+}
+
 TEST(Supervisor, GivesUpSafelyWhenTheGoalIsWalledOff) {
   ScriptedMission mission;
   mission.setOut(6.0);
