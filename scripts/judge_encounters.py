@@ -59,12 +59,13 @@ def read_missions(path):
     try:
         with open(path, encoding="utf-8") as file:
             missions = json.load(file)["missions"]
-        for key in ("scenario", "mission", "seed", "vessel", "outcome"):
-            [mission[key] for mission in missions]
-        return missions
+        needed = {"scenario", "mission", "seed", "vessel", "outcome"}
+        lacking = sorted(set().union(*(needed - set(mission) for mission in missions)))
     except (OSError, ValueError, LookupError, TypeError) as error:
-        why = getattr(error, "strerror", None) or f"no result of missions ({error})"
-        sys.exit(f"judge_encounters: {path}: {why}")
+        sys.exit(f"judge_encounters: {path}: {getattr(error, 'strerror', None) or 'no result of missions'}")
+    if lacking:
+        sys.exit(f"judge_encounters: {path}: a mission without {', '.join(lacking)}")
+    return missions
 
 
 def read_scenario(folder, name):
