@@ -181,8 +181,8 @@ TEST(Supervisor, StopsInTimeWithoutAPlanAndGoesOnFromRest) {
   EXPECT_EQ(mission.supervisor->replans().for_weather, 0);
 }
 
-// At rest before a wall 10 m away: a way that was begun and broken off at once, with the hull off
-// the place where it is held, would hold it where it was then.
+// At rest close to a wall: a way begun with the hull off the place where it is held, and broken off
+// at once, would hold it where it was then.
 TEST(Supervisor, BeginsNearSomethingWhereItIsHeldWhateverTheSwing) {
   struct Case {
     Eigen::Vector2d off_m;  // of the place, ahead and to port
