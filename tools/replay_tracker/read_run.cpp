@@ -271,7 +271,7 @@ void endWithWhatIsThere(RecordedRun& run, double longest_s) {
   if (left_out > 0 && last != run.cycles.rend() &&
       run.cycles.back().time_s - last->time_s <= longest_s) {
     run.notes.push_back("the last " + std::to_string(left_out) +
-                        " steps are left out: what they were made with came later");
+                        " steps are left out: what they were made with is not in the recording");
     run.cycles.erase(last.base(), run.cycles.end());
   }
 }
