@@ -9,10 +9,11 @@
 
 namespace otter_nav::mission {
 
-bool Driven::liesOffALeeShore(const Moment& m, int stops) {
+bool Driven::liesOffALeeShore(const Moment& m, int stops, bool to_wait) {
   constexpr double kShorterM = 0.5;
   const feasibility::Obstacles now = m.obstacles.startingAt(m.now_s);
-  room_m_ = safety_.weather().isKnown() ? SeaRoom(m, safety_, vessel_.hull).toMake(stops) : 0.0;
+  room_m_ =
+      safety_.weather().isKnown() ? SeaRoom(m, safety_, vessel_.hull).toMake(stops, to_wait) : 0.0;
   // The bow comes farther than the centre, and something may move.
   while (room_m_ != 0.0 && !stopping::backOffIsClear(legToMakeIt(m), 0.0, now, vessel_)) {
     room_m_ = std::copysign(std::max(0.0, std::abs(room_m_) - kShorterM), room_m_);

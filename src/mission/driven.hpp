@@ -20,8 +20,9 @@ class Driven {
       : safety_(safety), vessel_(vessel) {}
 
   // Bow or stern to it, with something near, or to leeward nearer than a lost heading takes, and a
-  // better place ahead or astern. It had to stop so often hereabouts.
-  [[nodiscard]] bool liesOffALeeShore(const Moment& m, int stops);
+  // better place ahead or astern. It had to stop so often hereabouts, and looks for a place to set
+  // out from, or for a wider one to wait in.
+  [[nodiscard]] bool liesOffALeeShore(const Moment& m, int stops, bool to_wait);
   // So far ahead, m (negative: astern), as it was found last; and the way there.
   [[nodiscard]] double roomToMake() const { return room_m_; }
   [[nodiscard]] trajectory::Trajectory legToMakeIt(const Moment& m) const;

@@ -45,39 +45,41 @@ double SeaRoom::toLeeward(const trajectory::TimedTrajectory& path, double ahead_
   return room;
 }
 
-double SeaRoom::toMake(int stops) const {
-  constexpr double kLeewardM = 4.0;
-  constexpr double kRoundM = 1.0;
-  constexpr double kRoundInStrongM = 3.0;  // a gust sets aside to all sides
-  constexpr double kRoundAgainM = 0.7;     // more, each time it had to stop again hereabouts
-  constexpr double kRoundMostM = 4.0;
-  constexpr double kFarthestM = 6.0;
+double SeaRoom::toMake(int stops, bool to_wait) const {
+  struct Wanted {
+    double leeward_m, round_m, again_m, round_most_m, farthest_m;
+  };
+  constexpr Wanted kInWind = {4.0, 1.0, 0.7, 4.0, 6.0};
+  constexpr Wanted kInStrongWind = {4.0, 3.0, 0.7, 4.0, 6.0};
+  // The hardest gust may be yet to come, and a current carries the hull across it meanwhile.
+  constexpr Wanted kToWaitInIt = {8.0, 3.0, 2.0, 9.0, 12.0};
+  constexpr double kLeastM = 1.0;  // of drift
   constexpr double kStepM = 0.5;
   constexpr double kWorthM = 0.7;
   constexpr double kIntoCosine = 0.7;
   const bool strong = weather().isStrong();
+  const Wanted& wanted = !strong ? kInWind : to_wait ? kToWaitInIt : kInStrongWind;
   const Eigen::Vector2d drift = weather().drift();
-  const double far = std::min(drift.norm(), kLeewardM);
+  const double far = std::min(drift.norm(), wanted.leeward_m);
   const Eigen::Vector2d place = moment_.situation.state.head<2>();
   const Eigen::Vector2d bow = unitVector(windward());
-  const double at_first = strong ? kRoundInStrongM : kRoundM;
-  const double round = std::min(kRoundMostM, at_first + kRoundAgainM * stops);
+  const double round = std::min(wanted.round_most_m, wanted.round_m + wanted.again_m * stops);
   const double along = std::abs(bow.dot(drift));
-  if (far < kRoundM || along < kIntoCosine * drift.norm()) {
+  if (far < kLeastM || along < kIntoCosine * drift.norm()) {
     return 0.0;
   }
   const auto room = [&](const Eigen::Vector2d& position) {
     return toLeeward(position, far) + std::min(clearance(position) - safety_.narrowest(), round);
   };
   // Where a gust sets it aside on the way it goes by nothing that is nearer than what it lies off.
-  const double least = strong ? kRoundInStrongM : safety_.narrowest();
+  const double least = strong ? kInStrongWind.round_m : safety_.narrowest();
   const double enough = far + round;
   const double here = clearance(place);
   double best = 0.0;
   double most = room(place) + kWorthM;
   for (const double side : {1.0, -1.0}) {
     double found = 0.0;
-    for (double s = kStepM; s <= kFarthestM && most < enough; s += kStepM) {
+    for (double s = kStepM; s <= wanted.farthest_m && most < enough; s += kStepM) {
       const Eigen::Vector2d there = place + side * s * bow;
       if (clearance(there) < std::min(here, least)) {
         break;

@@ -27,8 +27,8 @@ class SeaRoom {
   [[nodiscard]] double toLeeward(const trajectory::TimedTrajectory& path, double ahead_s) const;
   // How far ahead of a vessel that lies along what pushes, m (negative: astern), there is enough
   // room round it and to leeward, or most; 0 where it has that already, or there is no better
-  // place. It had to stop so often hereabouts.
-  [[nodiscard]] double toMake(int stops) const;
+  // place. It had to stop so often hereabouts; to wait in strong wind takes more than to set out.
+  [[nodiscard]] double toMake(int stops, bool to_wait) const;
   // So far from there, bow to what pushes, or stern in strong wind.
   [[nodiscard]] trajectory::Trajectory leg(const Eigen::Vector2d& from, double ahead_m) const;
 

@@ -312,7 +312,10 @@ class Decider final : public Supervisor {
   bool isSetAside(const Moment& m) { return following_.isSetAside(m, sailed_); }
   // It had to stop hereabouts before: in such a wind it waits longer each time, for less of it.
   bool waitsForLessWind(const Moment& m) { return weather().isStrong() && m.now_s < calmer_by_s_; }
-  bool liesOffALeeShore(const Moment& m) { return driven_.liesOffALeeShore(m, retries_.stops()); }
+  static constexpr int kRoomsMost = 3;  // made before another plan is sailed; more lead nowhere
+  bool liesOffALeeShore(const Moment& m) {
+    return driven_.liesOffALeeShore(m, retries_.stops(), rooms_made_ < kRoomsMost);
+  }
   // So in strong wind, whether it lies still or not: holding the place against a gust takes the
   // moment that holds the heading, and to windward there is a way out.
   bool isDrivenAshore(const Moment& m) { return weather().isStrong() && liesOffALeeShore(m); }
@@ -813,7 +816,6 @@ class Decider final : public Supervisor {
     return retries_.roundLost(m.now_s) ? Orders{} : enter(Phase::kFailed, faultOf(m));
   }
   Orders restBeforeTheGoal(const Moment& m) {
-    constexpr int kRoomsMost = 3;  // before another plan is sailed; then it leads nowhere
     const bool backed_off = phase_ == Phase::kBackingOff && !is_aside_ && !makes_room_ && !escapes_;
     // No stop that counts: the one before it did.
     if (is_aside_ || ((makes_room_ || backed_off) && ++rooms_made_ <= kRoomsMost)) {

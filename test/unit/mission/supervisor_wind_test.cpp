@@ -1132,6 +1132,52 @@ TEST(SupervisorInWind, MakesMoreRoomInStrongWind) {
   }
 }
 
+// With 4.6 m beside it there is room to set out from, and too little to wait in for what gusts
+// are yet to come. Set back each time it leaves it at that: it must not use up its stops.
+TEST(SupervisorInWind, MakesRoomToWaitInOnceItHadToStop) {
+  for (const bool had_to_stop : {false, true}) {
+    ScriptedMission mission = inWind(8.0);
+    mission.setOut(6.0);
+    if (!had_to_stop) {
+      (void)mission.supervisor->cancel(mission.now_s, mission.situation(), mission.field);
+    }
+    for (int k = 0; k < 200 && mission.supervisor->phase() != Phase::kStopping &&
+                    mission.supervisor->phase() != Phase::kIdle;
+         ++k) {
+      mission.now_s += 0.1;
+      Situation aside = mission.situation();
+      aside.tracking_error_m = had_to_stop ? 3.0 : 0.0;
+      const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
+      if (orders.plan) {
+        (void)mission.refuse(*orders.plan, "no");
+      }
+    }
+    Situation lies = mission.situation();
+    lies.state[vessel::kPsi] = kPi;
+    lies.state.tail<3>().setZero();
+    const Vector2d here = lies.state.head<2>();
+    mission.put(here + Vector2d(0.0, 4.6), here + Vector2d(5.0, 8.0));
+    int rooms = 0;
+    bool plans = false;
+    for (int k = 0; k < 2000 && !plans; ++k) {
+      mission.now_s += 0.1;
+      lies.odometry_stamp_s = mission.now_s;
+      const bool on_leg = mission.supervisor->phase() == Phase::kBackingOff;
+      const Orders orders = mission.supervisor->update(
+          mission.now_s, on_leg ? mission.situation() : lies, mission.field);
+      rooms += orders.sail && mission.supervisor->phase() == Phase::kBackingOff ? 1 : 0;
+      plans = orders.plan.has_value();
+      if (mission.supervisor->phase() == Phase::kIdle) {
+        plans = mission.supervisor->setGoal(mission.now_s, {{40.0, 0.0}, 0.0}, lies, mission.field)
+                    ->plan.has_value();
+      }
+    }
+    EXPECT_TRUE(plans) << mission.supervisor->reason();
+    EXPECT_EQ(rooms, had_to_stop ? 3 : 0);
+    EXPECT_EQ(mission.supervisor->stops(), had_to_stop ? 1 : 0);
+  }
+}
+
 // To windward, whether that is ahead or astern.
 TEST(SupervisorInWind, MakesRoomSternToTheWindToo) {
   for (const double psi : {kPi, 0.0, 0.2}) {
