@@ -1271,8 +1271,7 @@ class Decider final : public Supervisor {
                  kOvertaxedLongerS;
     };
     const bool saves_time =
-        late + next.trajectory.duration() <= (1.0 - kImproveShare) * sailed_.path.left(m.now_s) &&
-        !lacks_thrust();
+        next.left(m.now_s) <= (1.0 - kImproveShare) * sailed_.path.left(m.now_s) && !lacks_thrust();
     const double further_m = std::max(kFurtherM, kFurtherShare * sailed_.plan.left_m);
     const bool leads_on = asked.left_m < sailed_.plan.left_m - further_m ||
                           (asked.left_m == 0.0 && sailed_.plan.left_m > 0.0);
