@@ -1132,47 +1132,59 @@ TEST(SupervisorInWind, MakesMoreRoomInStrongWind) {
   }
 }
 
+// Set aside until it stops, or told to end its mission; where it lies then, bow to a wind from the
+// west.
+Situation stopped(ScriptedMission& mission, bool set_aside) {
+  if (!set_aside) {
+    (void)mission.supervisor->cancel(mission.now_s, mission.situation(), mission.field);
+  }
+  for (int k = 0; k < 200 && mission.supervisor->phase() != Phase::kStopping &&
+                  mission.supervisor->phase() != Phase::kIdle;
+       ++k) {
+    mission.now_s += 0.1;
+    Situation aside = mission.situation();
+    aside.tracking_error_m = set_aside ? 3.0 : 0.0;
+    const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
+    if (orders.plan) {
+      (void)mission.refuse(*orders.plan, "no");
+    }
+  }
+  Situation lies = mission.situation();
+  lies.state[vessel::kPsi] = kPi;
+  lies.state.tail<3>().setZero();
+  return lies;
+}
+
+// It sails each leg that makes room, and is set back to where it lay. Whether one begins.
+bool makesRoom(ScriptedMission& mission, Situation& lies, std::optional<PlanRequest>& plan) {
+  mission.now_s += 0.1;
+  lies.odometry_stamp_s = mission.now_s;
+  const bool on_leg = mission.supervisor->phase() == Phase::kBackingOff;
+  const Orders orders =
+      mission.supervisor->update(mission.now_s, on_leg ? mission.situation() : lies, mission.field);
+  plan = orders.plan;
+  return orders.sail && mission.supervisor->phase() == Phase::kBackingOff;
+}
+
 // With 4.6 m beside it there is room to set out from, and too little to wait in for what gusts
 // are yet to come. Set back each time it leaves it at that: it must not use up its stops.
 TEST(SupervisorInWind, MakesRoomToWaitInOnceItHadToStop) {
   for (const bool had_to_stop : {false, true}) {
     ScriptedMission mission = inWind(8.0);
     mission.setOut(6.0);
-    if (!had_to_stop) {
-      (void)mission.supervisor->cancel(mission.now_s, mission.situation(), mission.field);
-    }
-    for (int k = 0; k < 200 && mission.supervisor->phase() != Phase::kStopping &&
-                    mission.supervisor->phase() != Phase::kIdle;
-         ++k) {
-      mission.now_s += 0.1;
-      Situation aside = mission.situation();
-      aside.tracking_error_m = had_to_stop ? 3.0 : 0.0;
-      const Orders orders = mission.supervisor->update(mission.now_s, aside, mission.field);
-      if (orders.plan) {
-        (void)mission.refuse(*orders.plan, "no");
-      }
-    }
-    Situation lies = mission.situation();
-    lies.state[vessel::kPsi] = kPi;
-    lies.state.tail<3>().setZero();
+    Situation lies = stopped(mission, had_to_stop);
     const Vector2d here = lies.state.head<2>();
     mission.put(here + Vector2d(0.0, 4.6), here + Vector2d(5.0, 8.0));
+    std::optional<PlanRequest> plan;
     int rooms = 0;
-    bool plans = false;
-    for (int k = 0; k < 2000 && !plans; ++k) {
-      mission.now_s += 0.1;
-      lies.odometry_stamp_s = mission.now_s;
-      const bool on_leg = mission.supervisor->phase() == Phase::kBackingOff;
-      const Orders orders = mission.supervisor->update(
-          mission.now_s, on_leg ? mission.situation() : lies, mission.field);
-      rooms += orders.sail && mission.supervisor->phase() == Phase::kBackingOff ? 1 : 0;
-      plans = orders.plan.has_value();
+    for (int k = 0; k < 2000 && !plan; ++k) {
+      rooms += makesRoom(mission, lies, plan) ? 1 : 0;
       if (mission.supervisor->phase() == Phase::kIdle) {
-        plans = mission.supervisor->setGoal(mission.now_s, {{40.0, 0.0}, 0.0}, lies, mission.field)
-                    ->plan.has_value();
+        plan = mission.supervisor->setGoal(mission.now_s, {{40.0, 0.0}, 0.0}, lies, mission.field)
+                   ->plan;
       }
     }
-    EXPECT_TRUE(plans) << mission.supervisor->reason();
+    EXPECT_TRUE(plan) << mission.supervisor->reason();
     EXPECT_EQ(rooms, had_to_stop ? 3 : 0);
     EXPECT_EQ(mission.supervisor->stops(), had_to_stop ? 1 : 0);
   }
@@ -1603,6 +1615,32 @@ TEST(SupervisorInWind, WaitsLongerEachTimeItHadToStopInAStrongWind) {
     EXPECT_NEAR(plansAgainAfter(mission), moment_nm > 0.0 ? 10.0 : 0.5, 1.5);
     EXPECT_NEAR(plansAgainAfter(mission), moment_nm > 0.0 ? 20.0 : 0.5, 1.5);
   }
+}
+
+// 40 s after the fifth stop: with 2 m beside it it makes room again and again meanwhile.
+TEST(SupervisorInWind, CountsNoStopWhileItWaitsForLessWind) {
+  ScriptedMission mission = inWind(8.0);
+  mission.setOut(1.0);
+  constexpr int kStops = 5;
+  for (int k = 1; k < kStops; ++k) {
+    (void)plansAgainAfter(mission);
+  }
+  Situation lies = stopped(mission, true);
+  const Vector2d here = lies.state.head<2>();
+  mission.put(here + Vector2d(-2.0, 2.0), here + Vector2d(0.0, 5.0));
+  const double since_s = mission.now_s;
+  std::optional<PlanRequest> plan;
+  int rooms = 0;
+  while (mission.now_s < since_s + 39.0 && !plan) {
+    rooms += makesRoom(mission, lies, plan) ? 1 : 0;
+    EXPECT_LE(mission.supervisor->stops(), kStops);
+  }
+  EXPECT_FALSE(plan);
+  EXPECT_GT(rooms, 3);
+  while (mission.now_s < since_s + 100.0 && mission.supervisor->stops() == kStops) {
+    (void)makesRoom(mission, lies, plan);
+  }
+  EXPECT_EQ(mission.supervisor->stops(), kStops + 1);  // once that is over
 }
 
 TEST(SupervisorInWind, HoldsAndRefusesWhereTheThrustDoesNotSuffice) {
