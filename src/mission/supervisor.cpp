@@ -1142,21 +1142,19 @@ class Decider final : public Supervisor {
   }
   // Plans from rest come next, unless there were too many stops.
   Orders rest(const Moment& m, const std::string& reason, const std::string& last) {
-    const double left_m = (m.situation.state.head<2>() - goal_.position).norm();
-    // What befalls it while it waits for less wind is no other stop: no plan was sailed meanwhile.
-    if (waitsForLessWind(m)) {
-      safety().comeToRest();
-      return enter(Phase::kStopped, reason);
-    }
-    if (!retries_.stopped(m.now_s, left_m)) {
-      return enter(Phase::kFailed, last);
-    }
-    safety().comeToRest();
     constexpr double kCalmerS = 10.0;
     constexpr double kCalmerMostS = 60.0;
-    if (weather().isStrong()) {
-      calmer_by_s_ = m.now_s + std::min(kCalmerMostS, kCalmerS * (retries_.stops() - 1));
+    // What befalls it while it waits for less wind is no other stop.
+    if (!waitsForLessWind(m)) {
+      const double left_m = (m.situation.state.head<2>() - goal_.position).norm();
+      if (!retries_.stopped(m.now_s, left_m)) {
+        return enter(Phase::kFailed, last);
+      }
+      if (weather().isStrong()) {
+        calmer_by_s_ = m.now_s + std::min(kCalmerMostS, kCalmerS * (retries_.stops() - 1));
+      }
     }
+    safety().comeToRest();
     return enter(Phase::kStopped, reason);
   }
 
