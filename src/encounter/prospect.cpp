@@ -313,9 +313,12 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
     const Other& other = others[j];
     Outlook& look = looks[j];
     look = this->look(own, other);
+    // Whoever stands on goes on watching her until she acts.
+    const double watched_s = standsOn(look.role) ? std::max(0.0, look.acted_s) : 0.0;
+    const double unwatched_s = std::max(0.0, look.nearest_s - watched_s);
     const double uncertain = std::min(
         kUncertainMaxM,
-        std::hypot(other.position_deviation_m, other.velocity_deviation_mps * look.nearest_s));
+        std::hypot(other.position_deviation_m, other.velocity_deviation_mps * unwatched_s));
     const double wanted = options_.outline_wanted_m + kMoreM + uncertain;
     const double least = options_.outline_least_m + 0.5 * kMoreM;
     const double r = look.outlines_m;

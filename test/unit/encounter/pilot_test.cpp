@@ -184,6 +184,29 @@ TEST_F(PilotTest, StandsOnUntilWhoOvertakesIsNear) {
   }
 }
 
+// Until it acts it goes on watching her: what isn't known yet of how near she will come is no
+// reason to act before that.
+TEST_F(PilotTest, StandsOnThoughItIsNotSureHowNearWhoOvertakesWillCome) {
+  const vessel::Parameters otter =
+      *vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+  for (const double heading_deg : {0.0, 5.0}) {
+    pilot_ = Pilot(Options(), otter);
+    pilot_.newGoal(-60.0);
+    std::optional<Manoeuvre> way;
+    double now = 8.0;
+    for (; now < 80.0 && !way; now += 1.0) {
+      for (double t = now - 0.5; t <= now; t += 0.5) {
+        const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+        traffic::Track track = trackAt(heading_deg, 3.0, t);
+        track.covariance.diagonal() << 0.3, 0.3, 0.04, 0.04;
+        pilot_.observe(t, {z.position, z.velocity}, z.position, {track}, goal_, 1.98);
+      }
+      way = pilot_.decide({now, sailed_, goal_, now + 0.3, limits_, water_});
+    }
+    EXPECT_GT(now, 66.0) << heading_deg;  // a turn shows seconds after it was begun
+  }
+}
+
 // She reports but every half minute; meanwhile we have turned for somebody else. What counts is
 // the course from which we turned.
 TEST_F(PilotTest, WhoIsHeardOfLateWasThereBefore) {
