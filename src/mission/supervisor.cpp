@@ -1057,6 +1057,9 @@ class Decider final : public Supervisor {
     if ((in(phase)&kUnderWay) == 0) {
       stops_.forget();
     }
+    if (!hasMission()) {
+      plans_.drop();  // there is nothing any more that it could be sailed for
+    }
     return {};
   }
   // Only if a stop exists on it; else it is asked for again, or the vessel stops.
@@ -1086,6 +1089,9 @@ class Decider final : public Supervisor {
     better_.planned(m.now_s);
     sailed_since_s_ = m.now_s;
     holds_ = is_aside_ = makes_room_ = escapes_ = false;
+    across_since_s_.reset();
+    moves_since_s_.reset();
+    conflict_ = {};
     rooms_made_ = 0;
     far_round_ = FarRound::kNotMet;
     safety().planTaken();

@@ -1143,7 +1143,26 @@ TEST(Supervisor, MakesNoWayThatCostsMoreThanItIsWorth) {
 // Moved by waves, or by what holds it in the wind, it waits for a moment of little way, but not for
 // long, and not near anything.
 TEST(Supervisor, SetsOutWhereItHardlyMoves) {
-  const auto setsOutAfter = [](double surge_mps, bool near_something, bool plans_with_weather) {
+  // From rest at x; `situation` is at `surge_mps` from then on.
+  const auto setsOut = [](ScriptedMission& m, std::optional<PlanRequest> asked, double surge_mps) {
+    Situation moves = m.situation();
+    moves.state[vessel::kSurge] = surge_mps;
+    const double began_s = m.now_s;
+    for (int k = 0; k < 100 && m.supervisor->phase() != Phase::kSailing; ++k) {
+      planner::Plan plan;
+      plan.outcome = planner::Outcome::kSolved;
+      plan.trajectory = eastward(moves.state.head<2>(), 30.0 - moves.state.x(), 2.0);
+      if (asked) {
+        (void)m.supervisor->planFinished(m.now_s, asked->id, plan, moves, m.field);
+      }
+      m.now_s += 0.1;
+      moves.odometry_stamp_s = m.now_s;
+      asked = m.supervisor->update(m.now_s, moves, m.field).plan;
+    }
+    EXPECT_EQ(m.supervisor->phase(), Phase::kSailing);
+    return m.now_s - began_s;
+  };
+  const auto setsOutAfter = [&](double surge_mps, bool near_something, bool plans_with_weather) {
     SupervisorOptions options;
     options.plan_with_weather = plans_with_weather;
     ScriptedMission m(test::openWater(), options);
@@ -1151,23 +1170,48 @@ TEST(Supervisor, SetsOutWhereItHardlyMoves) {
       m.put({-20.0, 1.5}, {20.0, 3.0});
     }
     m.rest.x() = -10.0;
-    std::optional<PlanRequest> asked = m.goTo({30.0, 0.0})->plan;
-    m.rest[vessel::kSurge] = surge_mps;
-    const double began_s = m.now_s;
-    for (int k = 0; k < 100 && m.supervisor->phase() == Phase::kPlanning; ++k) {
-      if (asked) {
-        (void)m.answer(*asked, eastward({-10.0, 0.0}, 40.0, 2.0));
-      }
-      asked = m.update(0.1).plan;
-    }
-    EXPECT_EQ(m.supervisor->phase(), Phase::kSailing);
-    return m.now_s - began_s;
+    return setsOut(m, m.goTo({30.0, 0.0})->plan, surge_mps);
   };
   for (const bool plans_with_weather : {true, false}) {
     EXPECT_LT(setsOutAfter(0.2, false, plans_with_weather), 0.2);
     EXPECT_NEAR(setsOutAfter(0.4, false, plans_with_weather), 3.0, 0.4);
     EXPECT_LT(setsOutAfter(0.4, true, plans_with_weather), 0.2);
   }
+  // Having waited once it waits the next time, too.
+  ScriptedMission m(test::openWater());
+  m.rest.x() = -10.0;
+  EXPECT_NEAR(setsOut(m, m.goTo({30.0, 0.0})->plan, 0.4), 3.0, 0.4);
+  (void)m.update(3.0);
+  (void)m.supervisor->pause(m.now_s, m.situation(), m.field);
+  for (int k = 0; k < 200 && m.supervisor->phase() != Phase::kPaused; ++k) {
+    (void)m.update(0.1);
+  }
+  Result<Orders> resumed = m.supervisor->resume(m.now_s, m.situation(), m.field);
+  ASSERT_TRUE(resumed);
+  EXPECT_NEAR(setsOut(m, resumed->plan, 0.4), 3.0, 0.4);
+}
+
+// What was asked for on the way to the goal isn't sailed from there.
+TEST(Supervisor, TakesNoPlanOnceItHasArrived) {
+  ScriptedMission m;
+  m.setOut(2.0);
+  std::optional<PlanRequest> asked = m.goTo({40.0, 0.0})->plan;
+  for (int k = 0; k < 400 && m.supervisor->phase() != Phase::kArrived; ++k) {
+    const Orders orders = m.update(0.1);
+    asked = orders.plan ? orders.plan : asked;
+  }
+  ASSERT_EQ(m.supervisor->phase(), Phase::kArrived);
+  ASSERT_TRUE(asked);
+  vessel::FlatPoint here;
+  here.position = {40.0, 0.0};
+  vessel::FlatPoint beyond;
+  beyond.position = {45.0, 0.0};
+  const trajectory::Trajectory back_and_on(
+      {trajectory::hermitePiece(asked->query.start.flat, here, m.now_s - asked->start_time_s),
+       trajectory::hermitePiece(here, beyond, 20.0)});
+  const Orders late = m.answer(*asked, back_and_on);
+  EXPECT_FALSE(late.sail);
+  EXPECT_EQ(m.supervisor->phase(), Phase::kArrived);
 }
 
 // A way of 220 m to what lies 30 m beside: after a stop there may be a shorter one.

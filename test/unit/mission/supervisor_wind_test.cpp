@@ -1617,6 +1617,30 @@ TEST(SupervisorInWind, WaitsLongerEachTimeItHadToStopInAStrongWind) {
   }
 }
 
+// As patient after a stop as at the beginning.
+TEST(SupervisorInWind, WaitsEachTimeForABowInTheStrongWind) {
+  ScriptedMission mission = inWind(8.0);
+  mission.rest << -40.0, 0.0, 0.5 * kPi, 0.0, 0.0, 0.0;
+  Situation lies = mission.situation();
+  const auto plansAfter = [&](std::optional<PlanRequest> plan) {
+    const double since_s = mission.now_s;
+    while (!plan && mission.now_s < since_s + 60.0) {
+      mission.now_s += 0.1;
+      lies.odometry_stamp_s = mission.now_s;
+      plan = mission.supervisor->update(mission.now_s, lies, mission.field).plan;
+    }
+    const Vector2d here = lies.state.head<2>();
+    (void)mission.answer(*plan, test::eastward(here, 40.0 - here.x(), 4.0));
+    EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
+    return mission.now_s - since_s;
+  };
+  EXPECT_NEAR(plansAfter(mission.goTo({40.0, 0.0})->plan), 20.0, 1.0);
+  (void)mission.update(3.0);
+  lies = stopped(mission, true);
+  lies.state[vessel::kPsi] = 0.5 * kPi;
+  EXPECT_NEAR(plansAfter(std::nullopt), 20.0, 2.0);
+}
+
 // 40 s after the fifth stop: with 2 m beside it it makes room again and again meanwhile.
 TEST(SupervisorInWind, CountsNoStopWhileItWaitsForLessWind) {
   ScriptedMission mission = inWind(8.0);
