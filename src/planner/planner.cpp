@@ -359,9 +359,7 @@ class Planner::Pipeline {
     }
     plan.outcome = Outcome::kSolved;
     plan.left_m = left_m;
-    plan.figures.cost = costOf(plan.trajectory, options_.sigma);
-    plan.figures.length_m = trajectory::length(plan.trajectory);
-    plan.figures.duration_s = plan.trajectory.duration();
+    measure(plan);
     plan.figures.total_ms =
         termination.elapsed_s ? 1e3 * termination.elapsed_s() : none.figures.total_ms;
     return plan;
@@ -429,8 +427,7 @@ class Planner::Pipeline {
       plan.reason = verification.reason;
       return plan;
     }
-    plan.figures.length_m = trajectory::length(plan.trajectory);
-    plan.figures.duration_s = plan.trajectory.duration();
+    measure(plan);
     return plan;
   }
 
@@ -805,14 +802,19 @@ class Planner::Pipeline {
     run.plan.outcome = Outcome::kSolved;
   }
 
-  static void conclude(Run& run) {
+  void measure(Plan& plan) const {
+    plan.figures.cost = costOf(plan.trajectory, options_.sigma);
+    plan.figures.length_m = trajectory::length(plan.trajectory);
+    plan.figures.duration_s = plan.trajectory.duration();
+  }
+
+  void conclude(Run& run) const {
     Figures& figures = run.plan.figures;
     figures.node_utilization =
         figures.samples > 0 ? static_cast<double>(figures.nodes) / figures.samples : 0.0;
     if (run.solved()) {
       run.plan.reason.clear();
-      figures.length_m = trajectory::length(run.plan.trajectory);
-      figures.duration_s = run.plan.trajectory.duration();
+      measure(run.plan);
     } else if (run.timeUp()) {
       run.plan.outcome = Outcome::kTimeUp;
       run.plan.reason = "the time is up" + (run.plan.reason.empty() ? "" : ": " + run.plan.reason);

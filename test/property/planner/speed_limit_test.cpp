@@ -126,6 +126,13 @@ TEST_P(SpeedLimit, IsReachedFromAbove) {
     fastest = std::max(fastest, plan.trajectory.flat(t).velocity.norm());
   }
   EXPECT_LE(fastest, limit);
+  // All of it has its price, the slowing down too.
+  double cost = 0.0;
+  constexpr double kStepS = 1e-3;
+  for (double t = 0.5 * kStepS; t < plan.trajectory.duration(); t += kStepS) {
+    cost += kStepS * (Options{}.sigma + plan.trajectory.flat(t).jerk.squaredNorm());
+  }
+  EXPECT_NEAR(plan.figures.cost, cost, 1e-3 * cost);
 }
 
 // The course over ground that others watch: from rest, a little off the way, the vessel neither
