@@ -107,7 +107,7 @@ struct Situation {
   vessel::State state = vessel::State::Zero();  // latest odometry, map frame
   double odometry_stamp_s = 0.0;
   std::optional<double> scanned_s;          // when a scan came into the map last; none ever did
-  double tracking_error_m = 0.0;            // as the tracker reports it
+  double tracking_error_m = 0.0;            // off what is sailed, of the centre
   vessel::DisturbanceEstimate disturbance;  // wind, current and force as the tracker has them
   bool tracker_fault = false;               // the tracker can't follow and brakes by itself
   std::string tracker_reason;
@@ -183,8 +183,8 @@ class Supervisor {
   // Of all plans from now on; what is sailed is planned anew. 0: the vessel's alone. An error if it
   // is less than a vessel can steer by.
   [[nodiscard]] virtual Status setSpeedMax(double speed_mps) = 0;
-  // What of the options rules decisions and plans from now on; the counts of retries and the
-  // latency stay as they were.
+  // What of the options rules decisions and plans from now on; the counts of retries, the latency
+  // and what is asked of encounters stay as they were.
   virtual void setOptions(const SupervisorOptions& options) = 0;
   [[nodiscard]] virtual double speedMax() const = 0;
 
