@@ -384,7 +384,7 @@ void PredictiveTracker::prepare(double next_s) {
 }
 
 Command PredictiveTracker::step(double now_s) {
-  last_now_s_.store(now_s);
+  const bool set_back = now_s < last_now_s_.exchange(now_s) - options_.odometry.predict_through_s;
   Command command;
   command.stamp_s = now_s;
   takeOdometry(now_s);
@@ -398,6 +398,10 @@ Command PredictiveTracker::step(double now_s) {
     takeAssignment(now_s, state);
   }
   watchFix(fix, now_s, state);
+  // The way's beginning would be due once more, far behind the hull.
+  if (set_back && (mode_ == Mode::kTracking || mode_ == Mode::kHolding)) {
+    beginStop("the clock was set back", now_s, state);
+  }
   if (mode_ == Mode::kTracking && now_s >= reference_source_.end()) {
     beginHolding(now_s, state);
   }

@@ -253,6 +253,22 @@ TEST_F(TrackerTest, StopsWhenTheClockIsSetBackAndTakesOdometryOfItsNewTime) {
   EXPECT_EQ(sail(1.0).mode, Mode::kTracking);
 }
 
+// Odometry of the new time may come before the next step, so that none is missed.
+TEST_F(TrackerTest, StopsWhereItIsWhenClockAndOdometryAreSetBackTogether) {
+  ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 30.0), now_s_}));
+  sail(10.0);
+  const double far_m = state_[0];
+  ASSERT_GT(far_m, 10.0);
+  now_s_ -= 50.0;
+  const Command command = sail(0.1);
+  EXPECT_EQ(command.mode, Mode::kStopping);
+  EXPECT_EQ(command.reason, "the clock was set back");
+  sail(20.0);
+  EXPECT_GT(state_[0], far_m);
+  ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 30.0), now_s_}));
+  EXPECT_EQ(sail(1.0).mode, Mode::kTracking);
+}
+
 TEST_F(TrackerTest, BridgesAShortGapAndStopsOnALongOne) {
   ASSERT_TRUE(tracker_->setTrajectory({line(60.0, 30.0), now_s_}));
   sail(10.0);
