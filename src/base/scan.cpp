@@ -27,4 +27,15 @@ std::string whyUnusable(const Scan& scan) {
   return "";
 }
 
+std::string whyBlind(const Scan& scan) {
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (scan.metSomething(i) || scan.metNothing(i)) {
+      return "";
+    }
+  }
+  return "no range is one: all are NaN, -inf or beyond range_min and range_max (REP-117: +inf "
+         "where "
+         "nothing was met)";
+}
+
 }  // namespace otter_nav

@@ -34,5 +34,7 @@ struct Scan {
 
 // Why its figures can't be those of a scan; empty if they can.
 [[nodiscard]] std::string whyUnusable(const Scan& scan);
+// Why it shows nothing, free water included, though it may be a scan; empty if it shows something.
+[[nodiscard]] std::string whyBlind(const Scan& scan);
 
 }  // namespace otter_nav
