@@ -37,7 +37,7 @@ void GoalServer::onActionGoal(const Handle& handle) {
     if (!waiting_) {
       waiting_since_ = ros::WallTime::now();
     }
-    abortWaiting(kReplaced);
+    (void)abortWaiting(kReplaced);
     waiting_ = handle;
     return;
   }
@@ -51,12 +51,14 @@ void GoalServer::retryWaiting() {
   }
 }
 
-void GoalServer::abortWaiting(const std::string& reason) {
-  if (waiting_) {
-    ROS_WARN_STREAM("Dropped the goal that waited: " << reason);
-    waiting_->setRejected(Outcome(), reason);
-    waiting_.reset();
+bool GoalServer::abortWaiting(const std::string& reason) {
+  if (!waiting_) {
+    return false;
   }
+  ROS_WARN_STREAM("Dropped the goal that waited: " << reason);
+  waiting_->setRejected(Outcome(), reason);
+  waiting_.reset();
+  return true;
 }
 
 std::optional<ros::WallDuration> GoalServer::waiting() const {

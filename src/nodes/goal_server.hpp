@@ -34,8 +34,8 @@ class GoalServer {
   void retryWaiting();
   // A goal that comes now waits until retryWaiting().
   void setReady(bool ready) { ready_ = ready; }
-  // The goal that waits, if any, is aborted.
-  void abortWaiting(const std::string& reason);
+  // The goal that waits is aborted; false if none does.
+  bool abortWaiting(const std::string& reason);
   // Wall time for which a goal has been waiting; none waits: nothing.
   [[nodiscard]] std::optional<ros::WallDuration> waiting() const;
 

@@ -56,13 +56,14 @@ class MapNode {
   // None, and said on /diagnostics, if it makes no sense.
   std::optional<std::vector<Eigen::Vector3d>> pointsOf(const char* topic,
                                                        const sensor_msgs::PointCloud& message);
-  void publishChange(const map::CellRectangle& changed, const ros::Time& stamp);
+  void publishChange(const map::CellRectangle& changed);
   [[nodiscard]] Result<map::CellRectangle> insert(const sensor_msgs::LaserScan& message);
   bool onSave(SaveMap::Request& request, SaveMap::Response& response);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  // An update is sent for every scan, of one unchanged cell if need be: it says that the scan has
-  // been dealt with.
-  void publishUpdate(map::CellRectangle changed, const ros::Time& stamp);
+  // An update is sent for every scan: it says that the scan has been dealt with. One that came into
+  // the map has a cell at least, if need be an unchanged one; one that was refused has none.
+  void publishUpdate(map::CellRectangle changed);
+  void publishWindow(const map::CellRectangle& window, const ros::Time& stamp);
   void publishMapTo(const ros::SingleSubscriberPublisher& subscriber) const;
   void publishAllTo(const ros::SingleSubscriberPublisher& subscriber) const;
 
@@ -70,9 +71,10 @@ class MapNode {
   ros::NodeHandle private_node_{"~"};
   ros_bridge::Diagnostics diagnostics_;
   map::OccupancyMap map_;
-  ros::Time load_time_;  // wall time, whatever the clock
-  ros::Time last_scan_;
-  ros::Time told_;  // of the last update; zero before
+  ros::Time load_time_;    // wall time, whatever the clock
+  ros::Time last_scan_;    // refused or not
+  ros::Time taken_;        // of the last scan that came into the map; zero before
+  bool has_told_ = false;  // an update
 
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener transform_listener_{transforms_};
@@ -147,7 +149,7 @@ MapNode::MapNode(map::OccupancyMap map)
 // Of ROS time, which in lockstep stands still without scans.
 void MapNode::watchScans() {
   const bool none = last_scan_.isZero() && diagnostics_.silence("scan") > kScanLateS;
-  const bool late = !last_scan_.isZero() && (ros::Time::now() - last_scan_).toSec() > kScanLateS;
+  const bool late = !last_scan_.isZero() && age(last_scan_, ros::Time::now()) > kScanLateS;
   diagnostics_.setState(none || late ? Level::kWarning : Level::kOk,
                         none   ? "chart loaded, but no scan has come"
                         : late ? "no scan for a while"
@@ -156,19 +158,18 @@ void MapNode::watchScans() {
 
 // A late subscriber gets the map as it is now, not as it was when it was latched.
 void MapNode::publishMapTo(const ros::SingleSubscriberPublisher& subscriber) const {
-  if (!last_scan_.isZero()) {
-    subscriber.publish(
-        ros_bridge::toMessage(map_.projection(), frames().map, last_scan_, load_time_));
+  if (!taken_.isZero()) {
+    subscriber.publish(ros_bridge::toMessage(map_.projection(), frames().map, taken_, load_time_));
   }
 }
 
 // What changed before is its first update: a node that keeps a copy of the map has the latched
 // chart first, and whatever comes between map and updates would be lost to it.
 void MapNode::publishAllTo(const ros::SingleSubscriberPublisher& subscriber) const {
-  if (!told_.isZero()) {
+  if (has_told_) {
     const map::GridGeometry& all = map_.projection().geometry;
     subscriber.publish(ros_bridge::updateMessage(map_.projection(), {0, 0, all.width, all.height},
-                                                 frames().map, told_));
+                                                 frames().map, taken_));
   }
 }
 
@@ -180,28 +181,43 @@ Result<map::CellRectangle> MapNode::insert(const sensor_msgs::LaserScan& message
   if (const Status status = firstFailure(sensor, own); !status) {
     return failure(status.error().message);
   }
-  return map_.insertScan(*sensor, *own, ros_bridge::toScan(message));
+  const Scan scan = ros_bridge::toScan(message);
+  std::string why = whyUnusable(scan);
+  if (why.empty()) {
+    why = whyBlind(scan);
+  }
+  if (!why.empty()) {
+    return failure("scan refused: " + why);
+  }
+  // What is seen from there lies outside, too.
+  if (!map_.chart().geometry.contains(sensor->position.head<2>())) {
+    return map::CellRectangle{};
+  }
+  return map_.insertScan(*sensor, *own, scan);
 }
 
 void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   diagnostics_.received("scan");
   if (message->header.stamp < last_scan_ && isAhead(last_scan_, ros::Time::now())) {
-    last_scan_ = ros::Time();  // the clock was set back
+    last_scan_ = taken_ = ros::Time();  // the clock was set back
   }
   if (message->header.stamp <= last_scan_) {
     if (message->header.stamp == last_scan_) {
-      publishUpdate({}, last_scan_);
+      publishWindow({}, last_scan_);
     } else {
       diagnostics_.refuse("scan", "its stamp goes backwards");
     }
     return;
   }
   const Result<map::CellRectangle> changed = insert(*message);
+  last_scan_ = message->header.stamp;
   if (!changed) {
     diagnostics_.refuse("scan", changed.error().message);
+    publishWindow({}, last_scan_);
+    return;
   }
-  last_scan_ = message->header.stamp;
-  publishUpdate(changed.value_or(map::CellRectangle{}), last_scan_);
+  taken_ = last_scan_;
+  publishUpdate(*changed);
 }
 
 std::optional<std::vector<Eigen::Vector3d>> MapNode::pointsOf(
@@ -229,30 +245,31 @@ void MapNode::onGhosts(const sensor_msgs::PointCloud& message) {
     for (const Eigen::Vector3d& point : *points) {
       places.emplace_back(point.head<2>());
     }
-    publishChange(map_.forget(places), message.header.stamp);
+    publishChange(map_.forget(places));
   }
 }
 
 // A vessel has come to lie still there.
 void MapNode::onLying(const sensor_msgs::PointCloud& message) {
   if (const auto points = pointsOf("lying", message)) {
-    publishChange(map_.fill(*points), message.header.stamp);
+    publishChange(map_.fill(*points));
   }
 }
 
-void MapNode::publishChange(const map::CellRectangle& changed, const ros::Time& stamp) {
+void MapNode::publishChange(const map::CellRectangle& changed) {
   if (!changed.empty()) {
-    publishUpdate(changed, last_scan_.isZero() ? stamp : last_scan_);
+    publishUpdate(changed);
   }
 }
 
-void MapNode::publishUpdate(map::CellRectangle changed, const ros::Time& stamp) {
-  if (changed.empty()) {
-    changed = {0, 0, 1, 1};
-  }
-  told_ = stamp;
+void MapNode::publishUpdate(map::CellRectangle changed) {
+  publishWindow(changed.empty() ? map::CellRectangle{0, 0, 1, 1} : changed, taken_);
+}
+
+void MapNode::publishWindow(const map::CellRectangle& window, const ros::Time& stamp) {
+  has_told_ = true;
   update_publisher_.publish(
-      ros_bridge::updateMessage(map_.projection(), changed, frames().map, stamp));
+      ros_bridge::updateMessage(map_.projection(), window, frames().map, stamp));
 }
 
 bool MapNode::onSave(SaveMap::Request& request, SaveMap::Response& response) {
@@ -271,7 +288,7 @@ bool MapNode::onSave(SaveMap::Request& request, SaveMap::Response& response) {
 
 bool MapNode::onReset(std_srvs::Trigger::Request& /*request*/,
                       std_srvs::Trigger::Response& response) {
-  publishUpdate(map_.reset(), last_scan_);
+  publishUpdate(map_.reset());
   response.success = 1;
   response.message = "what was sensed is forgotten; the chart stays";
   return true;

@@ -48,9 +48,15 @@ void PlanWorker::start(mission::PlanRequest request, const map::DistanceField& f
                        const ros::Time& map_stamp) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    next_ = Task{std::move(request), field, map_stamp};
+    next_ = Task{std::move(request), field, map_stamp, forgotten_};
   }
   changed_.notify_all();
+}
+
+void PlanWorker::forget() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  next_.reset();
+  ++forgotten_;
 }
 
 void PlanWorker::run() {
@@ -89,7 +95,11 @@ void PlanWorker::plan(Task& task) {
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   ros::getGlobalCallbackQueue()->addCallback(
       boost::make_shared<Delivery>([this, request = std::move(task.request), plan = std::move(plan),
-                                    ms = taken.count()] { on_done_(request, plan, ms); }),
+                                    ms = taken.count(), forgotten = task.forgotten] {
+        if (forgotten == forgotten_) {
+          on_done_(request, plan, ms);
+        }
+      }),
       deliveryId());
 }
 

@@ -38,12 +38,15 @@ class PlanWorker {
   // Replaces a request that has not begun. The field is copied.
   void start(mission::PlanRequest request, const map::DistanceField& field,
              const ros::Time& map_stamp);
+  // Of what was asked so far nothing is answered any more.
+  void forget();
 
  private:
   struct Task {
     mission::PlanRequest request;
     map::DistanceField field;
     ros::Time map_stamp;
+    int forgotten;  // times, when it was asked
   };
   void run();
   // Of the results on their way into the node's thread, which none outlives this.
@@ -56,6 +59,7 @@ class PlanWorker {
   OnDone on_done_;
   ros::NodeHandle node_;
   ros::ServiceClient topology_;
+  int forgotten_ = 0;  // times; the node's thread alone has it
 
   std::mutex mutex_;
   std::condition_variable changed_;

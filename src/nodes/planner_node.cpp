@@ -58,6 +58,7 @@ constexpr double kInputPeriodS = 0.5;
 constexpr double kInputLateS = 5.0;       // of wall time: then it is missed
 constexpr double kInputPatienceS = 20.0;  // of wall time a goal waits for map and odometry
 constexpr char kStopped[] = "stopped by the operator";
+constexpr char kNotReady[] = "there is no map or odometry";
 
 PlanWorker::Options workerOptions(const PlannerNodeOptions& node, const planner::Options& planner) {
   PlanWorker::Options options;
@@ -103,6 +104,7 @@ class PlannerNode {
     planner::Options planner;
   };
   [[nodiscard]] static Result<Setup> readSetup(config::Section section);
+  [[nodiscard]] static std::unique_ptr<mission::Supervisor> createSupervisor(const Setup& setup);
   explicit PlannerNode(const Setup& setup);
 
   void onMap(const nav_msgs::OccupancyGrid& message);
@@ -126,7 +128,13 @@ class PlannerNode {
   void decide();
   void execute(const mission::Orders& orders);
   void tellWhatIsNear();
-  void noteScan(const ros::Time& stamp);
+  void noteScan(const map_msgs::OccupancyGridUpdate& update);
+  // The moment of a decision; false if there is no place or map yet.
+  bool lookUp();
+  // The clock was set back: what was decided and sailed is dated by another.
+  void beginAnew();
+  [[nodiscard]] bool isReady() const { return map_.ready() && !odometry_.empty(); }
+  [[nodiscard]] bool isUnderWay() const;
   // What follows from the supervisor's phase: results of the goal, status, acknowledgement.
   void settle();
   void checkInputs();
@@ -198,12 +206,16 @@ Result<std::unique_ptr<PlannerNode>> PlannerNode::create(config::Section section
   });
 }
 
+std::unique_ptr<mission::Supervisor> PlannerNode::createSupervisor(const Setup& setup) {
+  return mission::Supervisor::create(setup.supervisor, setup.vessel,
+                                     static_cast<std::uint64_t>(setup.node.seed));
+}
+
 PlannerNode::PlannerNode(const Setup& setup)
     : setup_(setup),
       diagnostics_(node_, private_node_, setup.vessel.name),
       map_(setup.node.distance_field),
-      supervisor_(mission::Supervisor::create(setup.supervisor, setup.vessel,
-                                              static_cast<std::uint64_t>(setup.node.seed))),
+      supervisor_(createSupervisor(setup)),
       publisher_(node_, setup.vessel, setup.node.lockstep ? 0 : ros::WallTime::now().sec),
       acknowledgement_(node_.advertise<std_msgs::Header>("lockstep_ack", kQueue)),
       goals_(
@@ -248,16 +260,16 @@ void PlannerNode::onUpdate(const map_msgs::OccupancyGridUpdateConstPtr& message)
     if (const auto changed = map_.take(*message); !changed) {
       diagnostics_.refuse("map_updates", changed.error().message);
     } else {
-      noteScan(message->header.stamp);
+      noteScan(*message);
     }
     decide();
   }
 }
 
-// Zero: what changed came from no scan.
-void PlannerNode::noteScan(const ros::Time& stamp) {
-  if (!stamp.isZero()) {
-    scanned_s_ = stamp.toSec();
+// Without a cell it was refused; without a stamp what changed came from no scan.
+void PlannerNode::noteScan(const map_msgs::OccupancyGridUpdate& update) {
+  if (!update.data.empty() && !update.header.stamp.isZero()) {
+    scanned_s_ = update.header.stamp.toSec();
   }
 }
 
@@ -323,7 +335,7 @@ void PlannerNode::decideInTurn() {
     if (const auto changed = map_.take(*updates_.front()); !changed) {
       diagnostics_.refuse("map_updates", changed.error().message);
     } else {
-      noteScan(stamp);
+      noteScan(*updates_.front());
     }
     updates_.pop_front();
     unacknowledged_ = stamp;
@@ -339,14 +351,46 @@ void PlannerNode::decideInTurn() {
   }
 }
 
-void PlannerNode::decide() {
+bool PlannerNode::lookUp() {
   const ros::Time now = ros::Time::now();
   odometry_.forgetWhatIsAhead(now);
-  if (!map_.ready() || odometry_.empty()) {
-    return;
+  if (isAhead(ros_bridge::toRosTime(now_s_), now)) {
+    beginAnew();
+    now_s_ = now.toSec();
+  }
+  if (!isReady()) {
+    return false;
   }
   vessel_ = odometry_.latest();
   now_s_ = std::max(now.toSec(), vessel_.stamp_s);
+  return true;
+}
+
+void PlannerNode::beginAnew() {
+  constexpr char kSetBack[] = "the clock was set back";
+  const double now_s = ros::Time::now().toSec();
+  ROS_WARN_STREAM(kSetBack << ", by " << now_s_ - now_s
+                           << " s: what was stamped before is forgotten");
+  if (isUnderWay()) {
+    sent_id_ = publisher_.publishStop(now_s, supervisor_->goal());
+  }
+  goals_.abort(kSetBack);
+  worker_.forget();
+  plan_under_way_ = 0;
+  supervisor_ = createSupervisor(setup_);
+  tracker_ = TrackerWatch();
+  tracker_.expect(sent_id_, true);
+  tracks_.clear();
+  tracks_stamp_s_ = 0.0;
+  if (scanned_s_) {
+    scanned_s_ = now_s;
+  }
+}
+
+void PlannerNode::decide() {
+  if (!lookUp()) {
+    return;
+  }
   tracker_.countUntil(std::numeric_limits<double>::infinity());
   execute(supervisor_->update(now_s_, situation(), obstacles()));
   if (std::abs(now_s_ - near_told_s_) >= kNearPeriodS) {
@@ -387,9 +431,7 @@ void PlannerNode::onCancel() {
 void PlannerNode::serve(const std::string& name, Result<mission::Orders> (PlannerNode::*wish)()) {
   const auto answer = [this, wish](std_srvs::Trigger::Request&,
                                    std_srvs::Trigger::Response& response) {
-    const Result<mission::Orders> orders = map_.ready() && !odometry_.empty()
-                                               ? (this->*wish)()
-                                               : failure("there is no map or odometry");
+    const Result<mission::Orders> orders = (this->*wish)();
     response.success = static_cast<std::uint8_t>(orders.has_value());
     if (orders) {
       execute(*orders);
@@ -406,15 +448,29 @@ void PlannerNode::serve(const std::string& name, Result<mission::Orders> (Planne
 }
 
 Result<mission::Orders> PlannerNode::pause() {
+  if (!isReady()) {
+    return failure(kNotReady);
+  }
   return supervisor_->pause(now_s_, situation(), obstacles());
 }
 Result<mission::Orders> PlannerNode::hold() {
+  if (!isReady()) {
+    return failure(kNotReady);
+  }
   return supervisor_->hold(now_s_, situation(), obstacles());
 }
 Result<mission::Orders> PlannerNode::resume() {
+  if (!isReady()) {
+    return failure(kNotReady);
+  }
   return supervisor_->resume(now_s_, situation(), obstacles());
 }
+// Nor does a goal that waits for map and odometry set out when they come.
 Result<mission::Orders> PlannerNode::stop() {
+  const bool waited = goals_.abortWaiting(kStopped);
+  if (!isReady()) {
+    return waited ? Result<mission::Orders>(mission::Orders{}) : failure(kNotReady);
+  }
   goals_.abort(kStopped);
   return supervisor_->cancel(now_s_, situation(), obstacles(), kStopped);
 }
@@ -431,9 +487,8 @@ void PlannerNode::onPlanDone(const mission::PlanRequest& request, const planner:
   if (plan_under_way_ == request.id) {
     plan_under_way_ = 0;
   }
-  if (!setup_.node.lockstep && !odometry_.empty()) {
-    vessel_ = odometry_.latest();
-    now_s_ = std::max(ros::Time::now().toSec(), vessel_.stamp_s);
+  if (!setup_.node.lockstep) {
+    (void)lookUp();
   }
   execute(supervisor_->planFinished(now_s_, request.id, plan, situation(), obstacles()));
   settle();
@@ -498,17 +553,21 @@ void PlannerNode::settle() {
 // A goal that came before map and odometry waits for them, but not for ever.
 void PlannerNode::checkInputs() {
   if (const auto waited = goals_.waiting(); waited && waited->toSec() > kInputPatienceS) {
-    goals_.abortWaiting(!map_.ready()       ? "there is no map"
-                        : odometry_.empty() ? "there is no odometry"
-                                            : "there are no map updates");
+    (void)goals_.abortWaiting(!map_.ready()       ? "there is no map"
+                              : odometry_.empty() ? "there is no odometry"
+                                                  : "there are no map updates");
   }
   showState();
 }
 
+bool PlannerNode::isUnderWay() const {
+  const Phase phase = supervisor_->phase();
+  return phase != Phase::kIdle && phase != Phase::kArrived && phase != Phase::kFailed;
+}
+
 void PlannerNode::showState() {
   const Phase phase = supervisor_->phase();
-  const bool under_way =
-      phase != Phase::kIdle && phase != Phase::kArrived && phase != Phase::kFailed;
+  const bool under_way = isUnderWay();
   // In lockstep time stands still without inputs.
   const auto late = [&](const char* topic) {
     return !setup_.node.lockstep && diagnostics_.silence(topic) > kInputLateS;
@@ -548,6 +607,7 @@ std::vector<config::NumberField> PlannerNode::live() const {
 
 Status PlannerNode::change(config::Section section) {
   return readSetup(std::move(section)).map([this](const Setup& setup) {
+    setup_.supervisor = setup.supervisor;
     supervisor_->setOptions(setup.supervisor);
   });
 }

@@ -429,7 +429,7 @@ void TrackerNode::publishStatus() {
 
 bool TrackerNode::lacksOdometry() const {
   return last_odometry_.isZero() ? (ros::WallTime::now() - started_).toSec() > kOdometryLateS
-                                 : (ros::Time::now() - last_odometry_).toSec() > kOdometryLateS;
+                                 : age(last_odometry_, ros::Time::now()) > kOdometryLateS;
 }
 
 TrackerStatus TrackerNode::status() const {

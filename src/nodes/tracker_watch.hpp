@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "otter_nav/ros/conversions.hpp"
+#include "stamps.hpp"
 
 namespace otter_nav::nodes {
 
@@ -23,6 +24,10 @@ class TrackerWatch {
     refused_reason_ = status.refused_reason;
     near_id_ = status.near_obstacles_id;
     const double stamp_s = status.header.stamp.toSec();
+    if (stamp_s < latest_s_ - kAheadMostS) {  // the clock was set back
+      waiting_.clear();
+      latest_s_ = 0.0;
+    }
     const bool repeated = stamp_s > 0.0 && stamp_s <= latest_s_;
     if (!repeated) {
       latest_s_ = stamp_s;
