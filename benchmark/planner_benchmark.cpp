@@ -105,12 +105,9 @@ int main(int argc, char** argv) {
     }
     request.config = *share + "/config";
   }
-  std::ofstream json;
-  if (!out.empty()) {
-    json.open(out);
-    if (!json) {
-      return fail("--out: can't write " + out);
-    }
+  // Tried before the work; what is there stays until there is something in its place.
+  if (!out.empty() && !std::ofstream(out, std::ios::app)) {
+    return fail("--out: can't write " + out);
   }
   otter_nav::ProgressLine bar(std::cerr, isatty(STDERR_FILENO) != 0);
   const auto outcome =
@@ -122,8 +119,11 @@ int main(int argc, char** argv) {
   if (refused) {
     otter_nav::benchmark::printRefused(*outcome, std::cout);
   }
-  if (json) {
-    json << otter_nav::benchmark::toJson(*outcome, request).dump(1) << "\n";
+  if (out.empty()) {
+    return 0;
   }
-  return json.fail() && !out.empty() ? fail("--out: writing " + out + " failed") : 0;
+  std::ofstream json(out);
+  json << otter_nav::benchmark::toJson(*outcome, request).dump(1) << "\n";
+  json.close();
+  return json ? 0 : fail("--out: writing " + out + " failed");
 }

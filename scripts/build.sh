@@ -13,6 +13,7 @@ for option in "$@"; do
     --tests) testing=ON ;;
     --mission) programs=OFF ;;
     --strict) strict=(-DOTTER_NAV_WERROR=ON) ;;
+    -h|--help) sed -n '2,5s/^# //p' "$0"; exit 0 ;;
     *) echo "build: unknown option '$option'" >&2; exit 2 ;;
   esac
 done

@@ -25,6 +25,7 @@ import sys
 
 import numpy as np
 import yaml
+from PIL import Image
 
 STEP_S = 0.02
 VELOCITY_MPS = 2e-3
@@ -37,24 +38,12 @@ YAW_RATE_MAX_RADPS = 2.0
 COLUMNS = ["t", "x", "y", "psi", "u", "v", "r", "tau_u", "tau_r"]
 
 
-def read_pgm(path):
-    """A raw (P5) PGM as rows from the top."""
-    with open(path, "rb") as file:
-        data = file.read()
-    fields, at = [], 0
-    while len(fields) < 4:
-        while data[at:at + 1].isspace():
-            at += 1
-        if data[at:at + 1] == b"#":
-            at = data.index(b"\n", at)
-            continue
-        end = at
-        while not data[end:end + 1].isspace():
-            end += 1
-        fields.append(data[at:end])
-        at = end
-    width, height = int(fields[1]), int(fields[2])
-    return np.frombuffer(data[at + 1:], np.uint8, width * height).reshape(height, width)
+def read_image(path):
+    """Shades of a PGM or PNG as rows from the top."""
+    try:
+        return np.asarray(Image.open(path).convert("L"), float)
+    except (OSError, SyntaxError, ValueError) as error:  # PIL's SyntaxError: a file that is broken
+        sys.exit(f"check_dumps: {path}: {error}")
 
 
 class Map:
@@ -63,7 +52,7 @@ class Map:
     def __init__(self, yaml_path):
         with open(yaml_path) as file:
             meta = yaml.safe_load(file)
-        image = read_pgm(os.path.join(os.path.dirname(yaml_path), meta["image"]))
+        image = read_image(os.path.join(os.path.dirname(yaml_path), meta["image"]))
         dark = (255.0 - image) / 255.0 if not meta["negate"] else image / 255.0
         self.occupied = np.flipud(dark > meta["occupied_thresh"])
         self.resolution = meta["resolution"]

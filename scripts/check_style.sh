@@ -3,6 +3,11 @@
 # --fix formats in place instead of complaining.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
+case ${1:-} in
+  -h|--help) sed -n '2,3s/^# //p' "$0"; exit 0 ;;
+  --fix) ;;
+  -*) echo "check_style.sh: unknown option '$1'" >&2; exit 2 ;;
+esac
 cd "$top"
 mapfile -t files < <(git ls-files '*.hpp' '*.cpp')
 if [ "${1:-}" = "--fix" ]; then

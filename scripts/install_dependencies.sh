@@ -3,6 +3,12 @@
 # As root, or with sudo. With everything there it asks nothing of the network.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+for argument in "$@"; do
+  case $argument in
+    -h|--help) sed -n '2,3s/^# //p' "$0"; exit 0 ;;
+    -*) echo "install_dependencies: unknown option '$argument'" >&2; exit 2 ;;
+  esac
+done
 
 packages_of() {
   local line

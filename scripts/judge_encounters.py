@@ -52,7 +52,12 @@ def read_csv(path, columns):
     if missing or data.shape[1] != len(names):
         sys.exit(f"judge_encounters: {path}: no column {', '.join(missing)}" if missing
                  else f"judge_encounters: {path}: rows of {data.shape[1]} for {len(names)} names")
-    return {name: data[:, k] for k, name in enumerate(names)}
+    table = {name: data[:, k] for k, name in enumerate(names)}
+    for name in columns:
+        # No comparison with such a one is ever true: what is there would be no contact.
+        for row in np.flatnonzero(~np.isfinite(table[name])):
+            sys.exit(f"judge_encounters: {path}: row {row + 1}: {name} is {table[name][row]}, no number")
+    return table
 
 
 def read_missions(path):
@@ -72,9 +77,28 @@ def read_scenario(folder, name):
     path = os.path.join(folder, name + ".yaml")
     try:
         with open(path, encoding="utf-8") as file:
-            return yaml.safe_load(file)
-    except (OSError, yaml.YAMLError) as error:
+            scenario = yaml.safe_load(file)
+    except (OSError, ValueError, yaml.YAMLError) as error:
         sys.exit(f"judge_encounters: {path}: {getattr(error, 'strerror', None) or error}")
+    if not isinstance(scenario, dict) or not isinstance(scenario.get("missions"), list):
+        sys.exit(f"judge_encounters: {path}: no scenario, it has no missions")
+    for what, needed in (("missions", {"start", "goal"}),
+                         ("vessels", {"id", "length_m", "beam_m", "waypoints", "speeds_mps"})):
+        for k, one in enumerate(scenario.get(what) or []):
+            lacking = sorted(needed - set(one if isinstance(one, dict) else ()))
+            if lacking:
+                sys.exit(f"judge_encounters: {path}: {what}[{k}] without {', '.join(lacking)}")
+    return scenario
+
+
+def hull_of(text):
+    try:
+        length, beam = (float(number) for number in text.split(","))
+    except ValueError:
+        length = beam = math.nan
+    if not (0.0 < length < math.inf and 0.0 < beam < math.inf):
+        raise argparse.ArgumentTypeError(f"must be length,beam in m, both above 0, got '{text}'")
+    return length, beam
 
 
 def find(named, folder):
@@ -392,7 +416,11 @@ class Run:
 
 
 def judge_mission(entry, scenario, folder, own_hull):
-    mission = scenario["missions"][entry["mission"]]
+    missions, number = scenario["missions"], entry["mission"]
+    if not isinstance(number, int) or not 0 <= number < len(missions):
+        sys.exit(f"judge_encounters: mission {number} of {entry['scenario']}, which has {len(missions)}, "
+                 "counted from 0")
+    mission = missions[number]
     if not entry.get("track"):
         sys.exit(f"judge_encounters: mission {entry['mission']} names no track")
     place = find(entry["track"], folder)
@@ -407,13 +435,16 @@ def judge_mission(entry, scenario, folder, own_hull):
         faults.append("broken track")
     table = None
     if entry.get("vessels"):
-        table = read_csv(find(entry["vessels"], folder), ("id", "t", "x", "y", "psi"))
+        met = find(entry["vessels"], folder)
+        table = read_csv(met, ("id", "t", "x", "y", "psi"))
     for vessel in scenario.get("vessels") or []:
         script = scripted(vessel, t)
         if table is None:
             others.append((vessel, script))
             continue
         rows = table["id"] == vessel["id"]
+        if not rows.any():
+            sys.exit(f"judge_encounters: {met}: no rows of vessel {vessel['id']}")
         track = Track(table["t"][rows], table["x"][rows], table["y"][rows], table["psi"][rows])
         x, y, _ = scripted(vessel, track.t).at(track.t)
         if np.hypot(track.x - x, track.y - y).max() > 0.5:
@@ -464,11 +495,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--scenarios", required=True)
     parser.add_argument("--json", nargs="+", required=True)
-    parser.add_argument("--hull", default="2.0,1.08", help="ours: length,beam in m")
+    parser.add_argument("--hull", type=hull_of, default="2.0,1.08", help="ours: length,beam in m")
     parser.add_argument("--sheet", help="a picture of the tracks, of each mission the first")
     parser.add_argument("--verbose", action="store_true")
     arguments = parser.parse_args()
-    hull = tuple(float(v) for v in arguments.hull.split(","))
     scenarios = {}
     asked, kept = collections.Counter(), collections.Counter()
     lost, scores, contacts, near_misses, arrivals, count = [], [], 0, 0, 0, 0
@@ -479,7 +509,7 @@ def main():
             if name not in scenarios:
                 scenarios[name] = read_scenario(arguments.scenarios, name)
             run, arrived, late, wrong = judge_mission(
-                entry, scenarios[name], os.path.dirname(path), hull)
+                entry, scenarios[name], os.path.dirname(path), arguments.hull)
             count += 1
             arrivals += arrived
             faults += [f"{name} {entry['mission']}: {w}" for w in wrong]

@@ -2,6 +2,12 @@
 # Writes a manual page for each program of a folder from its --help: man_pages.sh PROGRAMS OUT
 # Needs help2man. The pages are otter_nav-PROGRAM(1), and otter_nav(1) for what runs them.
 set -euo pipefail
+for argument in "$@"; do
+  case $argument in
+    -h|--help) sed -n '2,3s/^# //p' "$0"; exit 0 ;;
+    -*) echo "man_pages.sh: unknown option '$argument'" >&2; exit 2 ;;
+  esac
+done
 [ $# -eq 2 ] || { echo "Usage: man_pages.sh PROGRAMS OUT" >&2; exit 2; }
 top=$(cd "$(dirname "$0")/.." && pwd)
 programs=$(cd "$1" && pwd)

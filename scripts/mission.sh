@@ -50,17 +50,31 @@ while [ $# -gt 0 ]; do
   shift 2
 done
 
-number='^[0-9]+([.][0-9]+)?$'
-[[ $mission =~ ^[0-9]+$ ]] || die "--mission must be a whole number from 0, got '$mission'"
+to_1000='^0*([0-9]{1,3}([.][0-9]+)?|1000([.]0+)?)$'
+[[ $mission =~ ^[0-9]{1,9}$ ]] || die "--mission must be a whole number from 0, got '$mission'"
 [[ $seed =~ ^[0-9]{1,10}$ && $((10#$seed)) -le 2147483647 ]] ||
   die "--seed must be a whole number from 0 to 2147483647, got '$seed'"
-[[ $speed =~ $number ]] || die "--speed must be a number from 0, got '$speed'"
+[[ $speed =~ $to_1000 ]] || die "--speed must be a number from 0 to 1000, got '$speed'"
 [ -f "$scenario" ] || die "--scenario: no file '$scenario'"
+# What reads YAML may not be installed yet: then the nodes say it.
+missions=$(/usr/bin/python3 -c 'import sys, yaml; print(len(yaml.safe_load(open(sys.argv[1]))["missions"]))' \
+  "$scenario" 2>/dev/null) || missions=1000000000
+[ "$missions" -gt 0 ] || die "--scenario: no missions in '$scenario'"
+[ "$((10#$mission))" -lt "$missions" ] ||
+  die "--mission must be from 0 to $((missions - 1)) in '$scenario', got '$mission'"
 [ -f "$vessel" ] || [ -f "$top/config/vessels/$vessel.yaml" ] ||
   die "--vessel must be a name of config/vessels, or a file, got '$vessel'"
 [ -f "$top/config/disturbances/$disturbance.yaml" ] ||
   die "--disturbance must be none, force10, paper or hard, got '$disturbance'"
-[ -z "$record" ] || [ -d "$(dirname "$record")" ] || die "--record: no folder '$(dirname "$record")'"
+if [ -n "$record" ]; then
+  [ -d "$(dirname "$record")" ] || die "--record: no folder '$(dirname "$record")'"
+  [ ! -d "$record" ] || die "--record must be a file, got the folder '$record'"
+  [ ! -e "$record.active" ] ||
+    die "--record: '$record.active' is there, perhaps of a recording that was cut off: move it away"
+fi
+[ ! -d "$result" ] && [ "${result%/}" = "$result" ] || die "--result must be a file, got the folder '$result'"
+[ "${result%.csv}" = "$result" ] ||
+  die "--result must not end in .csv, where its track will be written, got '$result'"
 mkdir -p "$(dirname "$result")" || die "--result: can't make '$(dirname "$result")'"
 
 if $build; then
@@ -100,7 +114,9 @@ if [ -z "${ROS_HOSTNAME:-}${ROS_IP:-}" ] && ! getent hosts "$(uname -n)" >/dev/n
 fi
 [ "$port" = 11311 ] || echo "ROS master at $ROS_MASTER_URI"
 
-rm -f "$result"
+# What an earlier mission left stays until this one's is written in its place.
+written() { stat -c '%i %y' "$result" 2>/dev/null || true; }
+before=$(written)
 launch_pid=""
 stop() { [ -n "$launch_pid" ] && kill -INT "$launch_pid" 2>/dev/null; wait "$launch_pid" 2>/dev/null || true; }
 trap stop INT TERM
@@ -111,7 +127,10 @@ launch_pid=$!
 wait "$launch_pid" || true
 trap - INT TERM
 
-[ -f "$result" ] || { echo "mission.sh: the mission ended without a result" >&2; exit 1; }
+if [ ! -f "$result" ] || [ "$(written)" = "$before" ]; then
+  echo "mission.sh: the mission ended without a result${before:+; $result is of an earlier one}" >&2
+  exit 1
+fi
 /usr/bin/python3 - "$result" <<'PY'
 import json, sys
 missions = json.load(open(sys.argv[1]))["missions"]

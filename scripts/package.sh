@@ -8,6 +8,7 @@ try=false out=$top/build/package
 for argument in "$@"; do
   case $argument in
     --try) try=true ;;
+    -h|--help) sed -n '2,4s/^# //p' "$0"; exit 0 ;;
     -*) echo "package: unknown option '$argument'" >&2; exit 2 ;;
     *) out=$argument ;;
   esac

@@ -6,17 +6,21 @@
 # results/reproduced). The exit code is 0 if every mission arrived.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
-build="" seeds=3 kind=all tracking_seeds="1 2 3 4 5" cases="[0-9]*" quick=false
+build="" out="" seeds=3 kind=all tracking_seeds="1 2 3 4 5" cases="[0-9]*" quick=false
 while [ $# -gt 0 ]; do
   case "$1" in
     --quick) quick=true seeds=1 kind=local tracking_seeds=1 cases="0[124]"; shift ;;
-    --build) build=$(realpath "${2:?reproduce.sh: --build needs a folder}"); shift 2 ;;
+    --build)
+      [ -d "${2:-}" ] || { echo "reproduce.sh: --build needs a folder, got '${2:-}'" >&2; exit 2; }
+      build=$(realpath "$2"); shift 2 ;;
     -h|--help) sed -n '2,6s/^# //p' "$0"; exit 0 ;;
     -*) echo "reproduce.sh: unknown option '$1'" >&2; exit 2 ;;
-    *) break ;;
+    *)
+      [ -z "$out" ] || { echo "reproduce.sh: one OUT, got '$out' and '$1'" >&2; exit 2; }
+      out=$1; shift ;;
   esac
 done
-out=$(realpath -m "${1:-$top/results/reproduced}")
+out=$(realpath -m "${out:-$top/results/reproduced}")
 programs="planner_benchmark tracking_benchmark mission_benchmark scenario_generator"
 if [ -z "$build" ]; then
   build=$top/install
@@ -63,7 +67,8 @@ echo "Table II: tracking, seeds $tracking_seeds"
 kept table_2.txt "$top/scripts/tracking_table.sh" --seeds "$tracking_seeds" "$(program tracking_benchmark)"
 
 echo "Encounters: Imazu's cases, captains who never give way, moving fields; disturbance paper"
-rm -rf "$out/encounters"
+# Those of a run with more cases would be judged too; what else lies there is not this script's.
+rm -f "$out"/encounters/{imazu,captains,moving}_*.{yaml,json}
 mkdir -p "$out/encounters/tracks"
 encounters imazu 41
 encounters captains 1

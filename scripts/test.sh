@@ -1,8 +1,14 @@
 #!/usr/bin/env bash
-# Installs, builds and runs the unit, property, closed-loop and rostest suites.
+# Installs, builds and runs the unit, property, closed-loop and rostest suites: test.sh
 # Last line: N passed, M failed. Exit code 0 only if nothing failed.
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
+for argument in "$@"; do
+  case $argument in
+    -h|--help) sed -n '2,3s/^# //p' "$0"; exit 0 ;;
+    *) echo "test.sh: unknown argument '$argument'" >&2; exit 2 ;;
+  esac
+done
 "$top/scripts/install_dependencies.sh" build test
 echo "Building with tests (build/build.log has the details)"
 "$top/scripts/build.sh" --tests

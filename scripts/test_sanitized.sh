@@ -3,12 +3,15 @@
 # it and runs its unit and closed-loop suites. test_sanitized.sh [--build-only] [BUILD_FOLDER]
 set -euo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd)
-testing=ON
-if [ "${1:-}" = "--build-only" ]; then
-  testing=OFF
-  shift
-fi
-build=${1:-$top/build-sanitized}
+testing=ON build=$top/build-sanitized
+for argument in "$@"; do
+  case $argument in
+    --build-only) testing=OFF ;;
+    -h|--help) sed -n '2,3s/^# //p' "$0"; exit 0 ;;
+    -*) echo "test_sanitized.sh: unknown option '$argument'" >&2; exit 2 ;;
+    *) build=$argument ;;
+  esac
+done
 # clang takes half of gcc's time for what it instruments, and is a second opinion.
 # Line tables are all that the sanitizers' reports need; full debug information doubles the time.
 cmake -S "$top" -B "$build" -G Ninja -DOTTER_NAV_CORE_ONLY=ON -DOTTER_NAV_UNITY=ON -DOTTER_NAV_SANITIZE=ON -DOTTER_NAV_WERROR=ON \

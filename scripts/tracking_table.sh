@@ -3,13 +3,20 @@
 # BENCHMARK is the program tracking_benchmark (from PATH by default), ARGS go to each run. Each row:
 # mean error averaged over the seeds, its worst seed, the largest error, the figure to hold.
 set -euo pipefail
+die() { echo "tracking_table.sh: $1" >&2; exit 2; }
 seeds="1 2 3 4 5"
-if [ "${1:-}" = "--seeds" ]; then
-  seeds=$2
-  shift 2
-fi
+while [ $# -gt 0 ]; do
+  case $1 in
+    --seeds) [ $# -ge 2 ] || die "--seeds needs a value"; seeds=$2; shift 2 ;;
+    -h|--help) sed -n '2,4s/^# //p' "$0"; exit 0 ;;
+    -*) die "unknown option '$1'" ;;
+    *) break ;;
+  esac
+done
+[[ $seeds =~ ^\ *[0-9]+(\ +[0-9]+)*\ *$ ]] || die "--seeds must be whole numbers from 0, got '$seeds'"
 benchmark=${1:-tracking_benchmark}
 [ $# -eq 0 ] || shift
+command -v "$benchmark" >/dev/null || die "BENCHMARK: no program '$benchmark'"
 out=$(mktemp -d)
 trap 'rm -r "$out"' EXIT
 

@@ -7,6 +7,7 @@
 
 #include "number_in.hpp"
 #include "replay/replay.hpp"
+#include "written_over.hpp"
 
 namespace {
 
@@ -44,6 +45,9 @@ void declare(CLI::App& app, Arguments& a, std::vector<double>& position) {
 }
 
 Result<plant::Recording> run(Arguments a) {
+  if (const Status status = tools::notOver(a.input, a.output); !status) {
+    return failure(status.error().message);
+  }
   Result<vessel::Parameters> vessel = vessel::loadParameters(a.vessel);
   if (!vessel) {
     return failure(vessel.error().message);

@@ -12,6 +12,7 @@
 #include "otter_nav/config/share.hpp"
 #include "otter_nav/map/chart.hpp"
 #include "otter_nav/traffic/tracker.hpp"
+#include "written_over.hpp"
 
 namespace {
 
@@ -89,8 +90,9 @@ Status take(const json& line, traffic::Tracker& tracker) {
   }
   if (line.contains("scan")) {
     const otter_nav::Scan scan = scanOf(line.at("scan"));
-    if (scan.ranges_m.empty() || scan.angle_increment_rad == 0.0) {
-      return failure("a scan needs ranges and an increment");
+    // As the nodes check it.
+    if (const std::string unusable = whyUnusable(scan); !unusable.empty()) {
+      return failure("scan: " + unusable);
     }
     tracker.addScan(t, sensorOf(line.at("sensor")), own, scan);
     return {};
@@ -166,7 +168,19 @@ Status trackFile(const Arguments& a) {
     return status;
   }
   std::ifstream in(a.input);
-  std::ofstream file(a.output);
+  if (!in) {
+    return failure("can't read " + a.input);
+  }
+  std::ofstream file;
+  if (!a.output.empty()) {
+    if (const Status status = otter_nav::tools::notOver(a.input, a.output); !status) {
+      return status;
+    }
+    file.open(a.output);
+    if (!file) {
+      return failure("can't write " + a.output);
+    }
+  }
   std::ostream& out = a.output.empty() ? std::cout : file;
   traffic::Tracker tracker(*options, *chart, own->hull);
   if (Status status = run(in, out, tracker); !status) {

@@ -351,8 +351,8 @@ def main(arguments=None):
         ending = os.path.splitext(options.out)[1].lower()
         if ending not in (".gif", ".mp4"):
             raise RecordingError(f"--out {options.out}: has to end in .gif or .mp4")
-        if options.speed <= 0.0 or not 1.0 <= options.rate <= 50.0:
-            raise RecordingError("--speed has to be positive, --rate from 1 to 50")
+        if not 0.0 < options.speed < numpy.inf or not 1.0 <= options.rate <= 50.0:
+            raise RecordingError("--speed has to be a number above 0, --rate from 1 to 50")
         if not 400 <= options.width <= 3840:
             raise RecordingError("--width has to be from 400 to 3840 pixels")
         run, scenario, _ = load(options)

@@ -20,6 +20,7 @@ from .trajectory import Trajectory
 from .vessel import load_vessel, vessel_of
 
 _JUMP_BACK_S = 1.0
+PARTIAL_READS = "; --partial reads what is before"
 # type -> {last name: what it is}; "*" takes any name.
 _KINDS = {
     "otter_nav/PlantState": {"*": "truth"},
@@ -167,6 +168,11 @@ def _records(bag, topics, raw):
         yield record[0], record[1], record[2]
 
 
+def damaged(path, received, error, advice=""):
+    """What to raise where a bag's messages break off, by the time of the last one in s."""
+    return RecordingError(f"{path}: damaged after {received:.3f} s: {error}{advice}")
+
+
 def raw_messages(bag, topics):
     """As _records(); a message is (type, bytes, md5sum, place, class)."""
     return _records(bag, topics, True)
@@ -206,8 +212,7 @@ def _read(bag, path, vessel, namespace, partial):
                 readers[-1].take(kind, message, t)
     except Exception as error:
         if not partial:
-            raise RecordingError(f"{path}: damaged after {received:.3f} s: {error}; --partial reads "
-                                 "what is before") from error
+            raise damaged(path, received, error, PARTIAL_READS) from error
     readers = [reader for reader in readers if reader.moved()]
     if not readers:
         raise RecordingError(f"{path}: its topics of motion hold no messages")

@@ -16,6 +16,11 @@ from .vessel import share_folder
 _WORST = 4          # cases with pictures
 _FIGURES = ("tracking_error_mean_m", "tracking_error_max_m", "min_clearance_m", "duration_s", "replans",
             "planning_ms_max", "tracker_ms_p99")  # of each mission
+_PLAN_LABELS = ("scenario", "mission", "kind", "method", "seed", "reason", "first_solution_ms")
+_PLAN_NUMBERS = ("total_ms", "length_m", "duration_s")
+_METHOD_NUMBERS = ("length_m_mean", "duration_s_mean", "cost_mean", "node_utilization_mean",
+                   "total_ms_mean", "total_ms_median", "total_ms_p95", "success_rate_100ms",
+                   "success_rate_1s")
 _HISTOGRAMS = (("tracking_error_mean_m", "mean tracking error, m"),
                ("tracking_error_max_m", "largest tracking error, m"),
                ("min_clearance_m", "least clearance, m"),
@@ -63,30 +68,57 @@ def _gather(folder):
         if not isinstance(data, dict):
             continue
         if isinstance(data.get("missions"), list):
-            lacking = _lacking(data["missions"])
-            if lacking:
-                print(f"left out: {path}: {lacking}", file=sys.stderr)
-                continue
-            missions += [(path, mission) for mission in data["missions"]]
+            lacking = _lacking("mission", data["missions"], figures=_FIGURES)
+            found, those = missions, [(path, mission) for mission in data["missions"]]
         elif isinstance(data.get("cases"), list) and "summary" in data:
-            plans.append((path, data))
+            lacking = _plans_lack(data)
+            found, those = plans, [(path, data)]
         elif "mean_error_m" in data and "path" in data:
-            tracking.append((path, data))
+            lacking = _lacks(data, ("vessel",), ("mean_error_m",))
+            found, those = tracking, [(path, data)]
+        else:
+            continue
+        if lacking:
+            print(f"left out: {path}: {lacking}", file=sys.stderr)
+        else:
+            found += those
     if not (missions or plans or tracking):
         raise RecordingError(f"{folder}: no result of mission_benchmark, planner_benchmark or "
                              "tracking_benchmark (--out) in it")
     return missions, plans, tracking
 
 
-def _lacking(missions):
-    """What the first mission that can't be counted lacks; empty if all can. Null: there was nothing
-    to measure."""
-    for k, mission in enumerate(missions):
-        if not isinstance(mission, dict):
-            return f"mission {k} is no mapping"
-        missing = [name for name in _FIGURES if not _is_figure(mission.get(name, ""))]
-        if missing:
-            return f"mission {k} has no number for {', '.join(missing)}"
+def _lacking(what, items, labels=(), numbers=(), figures=()):
+    """What the first item that can't be counted lacks; empty if all can."""
+    for k, item in enumerate(items):
+        lacks = _lacks(item, labels, numbers, figures)
+        if lacks:
+            return f"{what} {k} {lacks}"
+    return ""
+
+
+def _lacks(item, labels=(), numbers=(), figures=()):
+    """Of labels, of numbers, and of figures, which are null where there was nothing to measure."""
+    if not isinstance(item, dict):
+        return "is no mapping"
+    missing = [name for name in figures if not _is_figure(item.get(name, ""))]
+    missing += [name for name in numbers if item.get(name) is None or not _is_figure(item[name])]
+    if missing:
+        return f"has no number for {', '.join(missing)}"
+    missing = [name for name in labels if name not in item]
+    return f"has no {', '.join(missing)}" if missing else ""
+
+
+def _plans_lack(data):
+    lacking = _lacking("case", data["cases"], _PLAN_LABELS, _PLAN_NUMBERS)
+    summary = data["summary"]
+    if lacking or not isinstance(summary, dict):
+        return lacking or "its summary is no mapping"
+    for kind, methods in summary.items():
+        for method, row in methods.items() if isinstance(methods, dict) else [("", None)]:
+            lacks = _lacks(row, numbers=_METHOD_NUMBERS)
+            if lacks:
+                return f"its summary of {kind} {method} {lacks}"
     return ""
 
 

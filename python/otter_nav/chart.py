@@ -70,7 +70,8 @@ def load_grid(path):
         dark = shade if meta.get("negate", 0) else 1.0 - shade
         return Grid(numpy.flipud(dark > float(meta.get("occupied_thresh", 0.65))),
                     float(meta["resolution"]), tuple(float(v) for v in meta["origin"][:2]))
-    except (OSError, KeyError, TypeError, ValueError, yaml.YAMLError) as error:
+    except (OSError, KeyError, TypeError, ValueError, SyntaxError, yaml.YAMLError) as error:
+        # PIL's SyntaxError: a PNG that is broken.
         raise RecordingError(f"chart {path}: {error}") from error
 
 
@@ -79,7 +80,7 @@ def load_scenario(path):
     try:
         with open(path) as file:
             data = yaml.safe_load(file)
-    except (OSError, yaml.YAMLError) as error:
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise RecordingError(f"scenario {path}: {error}") from error
     if not isinstance(data, dict):
         raise RecordingError(f"scenario {path}: neither a scenario nor a chart")
@@ -87,8 +88,11 @@ def load_scenario(path):
         return Scenario(chart=load_grid(path), path=str(path))
     if "chart" not in data:
         raise RecordingError(f"scenario {path}: has no 'chart'")
-    folder = os.path.dirname(path)
     world = data.get("world")
+    for name, value in (("chart", data["chart"]), ("world", world)):
+        if not isinstance(value, str) and (name == "chart" or value is not None):
+            raise RecordingError(f"scenario {path}: '{name}' is no file's name: {value}")
+    folder = os.path.dirname(path)
     return Scenario(chart=load_grid(os.path.join(folder, data["chart"])),
                     world=load_grid(os.path.join(folder, world)) if world else None,
                     missions=data.get("missions"), path=str(path))

@@ -6,11 +6,12 @@ way among other vessels) and of the first command that the control loop makes wi
 """
 import argparse
 import json
+import os
 import sys
 
 import numpy
 
-from .bag import open_bag
+from .bag import damaged, open_bag
 from .errors import RecordingError
 
 _TOPICS = ("map_updates", "planner_status", "trajectory", "tracker_cycle")
@@ -22,11 +23,16 @@ _PARTS = (("scan to decision", "scan", "decision"), ("decision to answer", "deci
 
 def messages_of(path):
     """(last name of the topic, message, s when it was recorded) of what this takes, in that order."""
+    received = -numpy.inf
     with open_bag(path) as bag:
-        for topic, message, when in bag.read_messages():
-            name = topic.rsplit("/", 1)[-1]
-            if name in _TOPICS:
-                yield name, message, when.to_sec()
+        try:
+            for topic, message, when in bag.read_messages():
+                name = topic.rsplit("/", 1)[-1]
+                received = when.to_sec()
+                if name in _TOPICS:
+                    yield name, message, received
+        except Exception as error:  # as many kinds as there are of damage
+            raise damaged(path, received, error) from error
 
 
 def conflicts(messages):
@@ -79,6 +85,15 @@ def summary(values, unit):
             f"most {max(values):.0f}")
 
 
+def _make_room(out, bags):
+    """Before the bags are read, which takes its time."""
+    if os.path.realpath(out) in map(os.path.realpath, bags):
+        raise RecordingError(f"--json {out}: would be written over a bag that is read")
+    if os.path.isdir(out):
+        raise RecordingError(f"--json {out}: is a folder")
+    os.makedirs(os.path.dirname(os.path.abspath(out)), exist_ok=True)
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("bags", nargs="+", metavar="FILE.bag")
@@ -86,12 +101,14 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     found, wall_ms = [], []
     try:
+        if options.json:
+            _make_room(options.json, options.bags)
         for path in options.bags:
             of_bag, plans_ms = conflicts(messages_of(path))
             found += of_bag
             wall_ms += plans_ms
-    except RecordingError as error:
-        print(error, file=sys.stderr)
+    except (RecordingError, OSError) as error:
+        print(f"latency: {error}", file=sys.stderr)
         return 1
     for kind in ("plan", *_OTHERWISE.values()):
         of_kind = [c for c in found if c["kind"] == kind]

@@ -11,7 +11,7 @@ import time
 
 import numpy
 
-from .bag import open_bag, raw_messages, vessel_topics
+from .bag import PARTIAL_READS, damaged, open_bag, raw_messages, vessel_topics
 from .errors import RecordingError
 from .vessel import share_folder
 
@@ -45,7 +45,7 @@ def target(topic, prefix):
 class Recorded:
     """The messages of a bag in the order of recording, cut into runs where time jumps back."""
 
-    def __init__(self, bag, path, namespace):
+    def __init__(self, bag, path, namespace, partial=False):
         self.bag = bag
         connections = list(bag._get_connections())
         self.kinds, self.prefix = vessel_topics(connections, namespace, path)
@@ -59,19 +59,23 @@ class Recorded:
         every = sorted(set(self.topics) | set(motion) |
                        {t for t, kind in self.kinds.items() if kind == "trajectory"})
         self.runs = [[]]
-        last, received = {}, None
-        for topic, (_, data, _, _, pytype), t in raw_messages(bag, every):
-            self.pytypes[topic] = pytype
-            t = t.to_sec()
-            stamp = _stamp(data) if topic in motion else None
-            if (received is not None and t < received - _JUMP_BACK_S) or (
-                    stamp is not None and stamp < last.get(topic, stamp) - _JUMP_BACK_S):
-                self.runs.append(self._take_latched_tail(self.runs[-1], motion))
-                last = {}
-            received = t
-            if stamp is not None:
-                last[topic] = stamp
-            self.runs[-1].append((t, topic, data))
+        last, received = {}, -numpy.inf
+        try:
+            for topic, (_, data, _, _, pytype), t in raw_messages(bag, every):
+                self.pytypes[topic] = pytype
+                t = t.to_sec()
+                stamp = _stamp(data) if topic in motion else None
+                if t < received - _JUMP_BACK_S or (
+                        stamp is not None and stamp < last.get(topic, stamp) - _JUMP_BACK_S):
+                    self.runs.append(self._take_latched_tail(self.runs[-1], motion))
+                    last = {}
+                received = t
+                if stamp is not None:
+                    last[topic] = stamp
+                self.runs[-1].append((t, topic, data))
+        except Exception as error:  # as many kinds as there are of damage
+            if not partial:
+                raise damaged(path, received, error, PARTIAL_READS) from error
         self.runs = [run for run in self.runs if any(m[1] in motion for m in run)]
 
     def _take_latched_tail(self, run, motion):
@@ -315,7 +319,7 @@ def hull(path, namespace, partial):
             for topic in (prefix + "/robot_description", "/robot_description"):
                 for _, message, _ in bag.read_messages(topics=[topic]):
                     return message.data
-    except RecordingError:
+    except Exception:
         pass  # who plays the bag says so
     with open(share_folder() / "rviz" / "otter.urdf") as file:
         return file.read()
@@ -344,7 +348,8 @@ def main(arguments=None):
         if not options.rate > 0.0 or not options.start >= 0.0:
             raise RecordingError("--rate has to be above 0, --start not below")
         with open_bag(options.bag, options.partial == "true") as bag:
-            recorded = Recorded(bag, options.bag, options.namespace or None)
+            recorded = Recorded(bag, options.bag, options.namespace or None,
+                                options.partial == "true")
             if not 0 <= options.run <= len(recorded.runs):
                 raise RecordingError(f"{options.bag}: holds {len(recorded.runs)} runs, none with "
                                      f"number {options.run}")

@@ -49,7 +49,7 @@ def load_vessel(name_or_path):
     try:
         with open(path) as file:
             return vessel_of(yaml.safe_load(file), path)
-    except yaml.YAMLError as error:
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise RecordingError(f"vessel file {path}: {error}") from error
 
 

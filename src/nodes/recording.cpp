@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
 
 namespace otter_nav::nodes {
 namespace {
@@ -32,11 +33,16 @@ bool beginsWithHeader(const std::string& definition) {
 
 Status Recording::open(const std::string& file) {
   file_ = file;
+  std::error_code error;
+  if (std::filesystem::exists(file + ".active", error)) {
+    return failure(file +
+                   ".active: is there, perhaps of a recording that was cut off: move it away");
+  }
   try {
     bag_.open(file + ".active", rosbag::bagmode::Write);
     bag_.setCompression(rosbag::compression::LZ4);
-  } catch (const rosbag::BagException& error) {
-    return failure(file + ": cannot be written: " + error.what());
+  } catch (const rosbag::BagException& refused) {
+    return failure(file + ": cannot be written: " + refused.what());
   }
   return {};
 }

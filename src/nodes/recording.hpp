@@ -24,7 +24,8 @@ class Recording {
     ros::Time time;
   };
 
-  // Writes to FILE.active, which becomes FILE when it is closed. An error says why it can't.
+  // Writes to FILE.active, which becomes FILE when it is closed. An error says why it can't; one
+  // that is there already may be all that is left of an earlier recording.
   [[nodiscard]] Status open(const std::string& file);
   // The message's stamp, if its type has one. What comes before there is a time (a simulator's
   // clock stands still yet) waits for it. Throws rosbag::BagException where the disk refuses.

@@ -106,7 +106,8 @@ class AnimationTest(unittest.TestCase):
         self.assertEqual(code, 1)
 
     def test_refuses_what_makes_no_film(self):
-        for arguments in (["--speed", "0"], ["--speed", "0.001"], ["--rate", "0"], ["--width", "3"]):
+        for arguments in (["--speed", "0"], ["--speed", "nan"], ["--speed", "inf"], ["--speed", "0.001"],
+                          ["--rate", "0"], ["--width", "3"]):
             code, out = self.make("run.gif", "--bag", self.bag, *arguments)
             self.assertEqual(code, 1, arguments)
         self.assertEqual(self.make("run.avi", "--bag", self.bag)[0], 1)

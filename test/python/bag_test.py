@@ -169,6 +169,12 @@ class BagTest(unittest.TestCase):
         self.assertLess(run.truth.t[-1], synthetic.END_S - 1.0)
         self.assertEqual(os.path.getsize(self.path), int(0.6 * size))
 
+    def test_damaged_bag_is_named_and_read_up_to_there_if_asked(self):
+        synthetic.write_bag(self.path)
+        synthetic.damage(self.path)
+        self.refused(self.path, f"{self.path}: damaged after 1", "--partial reads what is before")
+        self.assertGreater(len(read_bag(self.path, partial=True)[0].truth), 100)
+
     def test_tum_files_are_what_evo_reads(self):
         synthetic.write_bag(self.path)
         out = os.path.join(self.folder, "tum")

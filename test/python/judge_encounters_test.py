@@ -1,4 +1,5 @@
 """The judge of encounters on tracks whose figures are known."""
+import argparse
 import contextlib
 import importlib.util
 import io
@@ -62,7 +63,7 @@ class Judge(unittest.TestCase):
         self.assertEqual(judge.outline_distance(still, (2, 1), still, (6, 2), t)[0], 0.0)
 
     def test_files_that_make_no_sense_are_named(self):
-        entry = {"mission": 0, "track": "/elsewhere/own.csv", "outcome": "arrived"}
+        entry = {"scenario": "sea", "mission": 0, "track": "/elsewhere/own.csv", "outcome": "arrived"}
         scenario = {"missions": [MISSION]}
         with tempfile.TemporaryDirectory() as folder:
             with self.assertRaisesRegex(SystemExit, "/elsewhere/own.csv"):
@@ -78,6 +79,50 @@ class Judge(unittest.TestCase):
                 file.write("t,x,y,psi\n0,0,-200,1.57\n200,0,-199,1.57\n")
             arrived = judge.judge_mission(entry, scenario, folder, (2.0, 1.08))[1]
             self.assertTrue(arrived)
+            for mission in (1, -1, "0", None):
+                with self.assertRaisesRegex(SystemExit, f"mission {mission} of sea, which has 1"):
+                    judge.judge_mission({**entry, "mission": mission}, scenario, folder, (2.0, 1.08))
+            vessel = {"id": 7, "length_m": 6.0, "beam_m": 2.0, "speeds_mps": [2.0],
+                      "waypoints": [[0, 0], [10, 0]]}
+            met = os.path.join(folder, "tracks", "met.csv")
+            with open(met, "w") as file:
+                file.write("id,t,x,y,psi\n6,0,0,0,0\n")
+            with self.assertRaisesRegex(SystemExit, f"{met}: no rows of vessel 7"):
+                judge.judge_mission({**entry, "vessels": "met.csv"}, {**scenario, "vessels": [vessel]},
+                                    folder, (2.0, 1.08))
+
+    def test_values_that_are_no_numbers_are_no_clear_water(self):
+        scenario = {"missions": [MISSION]}
+        with tempfile.TemporaryDirectory() as folder:
+            track = os.path.join(folder, "own.csv")
+            entry = {"scenario": "sea", "mission": 0, "track": track, "outcome": "arrived"}
+            for column in range(4):
+                for value in ("nan", "inf"):
+                    row = ["100", "0", "-100", "1.57"]
+                    row[column] = value
+                    with open(track, "w") as file:
+                        file.write("t,x,y,psi\n0,0,-200,1.57\n" + ",".join(row) + "\n")
+                    name = "t x y psi".split()[column]
+                    with self.assertRaisesRegex(SystemExit, f"{track}: row 2: {name} is {value}"):
+                        judge.judge_mission(entry, scenario, folder, (2.0, 1.08))
+
+    def test_scenarios_that_are_none_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "sea.yaml")
+            for text, why in ((b"", "no missions"), (b"missions: 3\n", "no missions"), (b"\xff", "utf-8"),
+                              (b"missions: [{start: [0, 0, 0]}]\n", r"missions\[0\] without goal"),
+                              (b"missions: [5]\n", r"missions\[0\] without goal, start"),
+                              (b"missions: []\nvessels: [{id: 1}]\n", r"vessels\[0\] without beam_m")):
+                with open(path, "wb") as file:
+                    file.write(text)
+                with self.assertRaisesRegex(SystemExit, f"{path}.*{why}"):
+                    judge.read_scenario(folder, "sea")
+
+    def test_hull_is_two_lengths(self):
+        self.assertEqual(judge.hull_of("2.0,1.08"), (2.0, 1.08))
+        for text in ("2.0", "abc", "2,1,3", "2,nan", "0,1", "2,-1", "inf,1", ""):
+            with self.assertRaisesRegex(argparse.ArgumentTypeError, f"got '{text}'"):
+                judge.hull_of(text)
 
     def test_judges_the_tracks_beside_the_result(self):
         entry = {"scenario": "sea", "mission": 0, "seed": 1, "vessel": "otter", "outcome": "arrived",

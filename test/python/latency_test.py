@@ -1,8 +1,16 @@
 """Times from a scan to the command that answers it."""
+import contextlib
+import io
+import json
+import os
+import tempfile
 import unittest
 from types import SimpleNamespace
 
+import synthetic
+
 from otter_nav.latency import conflicts
+from otter_nav.latency import main as latency
 
 
 def said(name, stamp, when=None, **fields):
@@ -51,6 +59,31 @@ class LatencyTest(unittest.TestCase):
             said("trajectory", 3.0, id=3), said("tracker_cycle", 3.1, trajectory_taken=3),
         ])
         self.assertEqual(found, [])
+
+    def test_bag_and_json_that_make_no_sense_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bag = os.path.join(folder, "run.bag")
+            synthetic.write_bag(bag)
+            with open(bag, "rb") as file:
+                recorded = file.read()
+            self.refused(f"--json {bag}: would be written over", bag, "--json", bag)
+            self.refused(f"--json {folder}: is a folder", bag, "--json", folder)
+            self.refused("Not a directory", bag, "--json", os.path.join(bag, "new", "times.json"))
+            with open(bag, "rb") as file:
+                self.assertEqual(file.read(), recorded)
+            out = os.path.join(folder, "new", "times.json")
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(latency([bag, "--json", out]), 0)
+            with open(out) as file:
+                self.assertEqual(json.load(file)["conflicts"], [])
+            synthetic.damage(bag)
+            self.refused(f"{bag}: damaged after 1", bag)
+
+    def refused(self, word, *arguments):
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(latency(arguments), 1)
+        self.assertIn(word, said.getvalue())
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """What replay_bag plays: whose topics, which run, the map as it had become, and never an order."""
 import numpy
+import pytest
 import rosbag
 from map_msgs.msg import OccupancyGridUpdate
 from nav_msgs.msg import OccupancyGrid
@@ -8,7 +9,8 @@ from std_msgs.msg import String
 
 from otter_nav import replay
 from otter_nav.bag import open_bag, read_bag
-from synthetic import messages, stamp, write_bag
+from otter_nav.errors import RecordingError
+from synthetic import damage, messages, stamp, write_bag
 
 VESSEL = """name: barge
 top_speed_mps: 1.25
@@ -44,6 +46,18 @@ def test_runs_are_cut_where_time_jumps_back(tmp_path):
     assert len(recorded.runs) == 3
     assert {len(run) for run in recorded.runs} == {len(recorded.runs[0])}
     assert all(abs(run[0][0] - recorded.runs[0][0][0]) < 0.1 for run in recorded.runs)
+
+
+def test_damaged_bag_is_named_and_played_up_to_there_if_asked(tmp_path, capsys):
+    path = tmp_path / "run.bag"
+    write_bag(path)
+    damage(path)
+    with open_bag(path) as bag:
+        with pytest.raises(RecordingError, match=f"{path}: damaged after 1.*--partial"):
+            replay.Recorded(bag, str(path), None)
+        assert len(replay.Recorded(bag, str(path), None, partial=True).runs[0]) > 100
+    assert replay.main(["--bag", str(path)]) == 1
+    assert "damaged" in capsys.readouterr().err
 
 
 def test_what_comes_before_a_runs_motion_is_its_own(tmp_path):

@@ -168,27 +168,55 @@ class ReportTest(unittest.TestCase):
             self.assertEqual(len(line), 1, lines)
             self.assertIn(missing, line[0])
 
-    def test_campaign_of_benchmarks(self):
-        dumps = ["", "t,x,y,u,v\n", "t,x,y,u,v\n0,0,0,0,0\n"]
-        for k, content in enumerate(dumps):  # without a way to draw
-            with open(os.path.join(self.folder, f"way_{k}.csv"), "w") as file:
-                file.write(content)
-
-        def case(k):
-            return {"scenario": "pond", "mission": k, "kind": "cross", "seed": 1, "method": "proposed",
-                    "success": k != 3, "reason": "time up" if k == 3 else "",
-                    "first_solution_ms": None if k == 3 else 4.0, "total_ms": 10.0 * (k + 1),
-                    "length_m": 100.0, "duration_s": 30.0, "cost": 300.0, "node_utilization": 0.4,
-                    "shortest_m": 95.0, "dump": f"way_{k}.csv"}
+    @staticmethod
+    def plans():
+        """What planner_benchmark writes; the last failed."""
+        cases = [{"scenario": "pond", "mission": k, "kind": "cross", "seed": 1, "method": "proposed",
+                  "success": k != 3, "reason": "time up" if k == 3 else "",
+                  "first_solution_ms": None if k == 3 else 4.0, "total_ms": 10.0 * (k + 1),
+                  "length_m": 100.0, "duration_s": 30.0, "cost": 300.0, "node_utilization": 0.4,
+                  "shortest_m": 95.0, "dump": f"way_{k}.csv"} for k in range(4)]
         summary = {"cases": 4, "success_rate_100ms": 0.75, "success_rate_1s": 0.75,
                    "length_m_mean": 100.0, "duration_s_mean": 30.0, "cost_mean": 300.0,
                    "node_utilization_mean": 0.4, "total_ms_mean": 25.0, "total_ms_median": 20.0,
                    "total_ms_p95": 40.0, "first_solution_ms_median": 4.0, "mean_speed_mps": 3.3,
                    "length_ratio_median": 1.05}
+        return {"vessel": "otter", "map": "world", "budget_ms": 1000.0, "cases": cases,
+                "summary": {"cross": {"proposed": summary}}}
+
+    def test_campaign_leaves_out_benchmarks_without_figures(self):
+        bad = {name: (self.plans(), missing) for name, missing in (
+            ("time.json", "case 1 has no number for total_ms"), ("null.json", "case 0 has no number for length_m"),
+            ("label.json", "case 2 has no scenario"), ("list.json", "case 3 is no mapping"),
+            ("row.json", "its summary of cross proposed has no number for cost_mean"),
+            ("summary.json", "its summary is no mapping"), ("kind.json", "its summary of cross"))}
+        del bad["time.json"][0]["cases"][1]["total_ms"]
+        bad["null.json"][0]["cases"][0]["length_m"] = None
+        del bad["label.json"][0]["cases"][2]["scenario"]
+        bad["list.json"][0]["cases"][3] = 3
+        del bad["row.json"][0]["summary"]["cross"]["proposed"]["cost_mean"]
+        bad["summary.json"][0]["summary"] = None
+        bad["kind.json"][0]["summary"]["cross"] = None
+        bad["tracking.json"] = ({"mean_error_m": None, "path": "eight", "vessel": "otter"}, "mean_error_m")
+        for name, (data, _) in {"good.json": (self.plans(), ""), **bad}.items():
+            with open(os.path.join(self.folder, name), "w") as file:
+                json.dump(data, file)
+        with mock.patch("sys.stderr", new_callable=io.StringIO) as told:
+            _, _, figures = self.make("--campaign", self.folder)
+        self.assertEqual(figures["plans"]["count"], 4)
+        lines = told.getvalue().splitlines()
+        for name, (_, missing) in bad.items():
+            line = [line for line in lines if os.path.join(self.folder, name) in line]
+            self.assertEqual(len(line), 1, lines)
+            self.assertIn(missing, line[0])
+
+    def test_campaign_of_benchmarks(self):
+        dumps = ["", "t,x,y,u,v\n", "t,x,y,u,v\n0,0,0,0,0\n"]
+        for k, content in enumerate(dumps):  # without a way to draw
+            with open(os.path.join(self.folder, f"way_{k}.csv"), "w") as file:
+                file.write(content)
         with open(os.path.join(self.folder, "planner.json"), "w") as file:
-            json.dump({"vessel": "otter", "map": "world", "budget_ms": 1000.0,
-                       "cases": [case(k) for k in range(4)],
-                       "summary": {"cross": {"proposed": summary}}}, file)
+            json.dump(self.plans(), file)
         with open(os.path.join(self.folder, "tracking.json"), "w") as file:
             json.dump({"vessel": "otter", "path": "eight", "disturbance": "paper", "method": "flatness",
                        "seed": 1, "mean_error_m": 0.05, "max_error_m": 0.2, "mean_speed": 2.0,

@@ -5,6 +5,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <exception>
 #include <vector>
 
 #include "otter_nav/ros/conversions.hpp"
@@ -89,7 +90,7 @@ Result<identification::Recording> loadBag(const std::string& path,
     if (!status) {
       return failure(status.error().message);
     }
-  } catch (const rosbag::BagException& error) {
+  } catch (const std::exception& error) {  // rosbag's, or of a message that breaks off
     return failure(path + ": cannot be read as a bag: " + error.what());
   }
   return recording;

@@ -178,7 +178,11 @@ class Reader {
     }
     std::size_t at = 0;
     Record record;
-    while (at < chunk_.size() && next(chunk_, at, record)) {
+    while (at < chunk_.size()) {
+      if (!next(chunk_, at, record)) {
+        note = "a chunk breaks off after " + last();
+        return {};
+      }
       if (const Status status = takeRecord(record); !status) {
         return status;
       }
