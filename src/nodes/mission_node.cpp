@@ -23,6 +23,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "goal_server.hpp"
 #include "mission_node_options.hpp"
@@ -172,6 +173,9 @@ Result<std::unique_ptr<MissionNode>> MissionNode::create(config::Section section
     if (trackPath(options->result) == options->result) {
       return failure(where + ": parameter 'result' = '" + options->result +
                      "' is where its track will be written: give a file that doesn't end in .csv");
+    }
+    if (std::error_code none; std::filesystem::is_directory(options->result, none)) {
+      return failure(where + ": parameter 'result' = '" + options->result + "' is a folder");
     }
     Result<scenario::TableWriter> opened =
         scenario::TableWriter::open(trackPath(options->result), scenario::kTrackColumns);
@@ -447,19 +451,20 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
   result.planning_ms_median = planner_.planning_ms_median;
   result.planning_ms_max = planner_.planning_ms_max;
   result.tracker_ms_p99 = tracker_.solver_ms_p99;
+  Status track;
   if (track_) {
     result.track = trackPath(options_.result);
-    if (const Status status = track_->close(); !status) {
-      std::cerr << status.error().message << '\n';
-    }
+    track = track_->close();
   }
-  if (!options_.result.empty()) {
-    if (const Status status = scenario::saveJson(options_.result, {result}); !status) {
-      std::cerr << status.error().message << '\n';
+  const Status saved =
+      options_.result.empty() ? Status() : scenario::saveJson(options_.result, {result});
+  for (const Status* status : {&track, &saved}) {
+    if (!*status) {
+      std::cerr << status->error().message << '\n';
     }
   }
   std::cout << scenario::summaryText(result) << std::flush;
-  exit_code_ = outcome == Outcome::kArrived ? 0 : 1;
+  exit_code_ = outcome == Outcome::kArrived && track && saved ? 0 : 1;
   state_subscriber_.shutdown();
   trajectory_subscriber_.shutdown();
   if (sails_on_) {

@@ -34,6 +34,7 @@ using visualization_msgs::InteractiveMarkerFeedback;
 using visualization_msgs::Marker;
 
 constexpr char kMarker[] = "goal";
+constexpr char kAllReached[] = "all goals reached";
 constexpr double kMarkerAheadM = 10.0;  // of the vessel, where the marker is first shown
 
 Marker arrow(const std_msgs::ColorRGBA& shade) {
@@ -270,7 +271,7 @@ void RouteNode::onDone(const actionlib::SimpleClientGoalState& state) {
   }
   goals_.erase(goals_.begin());
   if (goals_.empty()) {
-    stopSailing("all goals reached");
+    stopSailing(kAllReached);
     return;
   }
   publish();
@@ -292,9 +293,11 @@ void RouteNode::stopSailing(const std::string& reason) {
 }
 
 void RouteNode::publish() {
-  diagnostics_.setState(Level::kOk, sailing_          ? "sailing"
-                                    : reason_.empty() ? "waiting for goals"
-                                                      : reason_);
+  const bool gave_up = !sailing_ && !reason_.empty() && reason_ != kAllReached;
+  diagnostics_.setState(gave_up ? Level::kWarning : Level::kOk, sailing_ ? "sailing"
+                                                                : reason_.empty()
+                                                                    ? "waiting for goals"
+                                                                    : reason_);
   Route route;
   route.header.frame_id = frames().map;
   route.header.stamp = ros::Time::now();
