@@ -30,7 +30,7 @@ struct OccupancyMapOptions {
   static void describe(Self& o, Fields& fields) {
     fields("band_min_m", o.band.min_m, {-10.0, 100.0}, "heights over the water that matter:");
     fields("band_max_m", o.band.max_m, {-10.0, 100.0}, "below are waves, above is sky");
-    fields("hit_probability", o.hit_probability, {0.5, 0.99},
+    fields("hit_probability", o.hit_probability, {0.55, 0.99},
            "of a voxel being occupied, seen one echo");
     fields("miss_probability", o.miss_probability, {0.01, 0.5}, "the same, seen one beam pass");
     fields("occupied_probability", o.occupied_probability, {0.5, kMaxProbability},

@@ -100,6 +100,22 @@ TEST(OccupancyMap, WhatIsFilledInClearsWhereBeamsPass) {
   EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kFree);
 }
 
+// Where one echo is not enough to make an obstacle, it makes no free water either.
+TEST(OccupancyMap, TakesNoEchoForFreeWater) {
+  OccupancyGrid chart = coast();
+  std::fill(chart.cells.begin(), chart.cells.end(), Cell::kUnknown);
+  OccupancyMapOptions options = kOptions;
+  options.hit_probability = 0.65;
+  options.occupied_probability = 0.7;
+  OccupancyMap map(chart, kHull, options);
+  EXPECT_FALSE(map.fill({{5.1, 4.0, 0.8}}).empty());
+  EXPECT_EQ(cellAt(map, 5.1, 4.0), Cell::kOccupied);
+  ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F)));
+  EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kUnknown);
+  ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F)));
+  EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kOccupied);
+}
+
 TEST(OccupancyMap, ChartedLandStays) {
   OccupancyMap map(coast(), kHull, kOptions);
   for (int i = 0; i < 30; ++i) {
