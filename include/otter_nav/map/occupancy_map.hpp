@@ -87,7 +87,9 @@ class OccupancyMap {
   CellRectangle fill(const std::vector<Eigen::Vector3d>& points);
   // Forgets what was sensed; the changed cells.
   CellRectangle reset();
-  // By the path's ending: .bt or .ot (the tree), .yaml (the projection, with a PGM beside it).
+  // By the path's ending: .bt or .ot (the tree), .yaml (the projection, with a PGM beside it). A
+  // tree reaches 32768 cells to each side of the map's origin: what lies beyond, in UTM coordinates
+  // for instance, can be saved as .yaml only.
   [[nodiscard]] Status save(const std::string& path) const;
 
  private:
