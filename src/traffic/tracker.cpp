@@ -225,6 +225,14 @@ class Tracker::Impl {
 
   void forget(double now_s) { judge(now_s); }
 
+  // What the scans remember goes by itself with an earlier one.
+  void beginAnew() {
+    vessels_.clear();
+    tracks_.clear();
+    ghosts_.clear();
+    crowded_ = false;
+  }
+
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
 
  private:
@@ -945,6 +953,9 @@ Status Tracker::addAis(double stamp_s, std::string_view sentence) {
 }
 void Tracker::forget(double now_s) {
   impl_->forget(now_s);
+}
+void Tracker::beginAnew() {
+  impl_->beginAnew();
 }
 const std::vector<Track>& Tracker::tracks() const {
   return impl_->tracks();

@@ -548,6 +548,25 @@ TEST(TrafficTracker, BeginsAnewWhereAReportHasHerFarAway) {
   EXPECT_LT((tracker.tracks()[0].position - Eigen::Vector2d(-900.0, -400.0)).norm(), 0.5);
 }
 
+// Tracks of a time that hasn't come yet would never go.
+TEST(TrafficTracker, BeginsAnewOnAClockThatWasSetBack) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  const double knots = 2.0 / ais::kKnotMps;
+  ASSERT_TRUE(tracker.addAis(1000.0, report(257000013, {500.0, 0.0}, knots, 90.0)));
+  for (int k = 0; k < 20; ++k) {
+    tracker.addRadar(1000.0 + k, {{100.0 - 2.0 * k, 30.0}}, {0.0, 0.0});
+  }
+  ASSERT_EQ(tracker.tracks().size(), 2U);
+  const int last_id = std::max(tracker.tracks()[0].id, tracker.tracks()[1].id);
+  tracker.beginAnew();
+  EXPECT_TRUE(tracker.tracks().empty());
+  tracker.addScan(10.0, {{0.0, 0.0, 0.8}}, {{0.0, 0.0}, 0.0}, nothingMet());
+  EXPECT_TRUE(tracker.tracks().empty());
+  ASSERT_TRUE(tracker.addAis(10.0, report(257000014, {-300.0, 0.0}, knots, 90.0)));
+  ASSERT_EQ(tracker.tracks().size(), 1U);
+  EXPECT_GT(tracker.tracks()[0].id, last_id);
+}
+
 // A report of the same instant as what a sensor saw tells as well.
 TEST(TrafficTracker, TakesAReportOfTheInstantOfAScan) {
   Tracker tracker(Options{}, {}, {2.0, 1.08});
