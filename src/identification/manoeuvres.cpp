@@ -79,6 +79,10 @@ Excitation& Excitation::operator=(Excitation&&) noexcept = default;
 vessel::Thrusts Excitation::step(double time_s, const vessel::State& state) {
   unwrapped_psi_rad_ =
       started_ ? unwrapNear(state[vessel::kPsi], unwrapped_psi_rad_) : state[vessel::kPsi];
+  if (started_ && time_s < last_s_) {
+    running_.reset();
+  }
+  last_s_ = time_s;
   started_ = true;
   while (!finished()) {
     if (!running_) {

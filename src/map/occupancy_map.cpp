@@ -5,13 +5,15 @@
 #include <filesystem>
 #include <limits>
 
+#include "otter_nav/base/text.hpp"
 #include "otter_nav/vessel/hull.hpp"
 #include "sensed_layers.hpp"
 
 namespace otter_nav::map {
 namespace {
 
-constexpr double kRangeErrorM = 0.03;  // three standard deviations of a usual lidar
+constexpr double kRangeErrorM = 0.03;        // three standard deviations of a usual lidar
+constexpr double kTreeReachCells = 32768.0;  // to each side, by OctoMap's keys
 
 // Why the scan cannot be used, or nothing.
 std::string whyRefused(const GridGeometry& grid, const SensorPose& sensor, const Scan& scan) {
@@ -267,6 +269,17 @@ Status OccupancyMap::save(const std::string& path) const {
   }
   if (ending != ".bt" && ending != ".ot") {
     return failure(path + ": maps are saved as .bt, .ot or .yaml");
+  }
+  // Keys from beyond are those of other places: within this map that matters to nobody.
+  const GridGeometry& g = sensed_->chart.geometry;
+  const double reach_m = kTreeReachCells * g.resolution_m;
+  if (g.centreOf(0, 0).minCoeff() < -reach_m ||
+      g.centreOf(g.width - 1, g.height - 1).maxCoeff() > reach_m) {
+    return failure(path + text(": the map's origin is (%.10g, %.10g) m and its size %g m by %g m; "
+                               "an OctoMap of %g m cells holds coordinates in [%g, %g] m only; "
+                               "save it as .yaml",
+                               g.origin.x(), g.origin.y(), g.width * g.resolution_m,
+                               g.height * g.resolution_m, g.resolution_m, -reach_m, reach_m));
   }
   const std::unique_ptr<octomap::OcTree> tree = sensed_->layers.copyTree();
   for (std::size_t i = 0; i < sensed_->chart.cells.size(); ++i) {

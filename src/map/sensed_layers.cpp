@@ -84,11 +84,12 @@ bool SensedLayers::judge(std::size_t index, std::uint32_t bit, const octomap::Oc
   Column& column = columns_[index];
   const bool was_occupied = column.occupied != 0;
   const bool was_seen = column.seen != 0;
-  column.seen |= bit;
+  // Echoes that don't make it an obstacle yet have not seen it free either.
+  column.seen |= tree_.isNodeOccupied(node) || node.getLogOdds() <= 0.0F ? bit : 0U;
   column.occupied = tree_.isNodeOccupied(node) ? column.occupied | bit : column.occupied & ~bit;
   std::uint32_t& free = certainly_free_[index];
   free = node.getLogOdds() <= tree_.getClampingThresMinLog() ? free | bit : free & ~bit;
-  return was_occupied != (column.occupied != 0) || !was_seen;
+  return was_occupied != (column.occupied != 0) || was_seen != (column.seen != 0);
 }
 
 bool SensedLayers::hit(std::size_t index, int layer) {
@@ -137,7 +138,9 @@ bool SensedLayers::clear(std::size_t index) {
 bool SensedLayers::fill(std::size_t index, int layer) {
   const std::uint32_t bit = 1U << static_cast<unsigned>(layer);
   return !occupied(index) &&
-         judge(index, bit, *tree_.setNodeValue(keyOf(index, layer), hit_log_odds_, true));
+         judge(index, bit,
+               *tree_.setNodeValue(keyOf(index, layer),
+                                   std::max(hit_log_odds_, tree_.getOccupancyThresLog()), true));
 }
 
 void SensedLayers::reset() {

@@ -40,7 +40,7 @@ class SensedLayers {
   }
   // As free as can be, in all layers that were occupied.
   bool clear(std::size_t column);
-  // As likely occupied as one hit of what was unknown leaves it, if it wasn't before.
+  // As likely occupied as the fewest hits of what was unknown that make it so, if it wasn't before.
   bool fill(std::size_t column, int layer);
 
   void reset();

@@ -1,10 +1,13 @@
 // excitation_node: sails the excitation manoeuvres, a thruster command for each odometry message,
-// and ends when they are done. Parameters: config/excitation.yaml and those of
+// and ends when they are done. Whoever drives the thrusters may hold the last command: without
+// odometry, and at the end, it is none. Parameters: config/excitation.yaml and those of
 // launch/collect.launch.
 #include <nav_msgs/Odometry.h>
 #include <otter_nav/ThrusterCommand.h>
 #include <ros/node_handle.h>
 
+#include <algorithm>
+#include <csignal>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,11 +19,19 @@
 #include "otter_nav/ros/diagnostics.hpp"
 #include "otter_nav/ros/frames.hpp"
 #include "otter_nav/ros/run_node.hpp"
+#include "stamps.hpp"
 
 namespace otter_nav::nodes {
 namespace {
 
 constexpr int kQueue = 100;
+constexpr double kSilenceS = 0.5;  // without odometry that can be taken
+constexpr double kLookS = 0.1;
+
+volatile std::sig_atomic_t asked_to_end = 0;
+void askToEnd(int /*signal*/) {
+  asked_to_end = 1;
+}
 
 }  // namespace
 
@@ -42,6 +53,9 @@ class ExcitationNode {
 
   void onOdometry(const nav_msgs::Odometry& message);
   void reportProgress();
+  void look();
+  void rest();
+  void end();
 
   ExcitationNodeOptions options_;
   ros::NodeHandle node_;
@@ -50,8 +64,13 @@ class ExcitationNode {
   identification::Excitation excitation_;
   std::string progress_;
   ThrusterCommand command_;
+  ros::Time last_odometry_;
+  ros::Time answered_;  // by the clock; none before the first manoeuvre
+  bool ending_ = false;
   ros::Publisher command_publisher_;
   ros::Subscriber odometry_subscriber_;
+  ros::WallTimer look_timer_;
+  ros::WallTimer end_timer_;
 };
 
 Result<std::unique_ptr<ExcitationNode>> ExcitationNode::create(config::Section section) {
@@ -78,10 +97,16 @@ ExcitationNode::ExcitationNode(ExcitationNodeOptions options,
   command_.header.frame_id = ros_bridge::frames().base;
   odometry_subscriber_ = node_.subscribe("odom", kQueue, &ExcitationNode::onOdometry, this,
                                          ros::TransportHints().tcpNoDelay());
+  look_timer_ = node_.createWallTimer(ros::WallDuration(kLookS),
+                                      [this](const ros::WallTimerEvent&) { look(); });
+  // Not ROS's own handler: that one cuts the connections first, and the last command is lost.
+  std::signal(SIGINT, askToEnd);
+  std::signal(SIGTERM, askToEnd);
 }
 
 void ExcitationNode::onOdometry(const nav_msgs::Odometry& message) {
-  if (command_publisher_.getNumSubscribers() < static_cast<std::uint32_t>(options_.listeners)) {
+  if (ending_ ||
+      command_publisher_.getNumSubscribers() < static_cast<std::uint32_t>(options_.listeners)) {
     return;
   }
   const Result<ros_bridge::OdometrySample> sample =
@@ -90,13 +115,24 @@ void ExcitationNode::onOdometry(const nav_msgs::Odometry& message) {
     diagnostics_.refuse("odom", sample.error().message);
     return;
   }
-  if (message.header.stamp < command_.header.stamp) {
+  const ros::Time stamp = message.header.stamp;
+  const ros::Time now = ros::Time::now();
+  if (isAhead(stamp, now)) {
+    diagnostics_.refuse("odom", kStampedAhead);
+    return;
+  }
+  if (isAhead(last_odometry_, now)) {  // the clock was set back
+    last_odometry_ = ros::Time();
+  }
+  if (stamp < last_odometry_) {
     diagnostics_.refuse("odom", "its stamp goes backwards");
     return;
   }
+  last_odometry_ = stamp;
+  answered_ = std::max(now, stamp);
   // A message sent again gets the same answer: the manoeuvres depend on time and state alone.
   const vessel::Thrusts thrusts = excitation_.step(sample->stamp_s, sample->state);
-  command_.header.stamp = message.header.stamp;
+  command_.header.stamp = stamp;
   command_.left = thrusts[vessel::kLeft];
   command_.right = thrusts[vessel::kRight];
   command_publisher_.publish(command_);
@@ -112,8 +148,38 @@ void ExcitationNode::reportProgress() {
   ROS_INFO_STREAM("Excitation: " << progress_);
   diagnostics_.setState(ros_bridge::Diagnostics::Level::kOk, progress_);
   if (excitation_.finished()) {
-    ros::shutdown();
+    end();
   }
+}
+
+// By the clock that odometry has its stamps from: in lockstep it stands while somebody is waited
+// for.
+void ExcitationNode::look() {
+  if (asked_to_end != 0 && !ending_) {
+    rest();
+    end();
+  }
+  const ros::Time now = ros::Time::now();
+  if (isAhead(answered_, now)) {  // the clock was set back
+    answered_ = now;
+  }
+  if (!ending_ && !answered_.isZero() && (now - answered_).toSec() > kSilenceS) {
+    rest();
+  }
+}
+
+void ExcitationNode::rest() {
+  command_.header.stamp = ros::Time::now();
+  command_.left = 0.0;
+  command_.right = 0.0;
+  command_publisher_.publish(command_);
+}
+
+// A moment later, so that the last command goes out.
+void ExcitationNode::end() {
+  ending_ = true;
+  end_timer_ = node_.createWallTimer(
+      ros::WallDuration(kLookS), [](const ros::WallTimerEvent&) { ros::shutdown(); }, true);
 }
 
 }  // namespace otter_nav::nodes

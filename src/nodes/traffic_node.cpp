@@ -212,6 +212,7 @@ void TrafficNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
   const ros::Time& stamp = message->header.stamp;
   if (stamp < last_scan_ && isAhead(last_scan_, ros::Time::now())) {  // the clock was set back
     last_scan_ = ros::Time();
+    tracker_.beginAnew();
   }
   if (stamp <= last_scan_) {
     if (stamp == last_scan_) {

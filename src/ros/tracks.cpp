@@ -122,12 +122,10 @@ Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
       return failure("track " + std::to_string(one.id) +
                      " holds a figure that is not finite, or a negative size or time");
     }
-    // No vessel on earth; predicted, it would be everywhere.
-    constexpr double kFastestMps = 100.0;
-    constexpr double kLongestM = 1000.0;
-    if (track.velocity.norm() > kFastestMps || one.length > kLongestM || one.beam > kLongestM) {
-      return failure("track " + std::to_string(one.id) +
-                     " is faster than 100 m/s or larger than 1 km");
+    if (track.velocity.norm() > traffic::kFastestMps || one.length > traffic::kLongestM ||
+        one.beam > traffic::kLongestM) {
+      return failure(text("track %u is faster than %.0f m/s or larger than %.0f m", one.id,
+                          traffic::kFastestMps, traffic::kLongestM));
     }
     if (!(one.existence >= 0.0 && one.existence <= 1.0)) {
       return failure("track " + std::to_string(one.id) + " has an existence outside [0, 1]");

@@ -19,6 +19,10 @@ constexpr std::int32_t kUnknownForMs = 600;   // the same where nobody knows whe
 constexpr std::int32_t kFreeHoldsMs = 20000;  // what was free so long ago says nothing
 constexpr std::int32_t kEchoHoldsMs = 1000;   // what was met so long ago need not be there any more
 constexpr std::int32_t kHiddenForMs = 20000;  // but what stood, and nothing has shown to be gone
+// After as long without a scan nothing that is remembered says anything any more.
+constexpr std::int32_t kHoldsMs = std::max(kFreeHoldsMs, kHiddenForMs);
+// So often the cells count from a later instant: 32 bits hold 24 days.
+constexpr std::int32_t kCountsForMs = 24 * 3600 * 1000;
 
 // Of negative ones too, for the side is a power of two.
 static_assert((kSide & (kSide - 1)) == 0);
@@ -42,11 +46,41 @@ std::size_t ScanMemory::indexOf(const Eigen::Vector2i& cell) const {
   return static_cast<std::size_t>(modulo(cell.y()) * kSide + modulo(cell.x()));
 }
 
-void ScanMemory::begin(double time_s, const Eigen::Vector2d& eye) {
-  if (!placed_) {
-    first_s_ = time_s;
+void ScanMemory::forget() {
+  std::fill(cells_.begin(), cells_.end(), Cell());
+  placed_ = false;
+}
+
+// What stands does so for longer than it has to, whatever is cut off of when it was met first.
+void ScanMemory::countFromLater() {
+  static_assert(kNewForMs < kHoldsMs && kUnknownForMs < kHoldsMs);
+  const std::int32_t later_ms = now_ms_ - 2 * kHoldsMs;
+  const auto moved = [&](std::int32_t time_ms) { return std::max(0, time_ms - later_ms); };
+  for (Cell& cell : cells_) {
+    if (std::max(cell.met_last_ms, cell.free_last_ms) < now_ms_ - kHoldsMs) {
+      cell = Cell();
+      continue;
+    }
+    cell.met_since_ms = cell.met_since_ms < 0 ? -1 : moved(cell.met_since_ms);
+    cell.met_last_ms = moved(cell.met_last_ms);
+    cell.free_last_ms = moved(cell.free_last_ms);
   }
-  now_ms_ = static_cast<std::int32_t>(std::lround(1000.0 * (time_s - first_s_)));
+  counts_from_s_ += 1e-3 * later_ms;
+  now_ms_ -= later_ms;
+}
+
+void ScanMemory::begin(double time_s, const Eigen::Vector2d& eye) {
+  const auto since_ms = std::llround(1000.0 * (time_s - counts_from_s_));
+  if (since_ms < now_ms_ || since_ms > now_ms_ + kHoldsMs) {  // the clock was set, or no scans
+    forget();
+  }
+  if (!placed_) {
+    counts_from_s_ = time_s;
+  }
+  now_ms_ = placed_ ? static_cast<std::int32_t>(since_ms) : 0;
+  if (now_ms_ > kCountsForMs) {
+    countFromLater();
+  }
   stagger_ = std::fmod(stagger_ + kStagger, 1.0);
   const Eigen::Vector2i middle = cellAt(eye) - Eigen::Vector2i::Constant(kSide / 2);
   if (!placed_) {

@@ -13,7 +13,8 @@ class ScanMemory {
  public:
   ScanMemory();
 
-  // Begins a scan from `eye`; where the square has to move along, what leaves it is forgotten.
+  // Begins a scan from `eye`; where the square has to move along, what leaves it is forgotten, and
+  // all of it if the time goes back, or on by more than anything is remembered.
   void begin(double time_s, const Eigen::Vector2d& eye);
   // Whether what is met here has come into free water: the cell was seen free several times and has
   // been met for a few seconds at most, and nothing round about stands for longer.
@@ -26,7 +27,7 @@ class ScanMemory {
   void passed(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
  private:
-  // Times are since the first scan: a float of an epoch clock would not tell scans apart.
+  // Times are since counts_from_s_: a float of an epoch clock would not tell scans apart.
   struct Cell {
     std::int32_t met_since_ms = -1;  // the first echo of those met in a row; < 0: none
     std::int32_t met_last_ms = -1;
@@ -37,8 +38,10 @@ class ScanMemory {
   [[nodiscard]] bool contains(const Eigen::Vector2i& cell) const;
   [[nodiscard]] std::size_t indexOf(const Eigen::Vector2i& cell) const;
   [[nodiscard]] bool standsSince(const Cell& cell) const;
+  void forget();
+  void countFromLater();
 
-  double first_s_ = 0.0;  // the first scan
+  double counts_from_s_ = 0.0;
   std::int32_t now_ms_ = 0;
   double stagger_ = 0.0;
   Eigen::Vector2i corner_ = Eigen::Vector2i::Zero();  // of the square, cells of the whole plane

@@ -235,7 +235,7 @@ Track TrackedVessel::track() const {
         dimensions ? std::hypot(std::max(dimensions->to_bow_m, dimensions->to_stern_m),
                                 std::max(dimensions->to_port_m, dimensions->to_starboard_m))
                    : 0.5 * std::max(length_m, beam_m);
-    track.length_m = track.beam_m = 2.0 * reach;
+    track.length_m = track.beam_m = std::min(2.0 * reach, kLongestM);
   }
   track.existence = existence;
   track.sources = sources;
@@ -432,13 +432,15 @@ void TrackedVessel::learnSizeAmongMany(const Cluster& cluster, const Eigen::Vect
 }
 
 void TrackedVessel::takeDimensions(const ais::Message& message) {
-  if (!message.hasDimensions()) {
-    return;
+  const double reported_length_m = message.to_bow_m + message.to_stern_m;
+  const double reported_beam_m = message.to_port_m + message.to_starboard_m;
+  if (!message.hasDimensions() || std::max(reported_length_m, reported_beam_m) > kLongestM) {
+    return;  // the fields' maxima mean "or more"
   }
   dimensions = message;
   size = Size::kReported;
-  length_m = message.to_bow_m + message.to_stern_m;
-  beam_m = message.to_port_m + message.to_starboard_m;
+  length_m = reported_length_m;
+  beam_m = reported_beam_m;
 }
 
 Eigen::Vector2d TrackedVessel::middleFromReported() const {

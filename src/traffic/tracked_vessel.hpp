@@ -131,7 +131,8 @@ struct TrackedVessel {
   void learnSizeAmongMany(const Cluster& cluster, const Eigen::Vector2d& eye);
   // To be called with each size that echoes show: whether the last few were alike.
   bool isShownAgain(const Eigen::Vector2d& size_m);
-  // Dimensions reported by AIS: the size, and where in the outline the reported position is.
+  // Dimensions reported by AIS: the size, and where in the outline the reported position is. Of a
+  // hull beyond kLongestM they say nothing.
   void takeDimensions(const ais::Message& message);
   [[nodiscard]] Eigen::Vector2d middleFromReported() const;
 };

@@ -225,6 +225,14 @@ class Tracker::Impl {
 
   void forget(double now_s) { judge(now_s); }
 
+  // What the scans remember goes by itself with an earlier one.
+  void beginAnew() {
+    vessels_.clear();
+    tracks_.clear();
+    ghosts_.clear();
+    crowded_ = false;
+  }
+
   [[nodiscard]] const std::vector<Track>& tracks() const { return tracks_; }
 
  private:
@@ -411,7 +419,9 @@ class Tracker::Impl {
     vessel.existence = std::clamp(exists, reports ? kReportedAtLeast : 0.0,
                                   vessel.confirmed ? 0.9999 : kUnconfirmedAtMost);
     const bool in_doubt = !vessel.confirmed && isTheLidarsAlone(vessel);
-    vessel.missed += concluded > 0.5 ? 1 : 0;
+    const bool is_met = std::any_of(probabilities.begin(), probabilities.end(),
+                                    [](double one) { return one > 0.5; });
+    vessel.missed = is_met ? 0 : vessel.missed + (concluded > 0.5 ? 1 : 0);
     if (in_doubt && vessel.missed > kMostMissed) {
       vessel.doubt(look.stamp_s);
     }
@@ -425,9 +435,8 @@ class Tracker::Impl {
     }
     const double surprise = vessel.motion.distance2(candidates[best].measurement);
     vessel.motion.update(candidates);
-    if (probabilities[best] > 0.5) {
+    if (is_met) {
       vessel.met = met(look.stamp_s, candidates);
-      vessel.missed = 0;
       if (in_doubt && !vessel.heading_rad && surprise > kSurprise2) {
         vessel.doubt(look.stamp_s);
       }
@@ -945,6 +954,9 @@ Status Tracker::addAis(double stamp_s, std::string_view sentence) {
 }
 void Tracker::forget(double now_s) {
   impl_->forget(now_s);
+}
+void Tracker::beginAnew() {
+  impl_->beginAnew();
 }
 const std::vector<Track>& Tracker::tracks() const {
   return impl_->tracks();

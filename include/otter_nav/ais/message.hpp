@@ -24,7 +24,8 @@ constexpr double kKnotMps = 1852.0 / 3600.0;
 // A bearing of AIS's, clockwise from north, as an angle of the map, counter-clockwise from east.
 [[nodiscard]] double radiansFromEast(double degrees_from_north);
 
-// All fields of all types; a type carries some of them, the others keep their "not available".
+// All fields of all types, whoever uses them: what is decoded is compared with gpsd's decoder. A
+// type carries some of them, the others keep their "not available".
 // Courses and headings are degrees clockwise from true north, WGS 84.
 struct Message {
   int type = 0;

@@ -45,8 +45,8 @@ class Excitation {
   Excitation(Excitation&&) noexcept;
   Excitation& operator=(Excitation&&) noexcept;
 
-  // Thrusts for the state at `time_s`, which must not go back; zero when all is done. The heading
-  // may be wrapped.
+  // Thrusts for the state at `time_s`; zero when all is done. Where the time goes back, the clock
+  // was set, and the manoeuvre begins again. The heading may be wrapped.
   [[nodiscard]] vessel::Thrusts step(double time_s, const vessel::State& state);
   [[nodiscard]] bool finished() const { return current_ >= manoeuvres_.size(); }
   // "3 of 20: zigzag", or "finished".
@@ -58,6 +58,7 @@ class Excitation {
   std::size_t current_ = 0;
   std::unique_ptr<Manoeuvre> running_;
   double began_s_ = 0.0;
+  double last_s_ = 0.0;
   double unwrapped_psi_rad_ = 0.0;
   bool started_ = false;
 };

@@ -30,7 +30,7 @@ struct OccupancyMapOptions {
   static void describe(Self& o, Fields& fields) {
     fields("band_min_m", o.band.min_m, {-10.0, 100.0}, "heights over the water that matter:");
     fields("band_max_m", o.band.max_m, {-10.0, 100.0}, "below are waves, above is sky");
-    fields("hit_probability", o.hit_probability, {0.5, 0.99},
+    fields("hit_probability", o.hit_probability, {0.55, 0.99},
            "of a voxel being occupied, seen one echo");
     fields("miss_probability", o.miss_probability, {0.01, 0.5}, "the same, seen one beam pass");
     fields("occupied_probability", o.occupied_probability, {0.5, kMaxProbability},
@@ -87,7 +87,9 @@ class OccupancyMap {
   CellRectangle fill(const std::vector<Eigen::Vector3d>& points);
   // Forgets what was sensed; the changed cells.
   CellRectangle reset();
-  // By the path's ending: .bt or .ot (the tree), .yaml (the projection, with a PGM beside it).
+  // By the path's ending: .bt or .ot (the tree), .yaml (the projection, with a PGM beside it). A
+  // tree reaches 32768 cells to each side of the map's origin: what lies beyond, in UTM coordinates
+  // for instance, can be saved as .yaml only.
   [[nodiscard]] Status save(const std::string& path) const;
 
  private:

@@ -14,6 +14,10 @@ enum Source : std::uint32_t { kLidar = 1U, kRadar = 2U, kAis = 4U };
 // broad, where no heading is known.
 enum class Shape { kBox, kDisc };
 
+// No vessel on earth is longer or faster; foretold, one would be everywhere.
+constexpr double kLongestM = 1000.0;
+constexpr double kFastestMps = 100.0;
+
 constexpr double kSteadyTurnS = 40.0;  // in which a turn that has been steady dies out
 
 // Map frame (ENU), SI units, angles counter-clockwise from east.
@@ -28,7 +32,7 @@ struct Track {
   double turn_time_s = 5.0;      // in which the turn will have fallen to 1 / e
   bool keeps_place = false;      // at anchor, a buoy, or lying still: foretold to stay
   Shape shape = Shape::kBox;
-  double length_m = 0.0;
+  double length_m = 0.0;  // up to kLongestM, as the beam
   double beam_m = 0.0;
   // Of [x m, y m, v_x m/s, v_y m/s].
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();

@@ -64,6 +64,9 @@ class Tracker {
   [[nodiscard]] Status addAis(double stamp_s, std::string_view sentence);
   // Forgets tracks that were not heard or seen of for too long.
   void forget(double now_s);
+  // Forgets all tracks, as if the time began with the next call: the clock was set back. Their
+  // numbers are not given again.
+  void beginAnew();
 
   // Those that are confirmed, each at the instant it was last measured.
   [[nodiscard]] const std::vector<Track>& tracks() const;

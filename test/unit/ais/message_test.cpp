@@ -13,6 +13,7 @@
 
 #include "ais/bits.hpp"
 #include "otter_nav/base/random.hpp"
+#include "otter_nav/base/text.hpp"
 
 namespace otter_nav::ais {
 namespace {
@@ -47,6 +48,10 @@ Message anyMessage(int type, Random& random) {
   m.accurate = random.uniform() < 0.5;
   m.second = whole(random, 0, 59);
   m.part = type == 24 ? whole(random, 0, 1) : 0;
+  if (m.part == 1 && random.uniform() < 0.5) {  // of a craft that belongs to a ship
+    m.mmsi = static_cast<std::uint32_t>(whole(random, 980000000, 989999999));
+    m.mothership = static_cast<std::uint32_t>(whole(random, 200000000, 799999999));
+  }
   m.imo = static_cast<std::uint32_t>(whole(random, 0, 9999999));
   m.name = letters(random, type == 21 && random.uniform() < 0.5 ? 34 : 20);
   m.callsign = letters(random, 7);
@@ -56,6 +61,10 @@ Message anyMessage(int type, Random& random) {
   m.to_port_m = whole(random, 0, 63);
   m.to_starboard_m = whole(random, 0, 63);
   m.position_fix = whole(random, 0, 8);
+  m.eta_month = whole(random, 1, 12);
+  m.eta_day = whole(random, 1, 28);
+  m.eta_hour = whole(random, 0, 23);
+  m.eta_minute = whole(random, 0, 59);
   m.draught_m = 0.1 * whole(random, 1, 255);
   m.destination = letters(random, 20);
   m.off_position = random.uniform() < 0.5;
@@ -67,6 +76,10 @@ constexpr int kTypes[] = {1, 2, 3, 5, 18, 19, 21, 24};
 
 bool carriesPosition(int type) {
   return type != 5 && type != 24;
+}
+bool carriesDimensions(const Message& m) {
+  return m.type == 5 || m.type == 19 || m.type == 21 ||
+         (m.type == 24 && m.part == 1 && m.mothership == 0);
 }
 bool carriesMotion(int type) {
   return carriesPosition(type) && type != 21;
@@ -115,6 +128,9 @@ TEST(AisMessage, ComesBackAsItWent) {
     }
     if (m.type == 5 || m.type == 19 || m.type == 21 || (m.type == 24 && m.part == 1)) {
       EXPECT_EQ(back->ship_type, m.ship_type);
+      EXPECT_EQ(back->mothership, m.mothership);
+    }
+    if (carriesDimensions(m)) {
       EXPECT_EQ(back->to_bow_m, m.to_bow_m);
       EXPECT_EQ(back->to_starboard_m, m.to_starboard_m);
     }
@@ -152,11 +168,15 @@ void expectAsDecoded(const nlohmann::json& json, const Message& m) {
     EXPECT_EQ(json.at(m.type == 21 ? "name" : "shipname"),
               m.type == 21 ? m.name : m.name.substr(0, 20));
   }
-  if (has_static || part_b) {
+  if (carriesDimensions(m)) {
     EXPECT_EQ(json.at("to_bow"), m.to_bow_m);
     EXPECT_EQ(json.at("to_stern"), m.to_stern_m);
     EXPECT_EQ(json.at("to_port"), m.to_port_m);
     EXPECT_EQ(json.at("to_starboard"), m.to_starboard_m);
+  } else if (part_b) {
+    EXPECT_EQ(json.at("mothership_mmsi"), m.mothership);
+  }
+  if (has_static || part_b) {
     EXPECT_EQ(json.at(m.type == 21 ? "aid_type" : "shiptype"), m.ship_type);
   }
   if (m.type == 5 || part_b) {
@@ -165,6 +185,8 @@ void expectAsDecoded(const nlohmann::json& json, const Message& m) {
   if (m.type == 5) {
     EXPECT_EQ(json.at("imo"), m.imo);
     EXPECT_EQ(json.at("destination"), m.destination);
+    EXPECT_EQ(json.at("eta"), otter_nav::text("%02d-%02dT%02d:%02dZ", m.eta_month, m.eta_day,
+                                              m.eta_hour, m.eta_minute));
     expectSameNumber(json.at("draught"), m.draught_m, 0.051);
   }
   if (m.type == 21) {

@@ -74,6 +74,21 @@ TEST(Manoeuvres, ZigzagSwingsBetweenItsAngles) {
   EXPECT_EQ(switches, 3);  // the fourth ends it
 }
 
+// It would last until the clock has come there again.
+TEST(Manoeuvres, BeginAgainOnAClockThatWasSetBack) {
+  ManoeuvreOptions step;
+  step.seconds = 10.0;
+  Excitation excitation({step, step}, vessel::Thrusters{0.395, 100.0, 50.0});
+  const vessel::State rest = vessel::State::Zero();
+  EXPECT_GT(excitation.step(1000.0, rest).sum(), 0.0);
+  EXPECT_GT(excitation.step(1008.0, rest).sum(), 0.0);
+  EXPECT_GT(excitation.step(8.0, rest).sum(), 0.0);
+  EXPECT_GT(excitation.step(17.9, rest).sum(), 0.0);
+  EXPECT_EQ(excitation.progress(), "1 of 2: speed_step");
+  EXPECT_GT(excitation.step(18.1, rest).sum(), 0.0);
+  EXPECT_EQ(excitation.progress(), "2 of 2: speed_step");
+}
+
 TEST(Manoeuvres, CircleTurnsToItsSideByItsAngle) {
   for (const double side : {1.0, -1.0}) {
     ManoeuvreOptions circle;

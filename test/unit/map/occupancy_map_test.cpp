@@ -100,6 +100,22 @@ TEST(OccupancyMap, WhatIsFilledInClearsWhereBeamsPass) {
   EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kFree);
 }
 
+// Where one echo is not enough to make an obstacle, it makes no free water either.
+TEST(OccupancyMap, TakesNoEchoForFreeWater) {
+  OccupancyGrid chart = coast();
+  std::fill(chart.cells.begin(), chart.cells.end(), Cell::kUnknown);
+  OccupancyMapOptions options = kOptions;
+  options.hit_probability = 0.65;
+  options.occupied_probability = 0.7;
+  OccupancyMap map(chart, kHull, options);
+  EXPECT_FALSE(map.fill({{5.1, 4.0, 0.8}}).empty());
+  EXPECT_EQ(cellAt(map, 5.1, 4.0), Cell::kOccupied);
+  ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F)));
+  EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kUnknown);
+  ASSERT_TRUE(insert(map, sensorAt(0.0, 0.0), aheadOnly(5.1F)));
+  EXPECT_EQ(cellAt(map, 5.1, 0.0), Cell::kOccupied);
+}
+
 TEST(OccupancyMap, ChartedLandStays) {
   OccupancyMap map(coast(), kHull, kOptions);
   for (int i = 0; i < 30; ++i) {
@@ -527,6 +543,45 @@ TEST(OccupancyMap, SavesAndResets) {
   const CellRectangle changed = map.reset();
   EXPECT_EQ(changed.width, 1);
   EXPECT_EQ(map.projection().cells, coast().cells);
+}
+
+// UTM's coordinates are out of a tree's reach: there it would be saved as another place's.
+TEST(OccupancyMap, SavesWhatATreeCannotReachAsAChartOnly) {
+  OccupancyGrid chart = coast();
+  chart.geometry.origin = {569000.0, 7030000.0};
+  OccupancyMap map(chart, kHull, kOptions);
+  for (const std::string ending : {".bt", ".ot"}) {
+    const std::string path = testing::TempDir() + "/utm" + ending;
+    const Status saved = map.save(path);
+    ASSERT_FALSE(saved) << ending;
+    EXPECT_FALSE(std::filesystem::exists(path)) << ending;
+    for (const std::string named : {path.c_str(), "569000", "7030000", "[-8192, 8192]", ".yaml"}) {
+      EXPECT_NE(saved.error().message.find(named), std::string::npos) << saved.error().message;
+    }
+  }
+  const std::string path = testing::TempDir() + "/utm.yaml";
+  ASSERT_TRUE(map.save(path));
+  const auto again = loadMap(path, kOptions.band);
+  std::filesystem::remove(path);
+  std::filesystem::remove(testing::TempDir() + "/utm.pgm");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->geometry, chart.geometry);
+  EXPECT_EQ(again->cells, chart.cells);
+}
+
+// To a tree's very edge.
+TEST(OccupancyMap, SavesWhatATreeJustReaches) {
+  OccupancyGrid chart = coast();
+  for (const double edge_m : {-8192.0, 8192.0 - 40.0}) {
+    chart.geometry.origin.setConstant(edge_m);
+    const OccupancyMap map(chart, kHull, kOptions);
+    const std::string path = testing::TempDir() + "/edge.bt";
+    ASSERT_TRUE(map.save(path)) << edge_m;
+    const auto again = loadMap(path, kOptions.band);
+    std::filesystem::remove(path);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->geometry, chart.geometry) << edge_m;
+  }
 }
 
 TEST(LoadOctomap, BrokenFilesAreNamed) {

@@ -92,6 +92,46 @@ TEST(ScanMemory, KnowsAgainWhatWasHiddenMeanwhile) {
   }
 }
 
+const Eigen::Vector2d kEye(0.1, 0.1);
+const Eigen::Vector2d kThere(10.1, 0.1);
+
+// Something stands there for four seconds.
+void stand(ScanMemory& memory, double now_s) {
+  for (int k = 0; k < 60; ++k) {
+    memory.begin(now_s + k / 15.0, kEye);
+    memory.met(kThere);
+  }
+}
+
+// However long it runs, and whatever the clock is set to.
+TEST(ScanMemory, TellsWhatStandsAfterAMonth) {
+  constexpr double kMonthS = 30.0 * 24.0 * 3600.0;
+  ScanMemory memory;
+  double now_s = 1.75e9;
+  stand(memory, now_s);
+  for (const double end_s = now_s + kMonthS; now_s < end_s;) {
+    now_s += 19.0;
+    memory.begin(now_s, kEye);
+    memory.met(kThere);
+    ASSERT_TRUE(memory.stands(kThere)) << now_s - 1.75e9;
+  }
+}
+
+TEST(ScanMemory, ForgetsWhereTheClockIsSet) {
+  for (const double by_s : {-1000.0, -10.0, 1000.0, 1e7}) {
+    ScanMemory memory;
+    stand(memory, 1.75e9);
+    ASSERT_TRUE(memory.stands(kThere)) << by_s;
+    const double now_s = 1.75e9 + 4.0 + by_s;
+    memory.begin(now_s, kEye);
+    EXPECT_FALSE(memory.stands(kThere)) << by_s;
+    memory.met(kThere);
+    EXPECT_FALSE(memory.stands(kThere)) << by_s;
+    stand(memory, now_s);
+    EXPECT_TRUE(memory.stands(kThere)) << by_s;
+  }
+}
+
 // Counter-clockwise or clockwise, upright or upside down: what is behind a wall to port is hidden,
 // what is to starboard isn't.
 TEST(ScanClusters, SeesThroughAnyMounting) {

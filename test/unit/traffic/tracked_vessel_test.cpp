@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "otter_nav/base/planar.hpp"
 
 namespace otter_nav::traffic {
@@ -104,6 +106,41 @@ TEST(TrackedVessel, ForgetsWhatAWorseHeadingMadeOfHer) {
   vessel.sized_within_rad = 0.3;
   vessel.learnSize(sidesOf(5.0, 2.0), kEye);
   EXPECT_NEAR(vessel.beam_m, 2.0, 0.2);
+}
+
+ais::Message dimensions(int bow_m, int stern_m, int port_m, int starboard_m) {
+  ais::Message message;
+  message.to_bow_m = bow_m;
+  message.to_stern_m = stern_m;
+  message.to_port_m = port_m;
+  message.to_starboard_m = starboard_m;
+  return message;
+}
+
+// A track beyond it is refused, and all others with it.
+TEST(TrackedVessel, IsNoLongerThanAnyVessel) {
+  for (const bool is_headed : {false, true}) {
+    for (const ais::Message& reported :
+         {dimensions(511, 511, 63, 63), dimensions(511, 0, 10, 10), dimensions(200, 20, 63, 63)}) {
+      TrackedVessel vessel = northbound();
+      if (!is_headed) {
+        vessel.heading_rad.reset();
+      }
+      vessel.takeDimensions(reported);
+      const Track track = vessel.track();
+      EXPECT_LE(std::max(track.length_m, track.beam_m), kLongestM) << reported.to_bow_m;
+      EXPECT_GT(std::min(track.length_m, track.beam_m), 0.0) << reported.to_bow_m;
+    }
+  }
+}
+
+TEST(TrackedVessel, KeepsTheSizeThatAReportCannotMean) {
+  TrackedVessel vessel = northbound();
+  vessel.takeDimensions(dimensions(20, 10, 4, 4));
+  vessel.takeDimensions(dimensions(511, 511, 63, 63));
+  EXPECT_EQ(vessel.length_m, 30.0);
+  EXPECT_EQ(vessel.beam_m, 8.0);
+  EXPECT_EQ(vessel.dimensions->to_bow_m, 20);
 }
 
 }  // namespace

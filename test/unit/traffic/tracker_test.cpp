@@ -214,6 +214,35 @@ TEST(TrafficTracker, ConfirmsWhoComesIntoSightInTime) {
   }
 }
 
+// Whom a single scan misses, and the next one meets, is not doubted; whom two in a row miss is.
+TEST(TrafficTracker, DoubtsWhomTwoScansInARowMiss) {
+  constexpr double kMissedFromS = 1.2;  // after her first echoes
+  constexpr double kLongestS = 20.0;
+  const auto confirmedAfter = [](int scans_missed) {
+    const vessel::ScriptedVessel passing{1, {5.0, 2.0}, false, {{-30.0, 8.0}, {300.0, 8.0}}, {2.0}};
+    Sea sea(lidarOnly("none"), {}, {passing}, 1);
+    double seen_s = kLongestS;
+    int missed = 0;
+    sea.disturb = [&](Scan& scan) {
+      const auto echoes = std::count_if(scan.ranges_m.begin(), scan.ranges_m.end(),
+                                        [](float range) { return std::isfinite(range); });
+      seen_s = echoes >= 3 ? std::min(seen_s, sea.simulator.time()) : seen_s;
+      if (sea.simulator.time() > seen_s + kMissedFromS && missed < scans_missed) {
+        ++missed;
+        scan.ranges_m.assign(scan.ranges_m.size(), std::numeric_limits<float>::infinity());
+      }
+    };
+    while (!sea.trackOf(0) && sea.simulator.time() < kLongestS) {
+      sea.run(sea.simulator.time() + 0.01, {0.0, 0.0});
+    }
+    return sea.simulator.time() - seen_s;
+  };
+  const double undisturbed_s = confirmedAfter(0);
+  EXPECT_LT(undisturbed_s, 3.0);
+  EXPECT_LT(confirmedAfter(1), undisturbed_s + 0.5);
+  EXPECT_GT(confirmedAfter(2), undisturbed_s + 0.5);
+}
+
 // Crests and spray: gatherings of echoes that live for a second at most and drift with the wind.
 TEST(TrafficTracker, IsNotFooledByWindDrivenClutter) {
   struct Gathering {
@@ -546,6 +575,25 @@ TEST(TrafficTracker, BeginsAnewWhereAReportHasHerFarAway) {
   ASSERT_EQ(tracker.tracks().size(), 1U);
   EXPECT_EQ(tracker.tracks()[0].mmsi, 257000011U);
   EXPECT_LT((tracker.tracks()[0].position - Eigen::Vector2d(-900.0, -400.0)).norm(), 0.5);
+}
+
+// Tracks of a time that hasn't come yet would never go.
+TEST(TrafficTracker, BeginsAnewOnAClockThatWasSetBack) {
+  Tracker tracker(Options{}, {}, {2.0, 1.08});
+  const double knots = 2.0 / ais::kKnotMps;
+  ASSERT_TRUE(tracker.addAis(1000.0, report(257000013, {500.0, 0.0}, knots, 90.0)));
+  for (int k = 0; k < 20; ++k) {
+    tracker.addRadar(1000.0 + k, {{100.0 - 2.0 * k, 30.0}}, {0.0, 0.0});
+  }
+  ASSERT_EQ(tracker.tracks().size(), 2U);
+  const int last_id = std::max(tracker.tracks()[0].id, tracker.tracks()[1].id);
+  tracker.beginAnew();
+  EXPECT_TRUE(tracker.tracks().empty());
+  tracker.addScan(10.0, {{0.0, 0.0, 0.8}}, {{0.0, 0.0}, 0.0}, nothingMet());
+  EXPECT_TRUE(tracker.tracks().empty());
+  ASSERT_TRUE(tracker.addAis(10.0, report(257000014, {-300.0, 0.0}, knots, 90.0)));
+  ASSERT_EQ(tracker.tracks().size(), 1U);
+  EXPECT_GT(tracker.tracks()[0].id, last_id);
 }
 
 // A report of the same instant as what a sensor saw tells as well.
