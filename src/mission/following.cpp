@@ -60,7 +60,7 @@ std::optional<Following::Later> Following::fallsBehind(const Moment& m,
   }
   const Eigen::Vector2d along = wanted.velocity / speed;
   const double behind_m = (wanted.position - x.head<2>()).dot(along);
-  if (behind_m < least_m || velocityInMap(x).dot(along) > speed) {
+  if (behind_m < least_m || vessel::velocityOverGround(x).dot(along) > speed) {
     return std::nullopt;
   }
   Later later{sailed.path, behind_m};
@@ -121,7 +121,7 @@ bool Following::isSetAside(const Moment& m, const Sailed& sailed) {
 bool Following::goesAshore(const Moment& m, const Sailed& sailed) const {
   constexpr double kSoonS = 1.5;
   const vessel::FlatPoint wanted = sailed.at(m.now_s);
-  const Eigen::Vector2d velocity = velocityInMap(m.situation.state);
+  const Eigen::Vector2d velocity = vessel::velocityOverGround(m.situation.state);
   const Eigen::Vector2d off = m.situation.state.head<2>() - wanted.position;
   // Late on its way it is where nothing lies: what is sailed waits for it.
   const double speed = wanted.velocity.norm();
@@ -139,7 +139,7 @@ bool Following::goesOntoSomething(const Moment& m) const {
   constexpr double kStepS = 0.25;
   const vessel::State& x = m.situation.state;
   const double here = m.obstacles.clearance(x.head<2>(), m.now_s);
-  const Eigen::Vector2d velocity = velocityInMap(x);
+  const Eigen::Vector2d velocity = vessel::velocityOverGround(x);
   for (double later = kStepS; later <= kAheadS; later += kStepS) {
     const double there = m.obstacles.clearance(x.head<2>() + later * velocity, m.now_s + later);
     if (there < safety_.critical() && there < here) {

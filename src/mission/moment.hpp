@@ -1,7 +1,7 @@
 // What a decision is made on.
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "otter_nav/feasibility/obstacles.hpp"
@@ -21,11 +21,6 @@ struct Moment {
   constexpr double kAtRestMps = 0.2;
   constexpr double kAtRestRadps = 0.1;
   return vessel::speedOf(state) < kAtRestMps && std::abs(state[vessel::kYawRate]) < kAtRestRadps;
-}
-
-// Over ground, map frame, m/s.
-[[nodiscard]] inline Eigen::Vector2d velocityInMap(const vessel::State& state) {
-  return Eigen::Rotation2D<double>(state[vessel::kPsi]) * state.segment<2>(vessel::kSurge);
 }
 
 // Where the hull lies but for the waves that swing it abeam, which the tracker leaves it to at

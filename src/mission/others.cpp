@@ -41,7 +41,7 @@ void Others::lookOut(const Moment& m, const Sailed& sailed, const Eigen::Vector2
   std::vector<Track> under_way;
   std::copy_if(m.situation.tracks.begin(), m.situation.tracks.end(), std::back_inserter(under_way),
                [](const Track& track) { return !track.keeps_place; });
-  pilot_.observe(m.now_s, {x.head<2>(), velocityInMap(x)}, steered, under_way, goal,
+  pilot_.observe(m.now_s, {x.head<2>(), vessel::velocityOverGround(x)}, steered, under_way, goal,
                  kCruiseShare * sailed.plan.limits.speed_max_mps);
 }
 
@@ -196,7 +196,7 @@ encounter::Evasion::Task Others::task(const Moment& m, const Sailed& sailed,
     if (vessel::speedOf(x) < kStillMps) {
       task.state.tail<3>().setZero();
     }
-    task.start.velocity = velocityInMap(task.state);
+    task.start.velocity = vessel::velocityOverGround(task.state);
   }
   task.disturbance = safety_.weather().mean();
   feasibility::SafetyLimits limits =

@@ -185,12 +185,8 @@ class Search {
       row[2] = (3.0 * (b - a) / t - 2.0 * a_rate - b_rate) / t;
       row[3] = (2.0 * (a - b) / t + a_rate + b_rate) / (t * t);
     };
-    const auto velocity = [](const State& x) {
-      const Eigen::Vector2d e = unitVector(x[vessel::kPsi]);
-      return (x[vessel::kSurge] * e + x[vessel::kSway] * across(e)).eval();
-    };
-    const Eigen::Vector2d v = velocity(from);
-    const Eigen::Vector2d w = velocity(to);
+    const Eigen::Vector2d v = vessel::velocityOverGround(from);
+    const Eigen::Vector2d w = vessel::velocityOverGround(to);
     cubic(piece.position.row(0), from.x(), v.x(), to.x(), w.x());
     cubic(piece.position.row(1), from.y(), v.y(), to.y(), w.y());
     cubic(piece.heading.row(0), from[vessel::kPsi], from[vessel::kYawRate], to[vessel::kPsi],

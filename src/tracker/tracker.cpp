@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "otter_nav/base/angles.hpp"
-#include "otter_nav/base/planar.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
 #include "tracker/bow_guard.hpp"
 #include "tracker/handover.hpp"
@@ -40,11 +39,6 @@ constexpr double kJoinSpeedShare = 0.3;    // of the speed limit, where that is 
 constexpr double kSamePathLengths = 0.25;  // nearer, the plan in force starts the next one
 constexpr double kHereM = 0.1;  // but not where the trajectory begins with the hull's motion
 constexpr double kHereMps = 0.2;
-
-Vector2d velocityOverGround(const vessel::State& x) {
-  const Vector2d e = unitVector(x[kPsi]);
-  return x[kSurge] * e + x[kSway] * across(e);
-}
 
 // By nonlinear model predictive control.
 class PredictiveTracker final : public Tracker {
@@ -243,7 +237,7 @@ void PredictiveTracker::beginTracking(double now_s, const vessel::State& state) 
   reference_source_.start(sailing_->sailed, now_s);
   const vessel::FlatPoint z = reference_source_.flat(now_s);
   const Vector2d offset = state.head<2>() - z.position;
-  const Vector2d velocity_offset = velocityOverGround(state) - z.velocity;
+  const Vector2d velocity_offset = vessel::velocityOverGround(state) - z.velocity;
   if (offset.norm() > kJoinLengths * vessel_.hull.length_m) {
     reference_source_.join(
         now_s, offset, velocity_offset,
@@ -271,7 +265,7 @@ void PredictiveTracker::beginStop(std::string_view reason, double now_s,
 }
 
 void PredictiveTracker::restAhead(double now_s, const vessel::State& state) {
-  const Vector2d velocity = velocityOverGround(state);
+  const Vector2d velocity = vessel::velocityOverGround(state);
   const double braking_mps2 =
       kBrakingShare * 2.0 * vessel_.thrusters.astern_max_n / vessel_.manoeuvring.surge_inertia_kg;
   // Sooner rather than far away, should the speed be wrong.

@@ -218,7 +218,7 @@ FlatPoint InverseDynamics::fromState(const State& x, double force_least_n,
   const Vector2d n = across(e);
   FlatPoint z;
   z.position = x.head<2>();
-  z.velocity = x[kSurge] * e + x[kSway] * n;
+  z.velocity = velocityOverGround(x);
   const double through = e.dot(z.velocity - disturbance_.current_mps);
   const Air air = this->air(e);
   // Along the hull: the thrusters' and the wind's.

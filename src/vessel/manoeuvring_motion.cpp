@@ -97,7 +97,7 @@ FlatPoint pathFromState(const State& state, double force_max_n, const Parameters
   const Vector2d e = unitVector(psi);
   FlatPoint z;
   z.position = state.head<2>();
-  z.velocity = state[kSurge] * e + state[kSway] * across(e);
+  z.velocity = velocityOverGround(state);
   const ManoeuvringModel& m = vessel.manoeuvring;
   const Thrusters& t = vessel.thrusters;
   const double r = state[kYawRate];

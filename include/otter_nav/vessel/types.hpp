@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "otter_nav/base/planar.hpp"
+
 namespace otter_nav::vessel {
 
 // Named rows of State.
@@ -16,6 +18,11 @@ constexpr int kInputSize = 2;
 // [x m, y m, psi rad, u m/s, v m/s, r rad/s]: eta, then nu.
 using State = Eigen::Matrix<double, kStateSize, 1>;
 using StateJacobian = Eigen::Matrix<double, kStateSize, kStateSize>;
+// Over ground, earth frame, m/s.
+[[nodiscard]] inline Eigen::Vector2d velocityOverGround(const State& state) {
+  const Eigen::Vector2d ahead = unitVector(state[kPsi]);
+  return state[kSurge] * ahead + state[kSway] * across(ahead);
+}
 [[nodiscard]] inline double speedOf(const State& state) {
   return state.segment<2>(kSurge).norm();
 }
