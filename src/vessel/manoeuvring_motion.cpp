@@ -94,7 +94,6 @@ FlatPoint pathFromState(const State& state, double force_max_n, const Parameters
         .fromState(state, 2.0 * kOnwardShare * vessel.thrusters.ahead_max_n, force_max_n);
   }
   const double psi = state[kPsi];
-  const Vector2d e = unitVector(psi);
   FlatPoint z;
   z.position = state.head<2>();
   z.velocity = velocityOverGround(state);
