@@ -22,10 +22,10 @@ Motion motionAt(const Course& course, double t) {
   return {leg.position + (t - leg.from_s) * leg.velocity, leg.velocity};
 }
 
-// The sailed way up to `wait`, then at `share` of its speed for `hold`, then as before. False if it
-// falls below `least_mps` by that for long.
-bool slowed(const Course& sailed, double wait, double share, double hold, double least_mps,
-            Course& course) {
+// The sailed way up to `wait`, then at `share` of its speed for `hold`, then as before, in changes
+// that take `change_s`. False if it falls below `least_mps` by that for long.
+bool slowed(const Course& sailed, double wait, double share, double hold, double change_s,
+            double least_mps, Course& course) {
   course.legs.clear();
   double late = 0.0;  // what has been lost
   double below_s = 0.0;
@@ -49,7 +49,7 @@ bool slowed(const Course& sailed, double wait, double share, double hold, double
       if (below_s > kBelowMostS) {
         return false;
       }
-      course.legs.push_back({at, p, rate * leg.velocity});
+      course.legs.push_back({at, p, rate * leg.velocity, before ? 0.0 : change_s});
       p += rate * lasts * leg.velocity;
       t += rate * lasts;
       late += (1.0 - rate) * lasts;
@@ -74,8 +74,8 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
     }
     const Eigen::Vector2d v = motionAt(sailed, begin).velocity;
     const double half = 0.5 * handling.changeDuration(v, intent.share * v);
-    return slowed(sailed, begin + half, intent.share, half + intent.hold_s + half, water.least_mps,
-                  course);
+    return slowed(sailed, begin + half, intent.share, half + intent.hold_s + half, 2.0 * half,
+                  water.least_mps, course);
   }
   if (begin >= sailed.end_s - 1.0 || intent.share * water.cruise_mps < water.least_mps) {
     return false;
@@ -120,7 +120,7 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
         !map::segmentIsClear(water.field, corner, end, clearance)) {
       return false;
     }
-    course.legs.push_back({t + half, corner, velocity});
+    course.legs.push_back({t + half, corner, velocity, 2.0 * half});
     t += 2.0 * half + hold;
     at = {end, velocity};
     return true;
@@ -153,7 +153,8 @@ bool Chooser::build(const Water& water, const Handling& handling, const Intent& 
     if (distance < 0.1) {
       continue;
     }
-    course.legs.push_back({when, from, water.cruise_mps / distance * leg});
+    course.legs.push_back({when, from, water.cruise_mps / distance * leg,
+                           course.legs.size() == tail ? 2.0 * half : 0.0});
     when += distance / water.cruise_mps;
     from = water.path[next];
   }
@@ -196,13 +197,13 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
     if (standsOn(other.record.role)) {
       const Motion own{water.sailed.legs.front().position, water.sailed.legs.front().velocity};
       const Approach left = nearestApproach(own, other.motion);
+      waits.push_back(std::max(0.0, left.time_s - options_.stand_on_until_s));
       waits.push_back(std::max(0.0, left.time_s - options_.stand_on_until_s + 3.0));
-      waits.push_back(std::max(0.0, left.time_s - options_.stand_on_until_s + 7.0));
       // Whoever comes up slowly is near before that.
       const double along = std::sqrt(
           std::max(0.0, std::pow(options_.stand_on_until_m, 2) - std::pow(left.distance_m, 2)));
       const double closing = std::max(0.1, (other.motion.velocity - own.velocity).norm());
-      waits.push_back(std::max(0.0, left.time_s - along / closing + 3.0));
+      waits.push_back(std::max(0.0, left.time_s - along / closing + 1.0));
     }
   }
   std::sort(waits.begin(), waits.end());

@@ -11,9 +11,10 @@
 namespace otter_nav::encounter {
 namespace {
 
-constexpr double kUnderWayS = 15.0;  // at most, until the cruising speed is reached
-constexpr double kSteadiesS = 8.0;   // at least, until a course is kept
-constexpr double kPastS = 40.0;      // between two reports of a slow vessel, and some
+constexpr double kUnderWayS = 15.0;             // at most, until the cruising speed is reached
+constexpr double kAlongRad = 0.5 * kActionRad;  // and the course that is steered to the goal
+constexpr double kSteadiesS = 8.0;              // at least, until a course is kept
+constexpr double kPastS = 40.0;                 // between two reports of a slow vessel, and some
 constexpr double kPastStepS = 0.5;
 
 // How near she comes while courses are kept, in the time that counts.
@@ -173,7 +174,9 @@ void Lookout::remember(double now_s, const Motion& own, const Eigen::Vector2d& s
   }
   constexpr double kCruising = 0.92;
   const double sails_s = now_s - goal_time_s_;
-  const bool cruises = own_.velocity.norm() > kCruising * cruise_mps && sails_s > kSteadiesS;
+  const bool cruises =
+      own_.velocity.norm() > kCruising * cruise_mps && sails_s > kSteadiesS &&
+      std::abs(wrapAngle(own_.course() - angleOf(goal - own.position))) < kAlongRad;
   under_way_ = under_way_ || cruises || sails_s > kUnderWayS;
   if (!under_way_ && (goal - own.position).norm() > 1.0) {
     own_.velocity = cruise_mps * (goal - own.position).normalized();

@@ -12,13 +12,12 @@ namespace otter_nav::encounter {
 namespace {
 
 constexpr double kStandsMps = 0.15;
-// A turn takes its time: it begins so much before the corner of the polyline that stands for it.
-constexpr double kTurnLeadS = 4.0;
 // More than the rules ask: what sailing along the polyline only roughly may lose.
 constexpr double kEarlyMoreM = 3.0;
 constexpr double kEarlyMoreS = 4.0;
 constexpr double kTurnMoreRad = 0.05;
 constexpr double kLaterS = 2.5;
+constexpr double kNearerM = 1.5;
 constexpr double kSlowShare = 0.48;
 constexpr double kAtOnceS = 5.0;  // if the risk arises late, the action follows within this
 constexpr double kBroadRad = 70.0 * kPi / 180.0;
@@ -71,6 +70,16 @@ double distanceToBox(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
     }
   }
   return least;
+}
+
+// How long before the corner that stands for a change this is an action, s: the larger it is, the
+// longer it takes, and the sooner after its beginning it shows.
+double showsBefore(const Leg& leg, double turn_rad, double share) {
+  // Of the whole duration, where a smooth step from 0 to 1 is at `part`; near its beginning.
+  const auto reached = [](double part) { return 0.48 * std::sqrt(std::sqrt(part)); };
+  const double turned = kActionRad / std::max(kActionRad, std::abs(turn_rad));
+  const double slowed = kActionShare / std::max(kActionShare, std::abs(share - 1.0));
+  return leg.change_s * (0.5 - reached(std::min(turned, slowed)));
 }
 
 double starboardTurn(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
@@ -212,11 +221,11 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
                              leg.from_s - record.since_s <= kAtOnceS;
           out.broken |= early ? 0U : kLate;
         } else {
-          const double lead = std::min(kTurnLeadS, leg.from_s);
+          const double lead = std::min(leg.from_s, showsBefore(leg, turn, share));
           const Eigen::Vector2d began =
               from - lead * (record.kept_velocity - other.motion.velocity);
-          const bool early = left.time_s + kTurnLeadS > options_.stand_on_until_s - kLaterS &&
-                             began.norm() > options_.stand_on_until_m;
+          const bool early = left.time_s + lead > options_.stand_on_until_s - kLaterS &&
+                             began.norm() > options_.stand_on_until_m - kNearerM;
           out.broken |= early ? kActedEarly : 0U;
         }
       }

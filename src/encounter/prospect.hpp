@@ -16,6 +16,8 @@ struct Leg {
   double from_s = 0.0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  // What the change to it takes, of which the leg's beginning is the middle.
+  double change_s = 0.0;
 };
 struct Course {
   std::vector<Leg> legs;

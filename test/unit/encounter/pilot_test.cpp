@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "encounter/lookout.hpp"
 #include "encounter/manoeuvre.hpp"
@@ -314,6 +315,29 @@ TEST_F(PilotTest, SwingingAboutWhatIsSteeredIsNoAction) {
     }
     ASSERT_EQ(pilot_.encounters().size(), 1U);
     EXPECT_EQ(pilot_.encounters()[0].acted, steers);
+  }
+}
+
+// It swings onto its way as it gets under way, and somebody is heard of meanwhile: what it keeps to
+// is the way that it is about to sail.
+TEST_F(PilotTest, SwingingOntoItsWayIsNoAction) {
+  constexpr double kAsideRad = 0.12;
+  for (const bool swings : {true, false}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(0.0);
+    Eigen::Vector2d position(0.0, -200.0);
+    for (double t = 0.0; t <= 40.0; t += 0.1) {
+      const double aside = (swings ? t > 6.0 && t < 11.0 : t > 25.0) ? kAsideRad : 0.0;
+      const Eigen::Vector2d velocity = 2.0 * Eigen::Vector2d(std::sin(aside), std::cos(aside));
+      std::vector<traffic::Track> tracks;
+      if (t > 10.0) {
+        tracks.push_back(trackAt(67.5, 2.0, t));
+      }
+      pilot_.observe(t, {position, velocity}, position, tracks, {0.0, 200.0}, 1.98);
+      position += 0.1 * velocity;
+    }
+    ASSERT_EQ(pilot_.encounters().size(), 1U);
+    EXPECT_EQ(pilot_.encounters()[0].acted, !swings);
   }
 }
 

@@ -16,12 +16,12 @@ Eigen::Vector2d north(double speed, double to_starboard_deg = 0.0) {
                                  std::cos(to_starboard_deg * kDegree));
 }
 
-// From (0, -200) on legs of given course and duration.
+// From (0, -200) on legs of given course and duration; each change takes its time.
 Course sail(const std::vector<std::pair<Eigen::Vector2d, double>>& legs) {
   Course course;
   Eigen::Vector2d p(0.0, -200.0);
   for (const auto& [velocity, duration] : legs) {
-    course.legs.push_back({course.end_s, p, velocity});
+    course.legs.push_back({course.end_s, p, velocity, course.legs.empty() ? 0.0 : 9.0});
     p += duration * velocity;
     course.end_s += duration;
   }
@@ -151,6 +151,19 @@ TEST(Prospect, WhoStandsOnWaits) {
   EXPECT_EQ(broken(50.0, 50.0), unsigned{kActedEarly});
   EXPECT_EQ(broken(80.0, 50.0), 0U);
   EXPECT_EQ(broken(80.0, -50.0), unsigned{kToPort});
+}
+
+// The farther it turns the longer that takes, and the sooner before the corner it shows.
+TEST(Prospect, WhoStandsOnWaitsForALargeTurnLonger) {
+  const Other other = meeting(67.5, 2.0);
+  const auto broken = [&](double at_s, double turn_deg, double change_s) {
+    Course course = sail({{north(2.0), at_s}, {north(2.0, turn_deg), 20.0}, {north(2.0), 100.0}});
+    course.legs[1].change_s = change_s;
+    return look(course, other).broken;
+  };
+  EXPECT_EQ(broken(75.0, 40.0, 9.0), 0U);
+  EXPECT_EQ(broken(75.0, 130.0, 30.0), unsigned{kActedEarly});
+  EXPECT_EQ(broken(82.0, 130.0, 30.0), 0U);
 }
 
 // She is nearest where it turns, and draws apart from then on.
