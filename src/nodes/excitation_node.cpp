@@ -163,7 +163,7 @@ void ExcitationNode::look() {
   if (isAhead(answered_, now)) {  // the clock was set back
     answered_ = now;
   }
-  if (!ending_ && !answered_.isZero() && (now - answered_).toSec() > kSilenceS) {
+  if (!ending_ && !answered_.isZero() && age(answered_, now) > kSilenceS) {
     rest();
   }
 }
