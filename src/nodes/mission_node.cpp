@@ -456,8 +456,7 @@ void MissionNode::finish(Outcome outcome, const std::string& reason) {
     result.track = trackPath(options_.result);
     track = track_->close();
   }
-  const Status saved =
-      options_.result.empty() ? Status() : scenario::saveJson(options_.result, {result});
+  Status saved = options_.result.empty() ? Status() : scenario::saveJson(options_.result, {result});
   for (const Status* status : {&track, &saved}) {
     if (!*status) {
       std::cerr << status->error().message << '\n';
