@@ -91,9 +91,9 @@ class Faults(unittest.TestCase):
 
     def until(self, done, patience_s=PATIENCE_S):
         end = time.monotonic() + patience_s
-        while time.monotonic() < end and not done():
+        while not (holds := done()) and time.monotonic() < end:
             time.sleep(0.05)
-        return done()
+        return holds
 
     def send_goal(self):
         goal = MoveBaseGoal()
