@@ -33,9 +33,8 @@ std::string whyBlind(const Scan& scan) {
       return "";
     }
   }
-  return "no range is one: all are NaN, -inf or beyond range_min and range_max (REP-117: +inf "
-         "where "
-         "nothing was met)";
+  return "no range is one: all are NaN, -inf or beyond range_min and range_max "
+         "(REP-117: +inf where nothing was met)";
 }
 
 }  // namespace otter_nav
