@@ -32,7 +32,7 @@ PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters ves
       last_near_id_(ids_after),
       trajectory_(node.advertise<Trajectory>("trajectory", kKept, true)),
       near_obstacles_(node.advertise<NearObstacles>("near_obstacles", kKept, true)),
-      path_(node.advertise<nav_msgs::Path>("path", 1, true)),
+      path_(node.advertise<nav_msgs::Path>("path", kKept, true)),
       status_publisher_(node.advertise<PlannerStatus>("planner_status", kKept)),
       trajectory_markers_(
           node.advertise<visualization_msgs::MarkerArray>("trajectory_markers", 1, true)),

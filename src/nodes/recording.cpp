@@ -67,6 +67,10 @@ std::optional<Recording::Stamp> Recording::stampOf(const topic_tools::ShapeShift
 }
 
 void Recording::count(const std::string& topic, const std::string& sender, const Stamp& stamp) {
+  // Its first one, or one to a new subscriber alone, which bears no number of the row.
+  if (stamp.sequence == 0) {
+    return;
+  }
   const auto [entry, first] = lines_.try_emplace({topic, sender});
   Line& line = entry->second;
   // A sender that begins anew counts from the beginning.

@@ -89,7 +89,7 @@ Result<std::unique_ptr<TopologyNode>> TopologyNode::create(config::Section secti
 
 TopologyNode::TopologyNode(const map::DistanceFieldOptions& field, const topology::Options& options)
     : diagnostics_(node_, private_node_, "topology"), map_(field), finder_(options) {
-  path_publisher_ = node_.advertise<GuidePath>("guide_path", 1, true);
+  path_publisher_ = node_.advertise<GuidePath>("guide_path", kQueue, true);
   marker_publisher_ =
       node_.advertise<visualization_msgs::MarkerArray>("guide_path_markers", 1, true);
   diagnostics_.setState(Level::kWarning, "waiting for the map");
