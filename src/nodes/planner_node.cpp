@@ -382,6 +382,9 @@ void PlannerNode::beginAnew() {
   tracker_.expect(sent_id_, true);
   tracks_.clear();
   tracks_stamp_s_ = 0.0;
+  // Until odometry of the new time has come there is none, and a goal waits for it.
+  vessel_.stamp_s = 0.0;
+  goals_.setReady(false);
   if (scanned_s_) {
     scanned_s_ = now_s;
   }

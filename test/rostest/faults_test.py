@@ -37,12 +37,13 @@ class Vessel:
         self.scans = rospy.Publisher("scan", LaserScan, queue_size=10)
         self.transforms = tf2_ros.TransformBroadcaster()
         self.runs = True
+        self.lock = threading.Lock()
         threading.Thread(target=self.run, daemon=True).start()
 
     def run(self):
         step = 0
         while self.runs and not rospy.is_shutdown():
-            self.now_s += 0.02
+            self.jump(0.02)
             stamp = rospy.Time.from_sec(self.now_s)
             self.clock.publish(Clock(clock=stamp))
             if self.tells_odometry:
@@ -51,6 +52,10 @@ class Vessel:
                 self.tell_scan(stamp)
             step += 1
             time.sleep(0.02)
+
+    def jump(self, by_s):
+        with self.lock:
+            self.now_s += by_s
 
     def tell_odometry(self, stamp):
         message = Odometry()
@@ -124,15 +129,18 @@ class Faults(unittest.TestCase):
         self.send_goal()
         self.assertTrue(self.sails(), "no plan")
 
-        # The clock is set back.
+        # The clock is set back, and odometry comes late.
         self.trajectories.clear()
-        self.vessel.now_s -= 300.0
+        self.vessel.tells_odometry = False
+        self.vessel.jump(-300.0)
         self.assertTrue(self.until(lambda: self.state() == GoalStatus.ABORTED), self.state())
         self.assertEqual(self.goals.get_goal_status_text(), "the clock was set back")
         self.assertTrue(self.until(lambda: any(not t.pieces for t in self.trajectories)), "no order to stop")
         self.assertFalse(any(t.pieces for t in self.trajectories))
         self.send_goal()
-        self.assertTrue(self.sails(), "no plan on the new clock")
+        self.assertFalse(self.sails(0.5), "sails from where it was before")
+        self.vessel.tells_odometry = True
+        self.assertTrue(self.sails(), ("no plan on the new clock", self.state(), self.statuses[-1]))
         self.goals.cancel_goal()
 
         # The lidar begins to tell nonsense.
