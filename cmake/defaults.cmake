@@ -36,11 +36,8 @@ if(OTTER_NAV_WERROR)
   add_compile_options(-Werror)
 endif()
 if(OTTER_NAV_SANITIZE)
-  # What undefined-behaviour checks ask of each address before it is used, with Eigen's small matrices
-  # most of all, makes tests take up to eight times as long and the build twice. Addresses are the
-  # address sanitizer's, and alignment is asserted by Eigen.
   add_compile_options(-O2 -fsanitize=address,undefined -fno-sanitize-recover=undefined
-                      -fno-sanitize=null,alignment,object-size,pointer-overflow
+                      $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/sanitize_not.txt>
                       -fno-omit-frame-pointer
                       $<$<CXX_COMPILER_ID:GNU>:-Wno-mismatched-new-delete>)
   add_link_options(-fsanitize=address,undefined)
