@@ -49,7 +49,7 @@ bool Following::isLeftBehind(const Moment& m, const Sailed& sailed) const {
 std::optional<Following::Later> Following::fallsBehind(const Moment& m,
                                                        const Sailed& sailed) const {
   const bool strong = safety_.weather().isStrong();
-  const double least_m = strong ? 0.3 : 0.2;
+  const double least_m = strong ? 0.3 : 0.15;
   const double under_way_mps = strong ? 0.2 : 0.8;
   const vessel::State& x = m.situation.state;
   const vessel::FlatPoint wanted = sailed.at(m.now_s);

@@ -56,6 +56,8 @@ constexpr double kWaveDamping = 0.1;  // of the waves' oscillators, relative
 // it begins.
 constexpr double kSailingPerS = 0.6;
 
+}  // namespace
+
 // Under one drag ahead and abeam a current is a force.
 bool tellsCurrent(const vessel::ManoeuvringModel& model) {
   constexpr double kThroughMps = 0.5;
@@ -63,8 +65,6 @@ bool tellsCurrent(const vessel::ManoeuvringModel& model) {
   const double abeam = model.sway_drag_kgps + kThroughMps * model.sway_drag_quadratic_kgpm;
   return std::max(ahead, abeam) > kDragRatio * std::min(ahead, abeam);
 }
-
-}  // namespace
 
 using vessel::kPsi;
 using vessel::kSurge;

@@ -23,6 +23,9 @@ namespace otter_nav::tracker {
 
 enum class Waves { kOnTop, kInTheWater };
 
+// Whether a hull's drags ahead and abeam tell a current from a force.
+[[nodiscard]] bool tellsCurrent(const vessel::ManoeuvringModel& model);
+
 class Estimator {
  public:
   Estimator(const EstimatorOptions& options, const vessel::Parameters& vessel,

@@ -26,7 +26,7 @@ constexpr double kImpossibleRadps = 3.0;
 constexpr double kCurrentComesS = 5.0;
 // Under way, until the waves are told from the current; and how soon that is out of date at
 // crawling pace, where a hull is left to swing with them.
-constexpr double kSeawayAfterS = 8.0;
+constexpr double kSeawayAfterS = 4.0;
 constexpr double kSeawayComesS = 2.0;
 constexpr double kSeawayFades = 0.3;  // s a second
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "otter_nav/base/angles.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
+#include "otter_nav/vessel/rest.hpp"
 #include "otter_nav/vessel/thrusters.hpp"
+#include "tracker/estimator.hpp"
 
 namespace otter_nav::tracker {
 namespace {
@@ -19,6 +22,10 @@ constexpr double kFarLengths = 0.25;    // position errors beyond weigh in propo
 constexpr double kStepShare = 0.5;
 constexpr double kHeadingStepRad = 0.5;
 constexpr double kFiniteTurnRad = 0.3;  // by which a plan bow to the wind sees the way aside
+// Under way, where the water carries the hull, what waves do to it is foreseen for about so long.
+// In a load across which no hull lies still it is that which counts, and it lasts.
+constexpr double kForeseenS = 3.0;
+constexpr double kLightMps = 0.5 * vessel::kRestMps;
 // A change of course by which a hull's quickness in turning is told.
 constexpr double kTurnRad = 0.2;
 
@@ -39,6 +46,14 @@ double headingShare(const vessel::Parameters& vessel) {
   const double turn_s =
       vessel::turnLaw(vessel, vessel::greatestMoment(vessel.thrusters)).timeTo(kTurnRad);
   return turn_s * turn_s;
+}
+
+// How fast the errors to come weigh less.
+double fading(const vessel::ManoeuvringModel& model, const vessel::Disturbance& disturbance) {
+  const double across = vessel::headingIntoLoad(model, disturbance, 0.0) + kPi / 2.0;
+  const double aside_mps = vessel::setAside(model, disturbance, across);
+  const double lasts = (aside_mps - kLightMps) / (vessel::kRestMps - kLightMps);
+  return (1.0 - std::clamp(lasts, 0.0, 1.0)) / kForeseenS;
 }
 
 OcpWeights weightsOf(const Weights& w, double heading_share, double step_s) {
@@ -76,7 +91,8 @@ RtiOptions iterationOf() {
 }  // namespace
 
 PredictiveController::PredictiveController(const Options& options, const vessel::Parameters& vessel)
-    : flatness_(options.method == Method::kFlatness),
+    : model_(vessel.manoeuvring),
+      flatness_(options.method == Method::kFlatness),
       stages_(options.stages),
       period_s_(options.period_s),
       thrust_rate_nps_(options.thrust_rate_nps),
@@ -117,6 +133,9 @@ void PredictiveController::prepareFor(double start_s, double psi_rad, const vess
   corridor_.feel(start_s, navigator.disturbance().wind_mps);
   reference_.corridor =
       flatness_ && !source.isRolledOut() ? corridor_.about(psi_rad) : HeadingCorridor{};
+  const bool under_way = flatness_ && !source.rests() && !source.isRolledOut();
+  reference_.fading_per_s =
+      under_way && tellsCurrent(model_) ? fading(model_, navigator.disturbance()) : 0.0;
   source.fill(start_s, prediction_.step_s, stages_, psi_rad, navigator.disturbance(), reference_);
   if (plan_valid_) {
     solver_.shift((start_s - solved_for_s_) / prediction_.step_s);

@@ -40,6 +40,7 @@ class PredictiveController {
                   const Navigator& navigator, ReferenceSource& source);
   [[nodiscard]] std::optional<vessel::Thrusts> fromLastPlan(double now_s) const;
 
+  vessel::ManoeuvringModel model_;
   bool flatness_;
   int stages_;
   double period_s_;

@@ -41,6 +41,7 @@ class ReferenceSource {
   [[nodiscard]] double end() const;
   // Lets the reference wait for a vessel at `position`, or catch up; call once a control step.
   void wait(double now_s, const Eigen::Vector2d& position);
+  [[nodiscard]] bool rests() const { return rests_; }
   // Its headings are meant, whatever the wind.
   [[nodiscard]] bool isRolledOut() const { return rolled_out_ && !rests_; }
 

@@ -33,9 +33,7 @@ Thrusts ShootingProblem::thrustsAt(const Number* x, int k) const {
 }
 
 State ShootingProblem::weight(int k) const {
-  State w = k == options_.stages ? options_.weights.terminal : options_.weights.state;
-  w.segment<3>(vessel::kPsi) *= reference_.attitude[k];
-  return w;
+  return stateWeights(options_, reference_, k);
 }
 
 ShootingProblem::Step ShootingProblem::step(const State& x, const Thrusts& thrusts) const {

@@ -12,6 +12,13 @@ constexpr double kRegularization = 1e-9;  // added to the thrusts' Hessian
 
 }  // namespace
 
+vessel::State stateWeights(const OcpOptions& options, const OcpReference& reference, int stage) {
+  vessel::State w = stage == options.stages ? options.weights.terminal : options.weights.state;
+  w *= std::exp(-reference.fading_per_s * stage * options.step_s);
+  w.segment<3>(vessel::kPsi) *= reference.attitude[static_cast<std::size_t>(stage)];
+  return w;
+}
+
 double nearness(const vessel::State& x, const vessel::State& reference, double far_m) {
   return 1.0 / std::sqrt(1.0 + (x - reference).head<2>().squaredNorm() / (far_m * far_m));
 }
@@ -72,8 +79,7 @@ void ControlProblem::keepOff(const vessel::State& state, const vessel::State& re
 void ControlProblem::expand(const Plan& plan, const OcpReference& reference, qp::BoxQp& qp) const {
   const int n = options_.stages;
   for (int k = 0; k <= n; ++k) {
-    vessel::State w = k == n ? options_.weights.terminal : options_.weights.state;
-    w.segment<3>(vessel::kPsi) *= reference.attitude[k];
+    vessel::State w = stateWeights(options_, reference, k);
     w.head<2>() *= nearness(plan.states[k], reference.states[k], options_.far_m);
     const vessel::State g = w.cwiseProduct(plan.states[k] - reference.states[k]);
     qp::StateCost& cost = qp.state_costs[k];

@@ -1,7 +1,10 @@
 // The tracker's optimal control problem (paper, section V-B):
 //
-//   min  sum_{k<N} 1/2 |x_k - xr_k|_Q^2 + 1/2 |F_k - Fr_k|_R^2  +  1/2 |x_N - xr_N|_QN^2
+//   min  sum_{k<N} 1/2 c_k |x_k - xr_k|_Q^2 + 1/2 |F_k - Fr_k|_R^2  +  1/2 c_N |x_N - xr_N|_QN^2
 //   s.t. x_0 measured, x_{k+1} = RK4(x_k, F_k), lower <= F_k <= upper
+//
+// c_k is 1, but falls along the horizon where it is hardly foreseen what will push the hull: else
+// the hull is set off now against where it is thought to be carried later.
 //
 // Position errors e cost far_m^2 (sqrt(1 + (e / far_m)^2) - 1) times their weight instead
 // (Charbonnier's loss): as e^2 / 2 when near, in proportion when far, so that a vessel blown off
@@ -64,6 +67,7 @@ struct OcpReference {
   std::array<double, kMaxStages + 1> speed_max_mps;  // over ground; beyond it costs
   std::array<vessel::Thrusts, kMaxStages> thrusts;
   HeadingCorridor corridor;
+  double fading_per_s = 0.0;            // c falls so fast, by itself
   double free_abeam_m = 0.0;            // from the bow's line to either side: not worth turning for
   const NearObstacles* near = nullptr;  // to keep off; none: nothing is known to be near
 };
@@ -73,6 +77,10 @@ struct Plan {
   std::array<vessel::State, kMaxStages + 1> states;
   std::array<vessel::Thrusts, kMaxStages> thrusts;
 };
+
+// c_k Q of a stage's state, c_N QN of the last, as far as the reference means attitude and speed.
+[[nodiscard]] vessel::State stateWeights(const OcpOptions& options, const OcpReference& reference,
+                                         int stage);
 
 // What the loss above leaves of the position's weight at an error, 0 to 1.
 [[nodiscard]] double nearness(const vessel::State& x, const vessel::State& reference, double far_m);

@@ -53,9 +53,9 @@ class InWaves : public ::testing::Test {
 TEST_F(InWaves, AreForeseenOnceUnderWayForAWhile) {
   sail(10.0, 0.0);
   EXPECT_EQ(foreseenMps(), 0.0);
-  sail(7.0, 60.0);
+  sail(4.0, 60.0);
   EXPECT_EQ(foreseenMps(), 0.0);
-  sail(20.0, 60.0);
+  sail(23.0, 60.0);
   EXPECT_GT(foreseenMps(), 0.05);
   state[vessel::kSurge] = 0.0;
   sail(12.0, 0.0);
@@ -83,7 +83,8 @@ TEST_F(InWaves, ACurrentIsSteeredByOnceItWasFelt) {
 
 // As its estimate of the disturbance is then the one that it always had.
 TEST_F(InWaves, TellTheMissionWhatTheFirstFilterFinds) {
-  sail(6.0, 60.0);
+  sail(3.0, 0.0);
+  sail(3.5, 60.0);
   const vessel::Disturbance told = navigator.disturbanceEstimate().mean;
   EXPECT_EQ(navigator.disturbance().current_mps, told.current_mps);
   EXPECT_EQ(navigator.disturbance().force_n, told.force_n);
@@ -95,7 +96,7 @@ TEST_F(InWaves, AGapIsNotFelt) {
   now_s += 12.0;
   navigator.addOdometry(now_s, state);
   EXPECT_EQ(foreseenMps(), 0.0);
-  sail(6.0, 60.0);
+  sail(4.0, 60.0);
   EXPECT_EQ(foreseenMps(), 0.0);
 }
 

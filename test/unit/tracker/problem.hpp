@@ -42,6 +42,7 @@ inline Problem circle(int stages, double aside_m) {
   p.disturbance.current_mps = {0.3, -0.2};
   p.disturbance.moment_nm = 1.0;
   p.disturbance.wind_mps = {1.5, -4.0};
+  p.reference->fading_per_s = 0.3;
   p.measured << 20.0 - aside_m, 0.02, 1.57, 2.98, 0.05, 0.15;
   for (int k = 0; k <= stages; ++k) {
     const double angle = 0.15 * k * p.options.step_s;
