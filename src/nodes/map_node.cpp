@@ -1,10 +1,10 @@
 // map_node: the chart, and on top of it what the lidar sees, as an OctoMap and its projection.
 // Parameters: config/map_node.yaml, the map's own under ~map (config/map.yaml).
+#include <geometry_msgs/PoseArray.h>
 #include <message_filters/subscriber.h>
 #include <otter_nav/SaveMap.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/LaserScan.h>
-#include <sensor_msgs/PointCloud.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/message_filter.h>
@@ -51,11 +51,11 @@ class MapNode {
 
   void watchScans();
   void onScan(const sensor_msgs::LaserScanConstPtr& message);
-  void onGhosts(const sensor_msgs::PointCloud& message);
-  void onLying(const sensor_msgs::PointCloud& message);
+  void onGhosts(const geometry_msgs::PoseArray& message);
+  void onLying(const geometry_msgs::PoseArray& message);
   // None, and said on /diagnostics, if it makes no sense.
   std::optional<std::vector<Eigen::Vector3d>> pointsOf(const char* topic,
-                                                       const sensor_msgs::PointCloud& message);
+                                                       const geometry_msgs::PoseArray& message);
   void publishChange(const map::CellRectangle& changed);
   [[nodiscard]] Result<map::CellRectangle> insert(const sensor_msgs::LaserScan& message);
   bool onSave(SaveMap::Request& request, SaveMap::Response& response);
@@ -221,12 +221,11 @@ void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
 }
 
 std::optional<std::vector<Eigen::Vector3d>> MapNode::pointsOf(
-    const char* topic, const sensor_msgs::PointCloud& message) {
+    const char* topic, const geometry_msgs::PoseArray& message) {
   Status status = ros_bridge::checkFrame(message.header.frame_id, frames().map);
   std::vector<Eigen::Vector3d> points;
-  for (const geometry_msgs::Point32& point : message.points) {
-    points.emplace_back(static_cast<double>(point.x), static_cast<double>(point.y),
-                        static_cast<double>(point.z));
+  for (const geometry_msgs::Pose& pose : message.poses) {
+    points.emplace_back(pose.position.x, pose.position.y, pose.position.z);
     if (status && !points.back().allFinite()) {
       status = failure("a point is not finite");
     }
@@ -239,7 +238,7 @@ std::optional<std::vector<Eigen::Vector3d>> MapNode::pointsOf(
 }
 
 // A vessel was met there before it was known to be one.
-void MapNode::onGhosts(const sensor_msgs::PointCloud& message) {
+void MapNode::onGhosts(const geometry_msgs::PoseArray& message) {
   if (const auto points = pointsOf("ghosts", message)) {
     std::vector<Eigen::Vector2d> places;
     for (const Eigen::Vector3d& point : *points) {
@@ -250,7 +249,7 @@ void MapNode::onGhosts(const sensor_msgs::PointCloud& message) {
 }
 
 // A vessel has come to lie still there.
-void MapNode::onLying(const sensor_msgs::PointCloud& message) {
+void MapNode::onLying(const geometry_msgs::PoseArray& message) {
   if (const auto points = pointsOf("lying", message)) {
     publishChange(map_.fill(*points));
   }

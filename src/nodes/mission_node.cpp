@@ -53,6 +53,7 @@ using scenario::Outcome;
 constexpr int kQueue = 1000;
 constexpr double kTimerPeriodS = 0.1;
 constexpr double kSilenceS = 60.0;    // of wall time without news of the plant: an error
+constexpr double kAbortedS = 2.0;     // of wall time in which the planner's status says why
 constexpr double kShowPeriodS = 0.2;  // of wall time
 constexpr double kTrackPeriodS = 0.05;
 // Where no planner_node has tolerances of its own.
@@ -102,6 +103,7 @@ class MissionNode {
   void onState(const PlantState& message);
   void onTrajectory(const Trajectory& message);
   void onPlannerStatus(const PlannerStatus& message);
+  void onGoalTaken();
   void onGoalDone(const actionlib::SimpleClientGoalState& state);
   void onTimer();
   [[nodiscard]] Status limitSpeed();
@@ -109,6 +111,8 @@ class MissionNode {
   // Time may go on: the first plan stands, or there will be none.
   void openGate();
   void goOn();
+  // The planner's status and the action's result both say so: a status alone may be of the goal
+  // before.
   [[nodiscard]] bool over() const;
   // The motion up to a time at which all that was decided is known here.
   void recordUntil(double time_s);
@@ -138,6 +142,9 @@ class MissionNode {
   TrackerStatus tracker_;
   bool recorded_ = false;  // or need not be
   bool goal_sent_ = false;
+  bool goal_taken_ = false;
+  std::optional<actionlib::SimpleClientGoalState> goal_done_;
+  ros::WallTime goal_done_at_;
   bool gate_open_ = false;
   bool finished_ = false;
   bool sails_on_ = false;  // to another goal
@@ -246,18 +253,20 @@ void MissionNode::onTrajectory(const Trajectory& message) {
 }
 
 void MissionNode::onPlannerStatus(const PlannerStatus& message) {
-  if (goal_sent_ && over()) {
-    return;  // what comes after the end does not count
+  const bool ended =
+      planner_.state == PlannerStatus::ARRIVED || planner_.state == PlannerStatus::FAILED;
+  if (goal_taken_ && (over() || (ended && message.state == planner_.state))) {
+    return;  // the first that tells of the end counts
   }
   planner_ = message;
-  if (goal_sent_ && message.state != PlannerStatus::IDLE) {
-    openGate();
-    goOn();
-  }
+  onGoalTaken();
 }
 
 bool MissionNode::over() const {
-  return planner_.state == PlannerStatus::ARRIVED || planner_.state == PlannerStatus::FAILED;
+  using State = actionlib::SimpleClientGoalState;
+  return goal_done_ &&
+         ((planner_.state == PlannerStatus::ARRIVED && *goal_done_ == State::SUCCEEDED) ||
+          (planner_.state == PlannerStatus::FAILED && *goal_done_ == State::ABORTED));
 }
 
 // Goes on to the planner's last decision, once the trajectory it speaks of is known here; to the
@@ -276,6 +285,11 @@ void MissionNode::goOn() {
 void MissionNode::onTimer() {
   if (!goal_sent_ && recorded_ && action_.isServerConnected() && !states_.empty()) {
     sendGoal();
+  }
+  using State = actionlib::SimpleClientGoalState;
+  if (goal_done_ && *goal_done_ == State::ABORTED && !over() &&
+      (ros::WallTime::now() - goal_done_at_).toSec() > kAbortedS) {
+    finish(Outcome::kStopped, goal_done_->getText());
   }
   const double silent_s = (ros::WallTime::now() - last_sign_).toSec();
   if (silent_s > kSilenceS) {
@@ -317,15 +331,32 @@ void MissionNode::sendGoal() {
   move_base_msgs::MoveBaseGoal goal;
   goal.target_pose =
       ros_bridge::toPose(mission_.goal, ros_bridge::frames().map, states_.front().header.stamp);
-  action_.sendGoal(goal,
-                   [this](const actionlib::SimpleClientGoalState& state,
-                          const move_base_msgs::MoveBaseResultConstPtr&) { onGoalDone(state); });
+  action_.sendGoal(
+      goal,
+      [this](const actionlib::SimpleClientGoalState& state,
+             const move_base_msgs::MoveBaseResultConstPtr&) { onGoalDone(state); },
+      [this] {
+        goal_taken_ = true;
+        onGoalTaken();
+      });
+}
+
+void MissionNode::onGoalTaken() {
+  if (goal_taken_ && planner_.state != PlannerStatus::IDLE) {
+    openGate();
+    goOn();
+  }
 }
 
 // The planner's status tells of arrival and failure; what is left is a goal it never took on, or
 // dropped for another. The vessel is somebody else's then: this node stays, lest the launch ends.
 void MissionNode::onGoalDone(const actionlib::SimpleClientGoalState& state) {
-  if (state.getText() == kReplaced) {
+  goal_done_ = state;
+  goal_done_at_ = ros::WallTime::now();
+  if (over()) {
+    openGate();
+    goOn();
+  } else if (state.getText() == kReplaced) {
     openGate();
     sails_on_ = true;
     finish(Outcome::kStopped, "another goal was sent: this mission ends here, the vessel sails on");
@@ -390,11 +421,11 @@ void MissionNode::judge() {
     return;
   }
   const double time_s = last_state_->header.stamp.toSec() - first_time_s_;
-  if (planner_.state == PlannerStatus::ARRIVED) {
+  if (over() && planner_.state == PlannerStatus::ARRIVED) {
     const std::string miss = missWhenArrived();
     finish(miss.empty() ? Outcome::kArrived : Outcome::kStopped,
            miss.empty() ? planner_.reason : miss);
-  } else if (planner_.state == PlannerStatus::FAILED) {
+  } else if (over()) {
     finish(Outcome::kStopped, planner_.reason);
   } else if (time_s > options_.timeout_s) {
     finish(Outcome::kTimeout, planner_.state + ": " + planner_.reason);

@@ -300,9 +300,9 @@ void PlannerNode::onTrackerStatus(const TrackerStatus& message) {
 
 void PlannerNode::onTracks(const Tracks& message) {
   diagnostics_.received("tracks");
-  Result<std::vector<traffic::Track>> tracks = ros_bridge::toTracks(message);
-  if (!tracks) {
-    diagnostics_.refuse("tracks", tracks.error().message);
+  Result<ros_bridge::SoundTracks> sound = ros_bridge::toTracks(message);
+  if (!sound) {
+    diagnostics_.refuse("tracks", sound.error().message);
     return;
   }
   if (!setup_.node.lockstep) {
@@ -319,7 +319,10 @@ void PlannerNode::onTracks(const Tracks& message) {
     diagnostics_.refuse("tracks", "its stamp goes backwards");
     return;
   }
-  tracks_ = std::move(*tracks);
+  if (!sound->refused.empty()) {
+    diagnostics_.refuse("tracks", sound->refused);
+  }
+  tracks_ = std::move(sound->tracks);
   tracks_stamp_s_ = message.header.stamp.toSec();
 }
 

@@ -7,7 +7,6 @@
 #include <otter_nav/Tracks.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/LaserScan.h>
-#include <sensor_msgs/PointCloud.h>
 #include <std_msgs/String.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/message_filter.h>
@@ -122,8 +121,8 @@ TrafficNode::TrafficNode(const traffic::Options& options, const vessel::Hull& hu
       tracks_publisher_(node_.advertise<Tracks>("tracks", kQueue)),
       markers_publisher_(node_.advertise<visualization_msgs::MarkerArray>("track_markers", 1)),
       still_publisher_(node_.advertise<sensor_msgs::LaserScan>("scan_still", kQueue)),
-      ghosts_publisher_(node_.advertise<sensor_msgs::PointCloud>("ghosts", kQueue)),
-      lying_publisher_(node_.advertise<sensor_msgs::PointCloud>("lying", kQueue)) {
+      ghosts_publisher_(node_.advertise<geometry_msgs::PoseArray>("ghosts", kQueue)),
+      lying_publisher_(node_.advertise<geometry_msgs::PoseArray>("lying", kQueue)) {
   diagnostics_.setState(Level::kOk, "without a chart");
   chart_subscriber_ = node_.subscribe("chart", 1, &TrafficNode::onChart, this);
   radar_subscriber_ = node_.subscribe("radar", kQueue, &TrafficNode::onRadar, this,
@@ -257,15 +256,14 @@ void TrafficNode::publishPoints(const ros::Publisher& publisher, const ros::Time
   if (points.empty()) {
     return;
   }
-  sensor_msgs::PointCloud message;
+  geometry_msgs::PoseArray message;  // a point cloud's floats lose cells of a map in UTM
   message.header.frame_id = frames().map;
   message.header.stamp = stamp;
-  for (const Eigen::Vector3d& p : points) {
-    geometry_msgs::Point32 point;
-    point.x = static_cast<float>(p.x());
-    point.y = static_cast<float>(p.y());
-    point.z = static_cast<float>(p.z());
-    message.points.push_back(point);
+  for (const Eigen::Vector3d& point : points) {
+    geometry_msgs::Pose pose;
+    pose.position = ros_bridge::toPoint(point.head<2>(), point.z());
+    pose.orientation.w = 1.0;
+    message.poses.push_back(pose);
   }
   publisher.publish(message);
 }

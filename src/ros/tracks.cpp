@@ -55,6 +55,48 @@ Marker nameMarker(const traffic::Track& track, const ros::Time& stamp) {
   return marker;
 }
 
+// An error names the track and what makes no sense of it.
+Result<traffic::Track> toTrack(const Track& one) {
+  traffic::Track track;
+  track.id = static_cast<int>(one.id);
+  track.mmsi = one.mmsi;
+  track.stamp_s = one.stamp.toSec();
+  track.position = {one.position.x, one.position.y};
+  track.velocity = {one.velocity.x, one.velocity.y};
+  track.heading_rad = one.heading;
+  track.turn_rate_radps = one.turn_rate;
+  track.turn_time_s = one.turn_time;
+  track.length_m = one.length;
+  track.beam_m = one.beam;
+  track.keeps_place = one.keeps_place != 0;
+  track.shape = one.disc != 0 ? traffic::Shape::kDisc : traffic::Shape::kBox;
+  std::copy(one.covariance.begin(), one.covariance.end(), track.covariance.data());
+  track.existence = one.existence;
+  track.met.stamp_s = one.met_stamp.toSec();
+  track.met.position = {one.met_position.x, one.met_position.y};
+  track.met.deviation_m = one.met_deviation;
+  track.sources = one.sources;
+  const bool finite = track.position.allFinite() && track.velocity.allFinite() &&
+                      std::isfinite(one.heading) && std::isfinite(one.turn_rate) &&
+                      std::isfinite(one.turn_time) && std::isfinite(one.length) &&
+                      std::isfinite(one.beam) && std::isfinite(one.met_deviation) &&
+                      track.covariance.allFinite() && track.met.position.allFinite();
+  if (!finite || !(one.met_deviation >= 0.0) || !(one.length >= 0.0) || !(one.beam >= 0.0) ||
+      !(one.turn_time > 0.0)) {
+    return failure(
+        text("track %u holds a figure that is not finite, or a negative size or time", one.id));
+  }
+  if (track.velocity.norm() > traffic::kFastestMps || one.length > traffic::kLongestM ||
+      one.beam > traffic::kLongestM) {
+    return failure(text("track %u is faster than %.0f m/s or larger than %.0f m", one.id,
+                        traffic::kFastestMps, traffic::kLongestM));
+  }
+  if (!(one.existence >= 0.0 && one.existence <= 1.0)) {
+    return failure(text("track %u has an existence outside [0, 1]", one.id));
+  }
+  return track;
+}
+
 }  // namespace
 
 Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& stamp) {
@@ -87,52 +129,19 @@ Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& sta
   return message;
 }
 
-Result<std::vector<traffic::Track>> toTracks(const Tracks& message) {
+Result<SoundTracks> toTracks(const Tracks& message) {
   if (const Status status = checkFrame(message.header.frame_id, frames().map); !status) {
     return failure(status.error().message);
   }
-  std::vector<traffic::Track> tracks;
+  SoundTracks sound;
   for (const Track& one : message.tracks) {
-    traffic::Track track;
-    track.id = static_cast<int>(one.id);
-    track.mmsi = one.mmsi;
-    track.stamp_s = one.stamp.toSec();
-    track.position = {one.position.x, one.position.y};
-    track.velocity = {one.velocity.x, one.velocity.y};
-    track.heading_rad = one.heading;
-    track.turn_rate_radps = one.turn_rate;
-    track.turn_time_s = one.turn_time;
-    track.length_m = one.length;
-    track.beam_m = one.beam;
-    track.keeps_place = one.keeps_place != 0;
-    track.shape = one.disc != 0 ? traffic::Shape::kDisc : traffic::Shape::kBox;
-    std::copy(one.covariance.begin(), one.covariance.end(), track.covariance.data());
-    track.existence = one.existence;
-    track.met.stamp_s = one.met_stamp.toSec();
-    track.met.position = {one.met_position.x, one.met_position.y};
-    track.met.deviation_m = one.met_deviation;
-    track.sources = one.sources;
-    const bool finite = track.position.allFinite() && track.velocity.allFinite() &&
-                        std::isfinite(one.heading) && std::isfinite(one.turn_rate) &&
-                        std::isfinite(one.turn_time) && std::isfinite(one.length) &&
-                        std::isfinite(one.beam) && std::isfinite(one.met_deviation) &&
-                        track.covariance.allFinite() && track.met.position.allFinite();
-    if (!finite || !(one.met_deviation >= 0.0) || !(one.length >= 0.0) || !(one.beam >= 0.0) ||
-        !(one.turn_time > 0.0)) {
-      return failure("track " + std::to_string(one.id) +
-                     " holds a figure that is not finite, or a negative size or time");
+    if (Result<traffic::Track> track = toTrack(one)) {
+      sound.tracks.push_back(*track);
+    } else {
+      sound.refused = track.error().message;
     }
-    if (track.velocity.norm() > traffic::kFastestMps || one.length > traffic::kLongestM ||
-        one.beam > traffic::kLongestM) {
-      return failure(text("track %u is faster than %.0f m/s or larger than %.0f m", one.id,
-                          traffic::kFastestMps, traffic::kLongestM));
-    }
-    if (!(one.existence >= 0.0 && one.existence <= 1.0)) {
-      return failure("track " + std::to_string(one.id) + " has an existence outside [0, 1]");
-    }
-    tracks.push_back(track);
   }
-  return tracks;
+  return sound;
 }
 
 visualization_msgs::MarkerArray trackMarkers(const std::vector<traffic::Track>& tracks,

@@ -13,6 +13,7 @@ import rospkg
 import rospy
 import rostest
 import yaml
+from actionlib_msgs.msg import GoalStatus
 from move_base_msgs.msg import MoveBaseAction
 from otter_nav.msg import PlannerStatus, PlantState
 
@@ -23,6 +24,14 @@ WHY = "wind and current would set the vessel aside on it"
 
 
 class Arrival(unittest.TestCase):
+    def told(self, goal_s):
+        """The planner's state so long after the goal came (before it: less than 0); it arrives at once."""
+        return PlannerStatus.IDLE if goal_s < 0.0 else PlannerStatus.ARRIVED
+
+    def arrives(self, goal_s):
+        """Whether the action has succeeded."""
+        return goal_s >= 0.0
+
     def outcome(self, away_m, turned_rad, reason):
         """Of a mission whose planner says that it has arrived, with the vessel there."""
         with open(SCENARIO, encoding="utf-8") as file:
@@ -36,26 +45,36 @@ class Arrival(unittest.TestCase):
                  "_vessel:=otter_gazebo", "_disturbance:=hard", "_result:=" + result, "_timeout_s:=900.0",
                  "_recorded:=false"])
             end = time.monotonic() + PATIENCE_S
-            stamp = 0.0
+            stamp = goal_at = 0.0
             while node.poll() is None and time.monotonic() < end:
                 stamp += 0.1
                 there = PlantState(x=x + away_m, y=y, yaw=psi + turned_rad, clearance=5.0)
                 there.header.stamp = rospy.Time.from_sec(stamp)
                 state.publish(there)
-                if self.goals:
-                    arrived = PlannerStatus(state=PlannerStatus.ARRIVED, reason=reason)
-                    arrived.header.stamp = rospy.Time.from_sec(stamp)
-                    status.publish(arrived)
+                if not self.goals:
+                    goal_at = stamp
+                elif self.goals[0].get_goal_status().status == GoalStatus.PENDING:
+                    self.goals[0].set_accepted()
+                goal_s = stamp - goal_at if self.goals else -1.0
+                planner = PlannerStatus(state=self.told(goal_s), reason=reason)
+                planner.header.stamp = rospy.Time.from_sec(stamp)
+                status.publish(planner)
+                if self.arrives(goal_s) and self.goals[0].get_goal_status().status == GoalStatus.ACTIVE:
+                    self.goals[0].set_succeeded()
                 time.sleep(0.05)
             self.assertIsNotNone(node.poll(), "the mission did not end")
             with open(result, encoding="utf-8") as file:
                 return json.load(file)["missions"][0]
 
+    @classmethod
+    def setUpClass(cls):
+        cls.goals = []
+        cls.server = actionlib.ActionServer("move_base", MoveBaseAction, lambda goal: cls.goals.append(goal),
+                                            lambda goal: None, auto_start=False)
+        cls.server.start()
+
     def setUp(self):
-        self.goals = []
-        self.server = actionlib.ActionServer("move_base", MoveBaseAction, self.goals.append, lambda goal: None,
-                                             auto_start=False)
-        self.server.start()
+        self.goals.clear()
 
     def test_arrivals(self):
         self.assertEqual(self.outcome(0.3, 0.1, "")["outcome"], "arrived")
@@ -66,6 +85,16 @@ class Arrival(unittest.TestCase):
         self.assertEqual(self.outcome(0.3, 1.2, "")["outcome"], "stopped")
         self.goals.clear()
         self.assertEqual(self.outcome(3.4, 0.0, WHY)["outcome"], "stopped")
+
+    def test_arrival_of_the_goal_before(self):
+        """Beside a vessel that lies at its goal the planner says so until it has taken the new one, and a while
+        longer here, as a message that comes late does."""
+        late_s, sails_s = 1.0, 3.0
+        self.told = lambda goal_s: (PlannerStatus.SAILING if late_s < goal_s < sails_s else PlannerStatus.ARRIVED)
+        self.arrives = lambda goal_s: goal_s >= sails_s
+        mission = self.outcome(0.3, 0.1, "")
+        self.assertEqual(mission["outcome"], "arrived")
+        self.assertGreater(mission["duration_s"], sails_s)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,12 @@
 // map_node alone: chart in, map out; a scan adds to it, and so do vessels that lie; save and reset
 // work.
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/PoseArray.h>
 #include <gtest/gtest.h>
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <otter_nav/SaveMap.h>
 #include <sensor_msgs/LaserScan.h>
-#include <sensor_msgs/PointCloud.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
@@ -158,8 +158,8 @@ TEST_F(MapNode, ItsUpdatesMayComeBeforeTheMap) {
 
 // What traffic_node tells of hulls that have come to lie, and of those that have moved on.
 TEST_F(MapNode, FillsInWhoLiesAndForgetsWhoHasMovedOn) {
-  ros::Publisher lying = node_.advertise<sensor_msgs::PointCloud>("lying", 10);
-  ros::Publisher ghosts = node_.advertise<sensor_msgs::PointCloud>("ghosts", 10);
+  ros::Publisher lying = node_.advertise<geometry_msgs::PoseArray>("lying", 10);
+  ros::Publisher ghosts = node_.advertise<geometry_msgs::PoseArray>("ghosts", 10);
   ASSERT_TRUE(maps_.waitFor([](const auto& message) { return message.info.width == 240U; }));
   ASSERT_TRUE(waitUntil([&] {
     return updates_.connected() && lying.getNumSubscribers() > 0 && ghosts.getNumSubscribers() > 0;
@@ -175,21 +175,21 @@ TEST_F(MapNode, FillsInWhoLiesAndForgetsWhoHasMovedOn) {
         },
         patience_s);
   };
-  sensor_msgs::PointCloud cloud;
-  cloud.header.frame_id = ros_bridge::frames().map;
-  cloud.header.stamp = ros::Time::now();
-  geometry_msgs::Point32 point;
-  point.x = static_cast<float>(place.x());
-  point.y = std::numeric_limits<float>::quiet_NaN();
-  point.z = 0.5F;
-  cloud.points.assign(1, point);
-  lying.publish(cloud);
+  geometry_msgs::PoseArray hulls;
+  hulls.header.frame_id = ros_bridge::frames().map;
+  hulls.header.stamp = ros::Time::now();
+  geometry_msgs::Pose pose;
+  pose.position.x = place.x();
+  pose.position.y = std::numeric_limits<double>::quiet_NaN();
+  pose.position.z = 0.5;
+  hulls.poses.assign(1, pose);
+  lying.publish(hulls);
   EXPECT_FALSE(isAt(map::Cell::kOccupied, 1.0));
-  cloud.points[0].y = static_cast<float>(place.y());
-  lying.publish(cloud);
+  hulls.poses[0].position.y = place.y();
+  lying.publish(hulls);
   EXPECT_TRUE(isAt(map::Cell::kOccupied, kPatienceS));
   updates_.messages.clear();
-  ghosts.publish(cloud);
+  ghosts.publish(hulls);
   EXPECT_TRUE(isAt(map::Cell::kFree, kPatienceS));
 }
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <otter_nav/Tracks.h>
 #include <sensor_msgs/LaserScan.h>
-#include <sensor_msgs/PointCloud.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -27,21 +26,34 @@ TEST(TracksMessage, CarriesWhereTheyWereMet) {
   Tracks message = ros_bridge::toMessage({track}, ros::Time(13.0));
   const auto told = ros_bridge::toTracks(message);
   ASSERT_TRUE(told);
-  EXPECT_EQ(told->at(0).met.stamp_s, track.met.stamp_s);
-  EXPECT_EQ(told->at(0).met.position, track.met.position);
-  EXPECT_EQ(told->at(0).met.deviation_m, track.met.deviation_m);
-  message.tracks[0].met_position.y = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(ros_bridge::toTracks(message));
-  message = ros_bridge::toMessage({track}, ros::Time(13.0));
-  message.tracks[0].met_deviation = -1.0;
-  EXPECT_FALSE(ros_bridge::toTracks(message));
+  ASSERT_EQ(told->tracks.size(), 1u);
+  EXPECT_TRUE(told->refused.empty()) << told->refused;
+  const auto& met = told->tracks[0].met;
+  EXPECT_EQ(met.stamp_s, track.met.stamp_s);
+  EXPECT_EQ(met.position, track.met.position);
+  EXPECT_EQ(met.deviation_m, track.met.deviation_m);
 }
 
-TEST(TracksMessage, IsRefusedForAnyFigureThatMakesNoSense) {
+// The others that it tells of are taken.
+TEST(TracksMessage, LosesATrackForAnyFigureThatMakesNoSense) {
   const auto refuses = [](const auto& spoil) {
-    Tracks message = ros_bridge::toMessage({traffic::Track()}, ros::Time(13.0));
-    spoil(message.tracks[0]);
-    return !ros_bridge::toTracks(message).has_value();
+    std::vector<traffic::Track> three(3);
+    for (int i = 0; i < 3; ++i) {
+      three[i].id = 7 + i;
+    }
+    Tracks message = ros_bridge::toMessage(three, ros::Time(13.0));
+    spoil(message.tracks[1]);
+    const auto told = ros_bridge::toTracks(message);
+    if (told && told->refused.empty()) {
+      EXPECT_EQ(told->tracks.size(), 3u);
+      return false;
+    }
+    EXPECT_TRUE(told);
+    EXPECT_EQ(told->refused.rfind("track 8 ", 0), 0u) << told->refused;
+    EXPECT_EQ(told->tracks.size(), 2u);
+    EXPECT_EQ(told->tracks.front().id, 7);
+    EXPECT_EQ(told->tracks.back().id, 9);
+    return true;
   };
   const double infinite = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(refuses([](Track&) {}));
@@ -49,10 +61,18 @@ TEST(TracksMessage, IsRefusedForAnyFigureThatMakesNoSense) {
   EXPECT_TRUE(refuses([&](Track& one) { one.length = infinite; }));
   EXPECT_TRUE(refuses([&](Track& one) { one.beam = infinite; }));
   EXPECT_TRUE(refuses([&](Track& one) { one.met_deviation = infinite; }));
+  EXPECT_TRUE(refuses([](Track& one) { one.met_deviation = -1.0; }));
+  EXPECT_TRUE(refuses([](Track& one) { one.met_position.y = std::nan(""); }));
   EXPECT_TRUE(refuses([&](Track& one) { one.existence = std::nan(""); }));
   EXPECT_TRUE(refuses([&](Track& one) { one.existence = 1.5; }));
   EXPECT_TRUE(refuses([&](Track& one) { one.velocity.x = 1e300; }));
   EXPECT_TRUE(refuses([&](Track& one) { one.length = 1e6; }));
+}
+
+TEST(TracksMessage, IsRefusedInAnotherFrame) {
+  Tracks message = ros_bridge::toMessage({traffic::Track()}, ros::Time(13.0));
+  message.header.frame_id = "base_link";
+  EXPECT_FALSE(ros_bridge::toTracks(message));
 }
 
 // A hull along x, 5 m by 2 m.
@@ -210,9 +230,9 @@ TEST_F(TrafficNode, HandsOnAScanThatMakesNoSense) {
 TEST_F(TrafficNode, GivesToTheMapWhoHasComeToLie) {
   constexpr int kScansPerS = 15;
   constexpr double kMps = 2.0;
-  Inbox<sensor_msgs::PointCloud> lying{node_, "lying"};
+  Inbox<geometry_msgs::PoseArray> lying{node_, "lying"};
   ASSERT_TRUE(lying.connected());
-  const auto points = [](const sensor_msgs::PointCloud& message) { return message.points.size(); };
+  const auto points = [](const geometry_msgs::PoseArray& message) { return message.poses.size(); };
   const auto isSomebody = [&](const auto& message) { return points(message) > 0; };
   const ros::Time begin(200.0);
   for (int k = 0; k < 20 * kScansPerS; ++k) {
@@ -231,10 +251,10 @@ TEST_F(TrafficNode, GivesToTheMapWhoHasComeToLie) {
   std::size_t far_side = 0;
   for (const auto& message : lying.messages) {
     EXPECT_EQ(message.header.frame_id, ros_bridge::frames().map);
-    for (const geometry_msgs::Point32& point : message.points) {
-      EXPECT_LT(std::abs(point.x), 3.1F);
-      EXPECT_LT(std::abs(point.y - 8.0F), 1.6F);
-      far_side += point.y > 8.3F ? 1 : 0;
+    for (const geometry_msgs::Pose& pose : message.poses) {
+      EXPECT_LT(std::abs(pose.position.x), 3.1);
+      EXPECT_LT(std::abs(pose.position.y - 8.0), 1.6);
+      far_side += pose.position.y > 8.3 ? 1 : 0;
     }
   }
   EXPECT_GT(far_side, 5U);  // no beam meets that

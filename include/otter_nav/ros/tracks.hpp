@@ -4,6 +4,7 @@
 #include <otter_nav/Tracks.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <string>
 #include <vector>
 
 #include "otter_nav/base/result.hpp"
@@ -12,8 +13,15 @@
 namespace otter_nav::ros_bridge {
 
 [[nodiscard]] Tracks toMessage(const std::vector<traffic::Track>& tracks, const ros::Time& stamp);
-// An error names the track and the field that is not finite, or the frame that isn't the map's.
-[[nodiscard]] Result<std::vector<traffic::Track>> toTracks(const Tracks& message);
+
+// What can be taken of a message. A track that makes no sense is left out, for the others are no
+// less true.
+struct SoundTracks {
+  std::vector<traffic::Track> tracks;
+  std::string refused;  // the last one left out, and why; empty if all are here
+};
+// An error names the frame that isn't the map's.
+[[nodiscard]] Result<SoundTracks> toTracks(const Tracks& message);
 
 // Outlines, names, and the ways they will probably take in the next minute with what is uncertain.
 // Markers of tracks that are gone are taken away.
