@@ -287,7 +287,9 @@ void MissionNode::onTimer() {
     sendGoal();
   }
   using State = actionlib::SimpleClientGoalState;
+  // By the operator, or as the clock was set back; not before the vessel has come to rest.
   if (goal_done_ && *goal_done_ == State::ABORTED && !over() &&
+      planner_.state != PlannerStatus::STOPPING &&
       (ros::WallTime::now() - goal_done_at_).toSec() > kAbortedS) {
     finish(Outcome::kStopped, goal_done_->getText());
   }

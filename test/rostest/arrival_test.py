@@ -28,9 +28,13 @@ class Arrival(unittest.TestCase):
         """The planner's state so long after the goal came (before it: less than 0); it arrives at once."""
         return PlannerStatus.IDLE if goal_s < 0.0 else PlannerStatus.ARRIVED
 
-    def arrives(self, goal_s):
-        """Whether the action has succeeded."""
+    def ends(self, goal_s):
+        """Whether the action has ended."""
         return goal_s >= 0.0
+
+    def end(self, goal):
+        """How."""
+        goal.set_succeeded()
 
     def outcome(self, away_m, turned_rad, reason):
         """Of a mission whose planner says that it has arrived, with the vessel there."""
@@ -59,8 +63,8 @@ class Arrival(unittest.TestCase):
                 planner = PlannerStatus(state=self.told(goal_s), reason=reason)
                 planner.header.stamp = rospy.Time.from_sec(stamp)
                 status.publish(planner)
-                if self.arrives(goal_s) and self.goals[0].get_goal_status().status == GoalStatus.ACTIVE:
-                    self.goals[0].set_succeeded()
+                if self.ends(goal_s) and self.goals[0].get_goal_status().status == GoalStatus.ACTIVE:
+                    self.end(self.goals[0])
                 time.sleep(0.05)
             self.assertIsNotNone(node.poll(), "the mission did not end")
             with open(result, encoding="utf-8") as file:
@@ -91,10 +95,21 @@ class Arrival(unittest.TestCase):
         longer here, as a message that comes late does."""
         late_s, sails_s = 1.0, 3.0
         self.told = lambda goal_s: (PlannerStatus.SAILING if late_s < goal_s < sails_s else PlannerStatus.ARRIVED)
-        self.arrives = lambda goal_s: goal_s >= sails_s
+        self.ends = lambda goal_s: goal_s >= sails_s
         mission = self.outcome(0.3, 0.1, "")
         self.assertEqual(mission["outcome"], "arrived")
         self.assertGreater(mission["duration_s"], sails_s)
+
+    def test_stop_by_the_operator(self):
+        """Ends the mission, but not before the vessel has come to rest."""
+        sails_s, brakes_until_s, why = 1.0, 7.0, "stopped by the operator"
+        self.told = lambda goal_s: (PlannerStatus.IDLE if goal_s < 0.0 or goal_s > brakes_until_s
+                                    else PlannerStatus.SAILING if goal_s < sails_s else PlannerStatus.STOPPING)
+        self.ends = lambda goal_s: goal_s >= sails_s
+        self.end = lambda goal: goal.set_aborted(text=why)
+        mission = self.outcome(3.4, 0.0, "")
+        self.assertEqual((mission["outcome"], mission["reason"]), ("stopped", why))
+        self.assertGreater(mission["duration_s"], brakes_until_s - 0.5)
 
 
 if __name__ == "__main__":
