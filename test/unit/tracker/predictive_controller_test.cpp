@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,46 @@ TEST(PredictiveController, PlansWhereTheHeadingJumps) {
     EXPECT_TRUE(thrusts->allFinite());
     EXPECT_TRUE(command.reason.empty()) << command.reason;
   }
+}
+
+// Behind the spot on which it turns, in a current that will carry the hull ahead of it once it has
+// turned: little of one may be waves, and it comes back at once.
+TEST(PredictiveController, CountsLessOnWhatIsToComeInALightLoad) {
+  constexpr double kBehindM = 0.13;
+  constexpr double kFeltS = 20.0;
+  constexpr double kPeriodS = 0.02;
+  const auto vessel =
+      vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+  ASSERT_TRUE(vessel);
+  Options options;
+  Navigator navigator(options, *vessel);
+  vessel::State state = vessel::State::Zero();
+  state.segment<2>(vessel::kSurge) << 0.03, 0.06;
+  for (double t = 0.0; t < kFeltS; t += kPeriodS) {
+    state.head<2>() += kPeriodS * state.segment<2>(vessel::kSurge);
+    navigator.addCommand(t, vessel::Thrusts::Zero());
+    navigator.addOdometry(t, state);
+  }
+  const Eigen::Vector2d spot = state.head<2>() + Eigen::Vector2d(kBehindM, 0.0);
+  trajectory::TimedTrajectory sailed;
+  sailed.trajectory = trajectory::Trajectory({trajectory::spinPiece(spot, 0.0, -0.6, 3.0)});
+  sailed.start_time_s = kFeltS;
+  ReferenceSource source(options, *vessel);
+  source.start(sailed, kFeltS);
+  PredictiveController controller(options, *vessel);
+  controller.start(false);
+  Command command;
+  for (int i = 0; i < 30; ++i) {
+    ASSERT_TRUE(
+        controller.step(kFeltS, state, vessel::Thrusts::Zero(), navigator, source, command));
+  }
+  const Prediction& plan = controller.prediction();
+  double most_behind_m = 0.0;
+  for (int k = 0; k < plan.size; ++k) {
+    const vessel::State& x = plan.states[static_cast<std::size_t>(k)];
+    most_behind_m = std::max(most_behind_m, (spot - x.head<2>()).dot(unitVector(x[vessel::kPsi])));
+  }
+  EXPECT_LT(most_behind_m, 0.17);  // 0.24 with all weights alike
 }
 
 }  // namespace
