@@ -221,6 +221,10 @@ std::vector<Choice> Chooser::choose(const Water& water, const std::vector<Other>
   std::vector<Choice> best;  // rising price
   Choice trial;
   const auto consider = [&](const Intent& intent) {
+    if (intent.share < 1.0 && !may_turn_to_port &&
+        prospect_.swingsAt(intent.share * water.cruise_mps)) {
+      return;  // waves turn it to port
+    }
     if (!build(water, handling, intent, trial.course, trial.tail)) {
       return;
     }

@@ -16,6 +16,7 @@ constexpr double kAlongRad = 0.5 * kActionRad;  // and the course that is steere
 constexpr double kSteadiesS = 8.0;              // at least, until a course is kept
 constexpr double kPastS = 40.0;                 // between two reports of a slow vessel, and some
 constexpr double kPastStepS = 0.5;
+constexpr double kListensS = 6.0;  // to a vessel that it has just heard of
 
 // How near she comes while courses are kept, in the time that counts.
 double comesWithin(const Motion& own, const Other& other) {
@@ -40,6 +41,7 @@ bool goesRound(const traffic::Track& track) {
 void Lookout::newGoal(double now_s) {
   past_.clear();
   goal_time_s_ = now_s;
+  listens_since_s_ = std::min(listens_since_s_, now_s);
   under_way_ = false;
 }
 
@@ -47,6 +49,7 @@ void Lookout::observe(double now_s, const Motion& own, const Eigen::Vector2d& st
                       const std::vector<traffic::Track>& tracks, const Eigen::Vector2d& goal,
                       double cruise_mps) {
   now_s_ = now_s;
+  listens_since_s_ = std::min(listens_since_s_, now_s);
   remember(now_s, own, steered, goal, cruise_mps);
   swing_mps_ = swing_.seen(now_s, own.position - steered, own_.velocity);
   const Past now{now_s, own_, under_way_};
@@ -85,15 +88,30 @@ void Lookout::observe(double now_s, const Motion& own, const Eigen::Vector2d& st
 
 bool Lookout::listens() const {
   constexpr double kPressesS = 20.0;
-  return hasJustHeardOfAll([](const Memory& /*memory*/, const Approach& approach) {
+  const auto presses = [](const Memory& /*memory*/, const Approach& approach) {
     return approach.time_s < kPressesS && approach.distance_m < kRiskM;
-  });
+  };
+  return hasJustHeardOfAll(hasHeardOfAll() ? kListensS : kNever, presses);
 }
 
 bool Lookout::mayHaveToStandOn() const {
-  return hasJustHeardOfAll([&](const Memory& memory, const Approach& approach) {
+  return hasJustHeardOfAll(kListensS, [&](const Memory& memory, const Approach& approach) {
     return approach.time_s < options_.stand_on_until_s || !standsOn(classify(own_, memory.motion));
   });
+}
+
+bool Lookout::hasTimeToListen() const {
+  constexpr double kUntilItShowsS = 12.0;  // a decision, and most of a turn
+  return options_.rules_of_the_road && !hasHeardOfAll() &&
+         hasJustHeardOfAll(kNever, [&](const Memory& memory, const Approach& approach) {
+           const Eigen::Vector2d apart =
+               memory.motion.after(kUntilItShowsS).position - own_.after(kUntilItShowsS).position;
+           const double left_s = approach.time_s - kUntilItShowsS;
+           return standsOn(memory.record.role) ? left_s < options_.stand_on_until_s
+                                               : approach.distance_m < 2.0 * kRiskM &&
+                                                     left_s < options_.early_s + kEarlyMoreS &&
+                                                     apart.norm() < options_.early_m + kEarlyMoreM;
+         });
 }
 
 std::vector<Other> Lookout::others(const map::DistanceField& field) const {
@@ -163,6 +181,9 @@ std::vector<Encounter> Lookout::encounters() const {
 // As it is steered: that waves swing the hull is no action, and no course to be kept either.
 void Lookout::remember(double now_s, const Motion& own, const Eigen::Vector2d& steered,
                        const Eigen::Vector2d& goal, double cruise_mps) {
+  if (!trail_.empty() && now_s - trail_.back().first > kCourseS) {
+    trail_.clear();
+  }
   trail_.push_back({now_s, steered});
   while (trail_.size() > 2 && now_s - trail_[1].first >= kCourseS - 1e-6) {
     trail_.pop_front();
@@ -250,14 +271,19 @@ std::vector<Leg> Lookout::roundOf(const traffic::Track& track, double until_s) c
   return legs;
 }
 
-// And `hurries` is true of none that comes nearer.
+// Small vessels report every half minute, and who is beyond the radar is heard of by that alone.
+bool Lookout::hasHeardOfAll() const {
+  constexpr double kReportsS = 31.0;
+  return now_s_ - listens_since_s_ > kReportsS;
+}
+
+// Within `within_s`, and `hurries` is true of none that comes nearer.
 template <typename Hurries>
-bool Lookout::hasJustHeardOfAll(const Hurries& hurries) const {
-  constexpr double kListensS = 6.0;
+bool Lookout::hasJustHeardOfAll(double within_s, const Hurries& hurries) const {
   return std::all_of(memories_.begin(), memories_.end(), [&](const auto& known) {
     const Memory& memory = known.second;
     const Approach approach = nearestApproach(own_, memory.motion);
-    return isLost(memory) || (now_s_ - memory.heard_s < kListensS &&
+    return isLost(memory) || (now_s_ - memory.heard_s < within_s &&
                               !(approach.time_s > 0.0 && hurries(memory, approach)));
   });
 }

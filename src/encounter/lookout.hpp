@@ -33,11 +33,13 @@ class Lookout {
   [[nodiscard]] double swing() const { return swing_mps_; }
   // Where one is heard of others are soon. Who turns to port for the first, as is fair for one that
   // comes from abaft, may have to give way to the next by the other side: until then to starboard,
-  // or slower, unless it presses.
+  // or slower, unless it presses. So too while not all are heard of.
   [[nodiscard]] bool listens() const;
   // While a course is hardly known nearness far off is a guess, and acting for one who may do so
   // herself can't be undone.
   [[nodiscard]] bool mayHaveToStandOn() const;
+  // Not all are heard of yet, and whoever is known can still be given way to in time after that.
+  [[nodiscard]] bool hasTimeToListen() const;
   // As they are believed to go on, over this water.
   [[nodiscard]] std::vector<Other> others(const map::DistanceField& field) const;
   // Those with risk of collision.
@@ -74,8 +76,9 @@ class Lookout {
                 const Eigen::Vector2d& goal, double cruise_mps);
   void see(double now_s, const traffic::Track& track);
   [[nodiscard]] std::vector<Leg> roundOf(const traffic::Track& track, double until_s) const;
+  [[nodiscard]] bool hasHeardOfAll() const;
   template <typename Hurries>
-  [[nodiscard]] bool hasJustHeardOfAll(const Hurries& hurries) const;
+  [[nodiscard]] bool hasJustHeardOfAll(double within_s, const Hurries& hurries) const;
   [[nodiscard]] bool isLost(const Memory& memory) const;
   [[nodiscard]] std::map<int, Memory>::iterator lostAs(double now_s, const traffic::Track& track);
   [[nodiscard]] static double velocityDeviation(const Memory& memory);
@@ -91,6 +94,7 @@ class Lookout {
   std::deque<Past> past_;
   Motion own_;
   double now_s_ = 0.0;
+  double listens_since_s_ = kNever;
   double goal_time_s_ = 0.0;
   bool under_way_ = false;
 };

@@ -107,7 +107,7 @@ class Pilot::Impl {
       return std::nullopt;
     }
     decided_s_ = outset.now_s;
-    if (lookout_.mayHaveToStandOn()) {
+    if (lookout_.mayHaveToStandOn() || lookout_.hasTimeToListen()) {
       return std::nullopt;
     }
     const double zero = outset.now_s;

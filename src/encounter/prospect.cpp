@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kStandsMps = 0.15;
 // More than the rules ask: what sailing along the polyline only roughly may lose.
-constexpr double kEarlyMoreM = 3.0;
-constexpr double kEarlyMoreS = 4.0;
 constexpr double kTurnMoreRad = 0.05;
 constexpr double kLaterS = 2.5;
 constexpr double kNearerM = 1.5;
@@ -237,7 +235,7 @@ Outlook Prospect::look(const Course& own, const Other& other) const {
       }
       // Slower than that waves swing the course by what counts as a turn, to port as well; who has
       // turned to starboard before has shown what it means.
-      const bool swings = swing_mps_ > std::tan(kActionRad) * leg.velocity.norm();
+      const bool swings = swingsAt(leg.velocity.norm());
       swings_first = swings_first || (slows && swings && !turns && record.first_turn == 0);
       record.turn_max_rad = std::max(record.turn_max_rad, std::abs(turn));
       record.slowest_share =
@@ -315,6 +313,8 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
   constexpr double kSoonS = 90.0;
   constexpr double kDistantS = 150.0;
   constexpr double kContactM = 0.8;
+  // As risk arises its time is but an estimate, and there is time.
+  constexpr double kUnsureS = 15.0;
   Outlook looks[kMostOthers];
   const std::size_t count = std::min(others.size(), kMostOthers);
   double price = 0.0;
@@ -357,7 +357,8 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
     bool excused = false;
     for (std::size_t i = 0; i < count; ++i) {
       excused = excused || (givesWay(looks[i].role) && looks[i].from_s <= looks[j].acted_s &&
-                            looks[j].acted_s <= looks[i].to_s);
+                            looks[j].acted_s <= looks[i].to_s &&
+                            looks[i].to_s - looks[j].acted_s < kRiskS - kUnsureS);
     }
     if (!excused) {
       price += kRuleS * ((standing & kActedEarly) != 0 ? 1 : 0) +

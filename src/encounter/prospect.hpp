@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -10,6 +11,13 @@
 #include "otter_nav/vessel/parameters.hpp"
 
 namespace otter_nav::encounter {
+
+// An action (rule 8): a change of course by more than 5 deg, or of speed by more than 10 %.
+constexpr double kActionRad = 0.0873;
+constexpr double kActionShare = 0.1;
+// Who gives way acts by so much sooner than the rules ask.
+constexpr double kEarlyMoreM = 3.0;
+constexpr double kEarlyMoreS = 4.0;
 
 // A stretch of constant course and speed, up to the next leg or the course's end.
 struct Leg {
@@ -94,6 +102,10 @@ class Prospect {
 
   // How fast waves move the hull to the side, m/s.
   void feel(double swing_mps) { swing_mps_ = swing_mps; }
+  // So slow that waves swing the course by what counts as an action.
+  [[nodiscard]] bool swingsAt(double speed_mps) const {
+    return swing_mps_ > std::tan(kActionRad) * speed_mps;
+  }
   [[nodiscard]] Outlook look(const Course& own, const Other& other) const;
   // The price of a course, in seconds that it would be worth sailing longer to avoid it.
   // Of at most kMostOthers.
@@ -105,9 +117,5 @@ class Prospect {
   vessel::Hull hull_;
   double swing_mps_ = 0.0;
 };
-
-// An action (rule 8): a change of course by more than 5 deg, or of speed by more than 10 %.
-constexpr double kActionRad = 0.0873;
-constexpr double kActionShare = 0.1;
 
 }  // namespace otter_nav::encounter

@@ -28,9 +28,8 @@ Moment Others::see(double now_s, const Situation& situation, const Obstacles& ob
 
 void Others::lookOut(const Moment& m, const Sailed& sailed, const Eigen::Vector2d& goal) {
   constexpr double kCruiseShare = 0.99;  // of the speed that plans may have
-  const bool has_met = !pilot_.encounters().empty();
   const bool has_way = !sailed.isEmpty();
-  if (!has_met && !(has_way && !m.situation.tracks.empty())) {
+  if (!has_way && pilot_.encounters().empty()) {
     return;
   }
   const vessel::State& x = m.situation.state;

@@ -426,6 +426,49 @@ TEST_F(PilotTest, ListensBeforeItActsForOneItMayHaveToStandOnFor) {
   }
 }
 
+// In the first half minute who is farther off than the radar sees may not have been heard of. She
+// who is known is given way to at once where that would be late, and else with the others.
+TEST_F(PilotTest, HearsOfAllBeforeItActsForWhoIsFarOff) {
+  constexpr double kNow = 9.0;
+  for (const double meets_s : {40.0, 100.0}) {
+    for (const double goal_s : {0.0, -60.0}) {
+      pilot_ = Pilot(Options(), vessel_);
+      pilot_.newGoal(goal_s);
+      for (double t = kNow - 3.0; t <= kNow; t += 0.5) {
+        const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+        traffic::Track track = trackAt(180.0, 2.0, t);
+        track.position += Eigen::Vector2d(0.0, 4.0 * (meets_s - 100.0));
+        pilot_.observe(t, {z.position, z.velocity}, z.position, {track}, goal_, 1.98);
+      }
+      const auto way = pilot_.decide({kNow, sailed_, goal_, kNow + 0.3, limits_, water_});
+      EXPECT_EQ(way.has_value(), meets_s < 50.0 || goal_s < 0.0) << meets_s << " " << goal_s;
+    }
+  }
+}
+
+// Nor is a turn to port, or a speed at which waves turn it to port, right for who isn't heard of.
+TEST_F(PilotTest, TurnsToPortOnlyOnceItHasHeardOfAll) {
+  constexpr double kNow = 26.0;
+  for (const double goal_s : {0.0, -60.0}) {
+    pilot_ = Pilot(Options(), vessel_);
+    pilot_.newGoal(goal_s);
+    for (double t = kNow - 7.0; t <= kNow; t += 0.5) {
+      const vessel::FlatPoint z = sailed_.trajectory.flat(t);
+      pilot_.observe(t, {z.position, z.velocity}, z.position, {trackAt(340.0, 2.4, t)}, goal_,
+                     1.98);
+    }
+    const auto way = pilot_.decide({kNow, sailed_, goal_, kNow + 0.3, limits_, water_});
+    ASSERT_TRUE(way) << goal_s;
+    double to_port = 0.0;
+    for (double t = 0.0; t < std::min(10.0, way->path.trajectory.duration()); t += 0.5) {
+      const Eigen::Vector2d v = way->path.trajectory.flat(t).velocity;
+      to_port = std::max(to_port, std::atan2(-v.x(), v.y()));
+    }
+    EXPECT_EQ(to_port > 0.3, goal_s < 0.0) << to_port;
+    EXPECT_TRUE(goal_s < 0.0 || to_port < 0.02) << to_port;
+  }
+}
+
 // Behind a slow one in a channel. Slower than anything new can begin she would be bound to that
 // until it is over, whatever comes of it.
 TEST_F(PilotTest, StaysFastEnoughToDecideAnew) {

@@ -1081,6 +1081,30 @@ traffic::Track slowerAhead(double stamp_s, double began_s) {
   return track;
 }
 
+// What is kept when she is heard of is known from before, not from how waves swing the hull then.
+TEST(Supervisor, KnowsItsOwnCourseBeforeItHearsOfAnybody) {
+  ScriptedMission mission;
+  mission.setOut(0.1);
+  while (mission.now_s < 106.0) {
+    (void)mission.update(0.1);
+  }
+  ASSERT_TRUE(mission.supervisor->encounters().empty());
+  traffic::Track crossing;
+  crossing.id = 1;
+  crossing.stamp_s = mission.now_s;
+  crossing.velocity = {0.0, 1.0};
+  crossing.position = {30.0, -13.0};
+  crossing.heading_rad = 0.5 * kPi;
+  crossing.length_m = 6.0;
+  crossing.beam_m = 2.0;
+  mission.tracks = {crossing};
+  (void)mission.update(0.1);
+  const std::vector<encounter::Encounter> met = mission.supervisor->encounters();
+  ASSERT_EQ(met.size(), 1U);
+  EXPECT_EQ(met[0].role, encounter::Role::kGiveWay);
+  EXPECT_LT(met[0].since_s, 102.0);
+}
+
 TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
   constexpr double kBeginsMps = 0.4;
   map::OccupancyGrid water = test::openWater(300.0);
