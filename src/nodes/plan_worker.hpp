@@ -1,10 +1,14 @@
 // Planning in a thread of its own, one request at a time, with the guide path asked of
-// topology_node. Results come back in the node's thread.
+// topology_node. Results come back in the node's thread. A topology_node that has stopped without
+// dying is not waited for: the planner finds its own way then.
 #pragma once
 
+#include <otter_nav/FindGuidePath.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/steady_timer.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -53,18 +57,25 @@ class PlanWorker {
   [[nodiscard]] std::uint64_t deliveryId() const { return reinterpret_cast<std::uint64_t>(this); }
   void plan(Task& task);
   [[nodiscard]] std::vector<Eigen::Vector2d> guidePath(const Task& task);
+  [[nodiscard]] bool ask(FindGuidePath& call);
+  // In the node's thread: ends a call that has not been answered in time.
+  void watchTheCall();
 
   Options options_;
   planner::Planner planner_;
   OnDone on_done_;
   ros::NodeHandle node_;
   ros::ServiceClient topology_;
-  int forgotten_ = 0;  // times; the node's thread alone has it
+  std::chrono::steady_clock::time_point asks_again_;  // not before
+  int forgotten_ = 0;                                 // times; the node's thread alone has it
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Task> next_;
   bool running_ = true;
+  std::optional<std::chrono::steady_clock::time_point> asked_;  // while topology_node is called
+  bool given_up_ = false;                                       // that call
+  ros::SteadyTimer watch_;
   std::thread thread_;
 };
 

@@ -6,11 +6,16 @@
 #include <nav_msgs/Path.h>
 #include <otter_nav/PlannerStatus.h>
 #include <otter_nav/Trajectory.h>
+#include <ros/master.h>
+#include <ros/network.h>
 #include <std_srvs/Trigger.h>
 #include <visualization_msgs/MarkerArray.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -200,6 +205,56 @@ TEST_F(PlannerNode, GoesOnBehindOdometryStampedAhead) {
   EXPECT_TRUE(waitUntil([&] { return told > 10; }));
   client_.cancelGoal();
   ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
+}
+
+// A node on this machine that neither answers nor dies, as one in a debugger does.
+class Frozen {
+ public:
+  explicit Frozen(const std::string& node) {
+    XmlRpc::XmlRpcValue asked;
+    asked[0] = ros::this_node::getName();
+    asked[1] = node;
+    XmlRpc::XmlRpcValue answer;
+    XmlRpc::XmlRpcValue uri;
+    std::string host;
+    std::uint32_t port = 0;
+    if (!ros::master::execute("lookupNode", asked, answer, uri, false) ||
+        !ros::network::splitURI(uri, host, port)) {
+      return;
+    }
+    XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
+    XmlRpc::XmlRpcValue self;
+    self[0] = ros::this_node::getName();
+    if (client.execute("getPid", self, answer) && !client.isFault()) {
+      pid_ = answer[2];
+      kill(pid_, SIGSTOP);
+    }
+  }
+  ~Frozen() {
+    if (pid_ > 0) {
+      kill(pid_, SIGCONT);
+    }
+  }
+  Frozen(const Frozen&) = delete;
+  Frozen& operator=(const Frozen&) = delete;
+  [[nodiscard]] bool found() const { return pid_ > 0; }
+
+ private:
+  int pid_ = 0;
+};
+
+TEST_F(PlannerNode, FindsItsOwnWayWhereNobodyAnswers) {
+  const Frozen topology("/topology_node");
+  ASSERT_TRUE(topology.found());
+  for (const double y : {8.0, 4.0}) {
+    trajectories_.messages.clear();
+    client_.sendGoal(goal(22.0, y));
+    EXPECT_TRUE(trajectories_.waitFor([&](const auto& message) {
+      return !message.pieces.empty() && message.goal.position.y == y;
+    }));
+    client_.cancelGoal();
+    ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
+  }
 }
 
 }  // namespace
