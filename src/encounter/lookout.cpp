@@ -16,7 +16,6 @@ constexpr double kAlongRad = 0.5 * kActionRad;  // and the course that is steere
 constexpr double kSteadiesS = 8.0;              // at least, until a course is kept
 constexpr double kPastS = 40.0;                 // between two reports of a slow vessel, and some
 constexpr double kPastStepS = 0.5;
-constexpr double kListensS = 6.0;  // to a vessel that it has just heard of
 
 // How near she comes while courses are kept, in the time that counts.
 double comesWithin(const Motion& own, const Other& other) {
@@ -88,22 +87,22 @@ void Lookout::observe(double now_s, const Motion& own, const Eigen::Vector2d& st
 
 bool Lookout::listens() const {
   constexpr double kPressesS = 20.0;
-  const auto presses = [](const Memory& /*memory*/, const Approach& approach) {
-    return approach.time_s < kPressesS && approach.distance_m < kRiskM;
-  };
-  return hasJustHeardOfAll(hasHeardOfAll() ? kListensS : kNever, presses);
+  return (awaitsReports() || hasJustHeardOfAll()) &&
+         noneHurries([](const Memory& /*memory*/, const Approach& approach) {
+           return approach.time_s < kPressesS && approach.distance_m < kRiskM;
+         });
 }
 
 bool Lookout::mayHaveToStandOn() const {
-  return hasJustHeardOfAll(kListensS, [&](const Memory& memory, const Approach& approach) {
-    return approach.time_s < options_.stand_on_until_s || !standsOn(classify(own_, memory.motion));
-  });
+  return hasJustHeardOfAll() && noneHurries([&](const Memory& memory, const Approach& approach) {
+           return approach.time_s < options_.stand_on_until_s ||
+                  !standsOn(classify(own_, memory.motion));
+         });
 }
 
 bool Lookout::hasTimeToListen() const {
   constexpr double kUntilItShowsS = 12.0;  // a decision, and most of a turn
-  return options_.rules_of_the_road && !hasHeardOfAll() &&
-         hasJustHeardOfAll(kNever, [&](const Memory& memory, const Approach& approach) {
+  return awaitsReports() && noneHurries([&](const Memory& memory, const Approach& approach) {
            const Eigen::Vector2d apart =
                memory.motion.after(kUntilItShowsS).position - own_.after(kUntilItShowsS).position;
            const double left_s = approach.time_s - kUntilItShowsS;
@@ -272,19 +271,25 @@ std::vector<Leg> Lookout::roundOf(const traffic::Track& track, double until_s) c
 }
 
 // Small vessels report every half minute, and who is beyond the radar is heard of by that alone.
-bool Lookout::hasHeardOfAll() const {
+// Distances alone don't ask for it.
+bool Lookout::awaitsReports() const {
   constexpr double kReportsS = 31.0;
-  return now_s_ - listens_since_s_ > kReportsS;
+  return options_.rules_of_the_road && now_s_ - listens_since_s_ <= kReportsS;
 }
 
-// Within `within_s`, and `hurries` is true of none that comes nearer.
-template <typename Hurries>
-bool Lookout::hasJustHeardOfAll(double within_s, const Hurries& hurries) const {
+bool Lookout::hasJustHeardOfAll() const {
+  constexpr double kJustS = 6.0;
   return std::all_of(memories_.begin(), memories_.end(), [&](const auto& known) {
-    const Memory& memory = known.second;
-    const Approach approach = nearestApproach(own_, memory.motion);
-    return isLost(memory) || (now_s_ - memory.heard_s < within_s &&
-                              !(approach.time_s > 0.0 && hurries(memory, approach)));
+    return isLost(known.second) || now_s_ - known.second.heard_s < kJustS;
+  });
+}
+
+// `hurries` is true of none that comes nearer.
+template <typename Hurries>
+bool Lookout::noneHurries(const Hurries& hurries) const {
+  return std::none_of(memories_.begin(), memories_.end(), [&](const auto& known) {
+    const Approach approach = nearestApproach(own_, known.second.motion);
+    return !isLost(known.second) && approach.time_s > 0.0 && hurries(known.second, approach);
   });
 }
 

@@ -38,7 +38,7 @@ class Lookout {
   // While a course is hardly known nearness far off is a guess, and acting for one who may do so
   // herself can't be undone.
   [[nodiscard]] bool mayHaveToStandOn() const;
-  // Not all are heard of yet, and whoever is known can still be given way to in time after that.
+  // Not all are heard of yet, and a little later is still in time for whoever is known.
   [[nodiscard]] bool hasTimeToListen() const;
   // As they are believed to go on, over this water.
   [[nodiscard]] std::vector<Other> others(const map::DistanceField& field) const;
@@ -76,9 +76,10 @@ class Lookout {
                 const Eigen::Vector2d& goal, double cruise_mps);
   void see(double now_s, const traffic::Track& track);
   [[nodiscard]] std::vector<Leg> roundOf(const traffic::Track& track, double until_s) const;
-  [[nodiscard]] bool hasHeardOfAll() const;
+  [[nodiscard]] bool awaitsReports() const;
+  [[nodiscard]] bool hasJustHeardOfAll() const;
   template <typename Hurries>
-  [[nodiscard]] bool hasJustHeardOfAll(double within_s, const Hurries& hurries) const;
+  [[nodiscard]] bool noneHurries(const Hurries& hurries) const;
   [[nodiscard]] bool isLost(const Memory& memory) const;
   [[nodiscard]] std::map<int, Memory>::iterator lostAs(double now_s, const traffic::Track& track);
   [[nodiscard]] static double velocityDeviation(const Memory& memory);

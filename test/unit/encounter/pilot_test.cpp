@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "encounter/candidates.hpp"
 #include "encounter/lookout.hpp"
 #include "encounter/manoeuvre.hpp"
 #include "open_water.hpp"
@@ -446,7 +447,7 @@ TEST_F(PilotTest, HearsOfAllBeforeItActsForWhoIsFarOff) {
   }
 }
 
-// Nor is a turn to port, or a speed at which waves turn it to port, right for who isn't heard of.
+// Nor is a turn to port right for who isn't heard of.
 TEST_F(PilotTest, TurnsToPortOnlyOnceItHasHeardOfAll) {
   constexpr double kNow = 26.0;
   for (const double goal_s : {0.0, -60.0}) {
@@ -466,6 +467,43 @@ TEST_F(PilotTest, TurnsToPortOnlyOnceItHasHeardOfAll) {
     }
     EXPECT_EQ(to_port > 0.3, goal_s < 0.0) << to_port;
     EXPECT_TRUE(goal_s < 0.0 || to_port < 0.02) << to_port;
+  }
+}
+
+// Nor a speed at which waves turn the course to port.
+TEST_F(PilotTest, SlowsDownToWhereWavesTurnItOnlyWhereItMayTurnToPort) {
+  Course sailed;
+  sailed.legs.push_back({0.0, {0.0, -200.0}, {0.0, 2.0}, 0.0});
+  sailed.end_s = sailed.arrives_s = 200.0;
+  const std::vector<Eigen::Vector2d> path = {goal_};
+  const Water water{water_, limits_.clearance_m, sailed, path, 2.0, 0.4};
+  Other other;
+  other.motion = {{200.0, 0.0}, {-2.0, 0.0}};
+  other.heading_rad = kPi;
+  other.length_m = 6.0;
+  other.beam_m = 2.0;
+  other.known_s = 300.0;
+  Chooser chooser(Options(), vessel_);
+  chooser.feel(0.15);
+  constexpr double kSwingsBelow = 0.857;  // of 2 m/s
+  for (const bool may_turn_to_port : {true, false}) {
+    const std::vector<Choice> choices = chooser.choose(water, {other}, 40, true, may_turn_to_port);
+    EXPECT_FALSE(choices.empty());
+    EXPECT_EQ(std::any_of(choices.begin(), choices.end(),
+                          [](const Choice& c) { return c.intent.share < kSwingsBelow; }),
+              may_turn_to_port);
+  }
+}
+
+// Distances alone are kept as soon as they are known.
+TEST_F(PilotTest, ActsAtOnceWithoutTheRulesOfTheRoad) {
+  constexpr double kNow = 9.0;
+  Options options;
+  for (const bool rules : {true, false}) {
+    options.rules_of_the_road = rules;
+    pilot_ = Pilot(options, vessel_);
+    pilot_.newGoal(0.0);
+    EXPECT_EQ(decideAt(kNow, 270.0, 2.0).has_value(), !rules);
   }
 }
 
