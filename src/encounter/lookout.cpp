@@ -364,6 +364,7 @@ void Lookout::follow(const Past& now, const Motion& she, Memory& memory) {
     }
     return;
   }
+  doubt(now, she, memory);
   constexpr double kClearM = 40.0;
   // Slowing down behind her is not past and clear: would our course and speed of then be?
   const bool then_clear =
@@ -404,6 +405,24 @@ void Lookout::follow(const Past& now, const Motion& she, Memory& memory) {
     record.turn_max_rad = std::max(record.turn_max_rad, std::abs(turn));
     record.slowest_share = std::min(record.slowest_share, share);
   }
+}
+
+// While both keep course and speed, what comes out of it now came out of it when the risk seemed to
+// arise: what was known of her then may have been wrong.
+void Lookout::doubt(const Past& now, const Motion& she, Memory& memory) {
+  constexpr double kKnownS = 10.0;
+  constexpr double kKeptRad = 0.02;
+  constexpr double kMoreM = 3.0;
+  constexpr double kSigmas = 2.0;
+  Record& record = memory.record;
+  if (record.acted || !now.under_way || memory.line.span() < kKnownS ||
+      memory.changed_s >= memory.began_s ||
+      std::abs(wrapAngle(now.own.course() - angleOf(record.kept_velocity))) > kKeptRad) {
+    return;
+  }
+  const Approach approach = nearestApproach(now.own, she);
+  const double unsure_m = kSigmas * velocityDeviation(memory) * std::max(0.0, approach.time_s);
+  record.doubtful = approach.distance_m > kRiskM + kMoreM + unsure_m;
 }
 
 // Straight on only as long as she has kept it up, and not over land.

@@ -85,6 +85,7 @@ class Lookout {
   [[nodiscard]] static double velocityDeviation(const Memory& memory);
   void recall(Memory& memory) const;
   static void follow(const Past& now, const Motion& she, Memory& memory);
+  static void doubt(const Past& now, const Motion& she, Memory& memory);
   [[nodiscard]] double knownFor(const Memory& memory, const map::DistanceField& field) const;
 
   Options options_;

@@ -348,7 +348,7 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
       price += kRuleS;
     }
   }
-  // Whoever gives way to one need not stand on for another (rule 2).
+  // Whoever gives way to one need not stand on for another (rule 2), if there is no doubt about it.
   for (std::size_t j = 0; j < count && price <= give_up_above; ++j) {
     const unsigned standing = looks[j].broken & (kActedEarly | kToPort);
     if (standing == 0) {
@@ -356,9 +356,10 @@ double Prospect::price(const Course& own, const std::vector<Other>& others,
     }
     bool excused = false;
     for (std::size_t i = 0; i < count; ++i) {
-      excused = excused || (givesWay(looks[i].role) && looks[i].from_s <= looks[j].acted_s &&
-                            looks[j].acted_s <= looks[i].to_s &&
-                            looks[i].to_s - looks[j].acted_s < kRiskS - kUnsureS);
+      excused =
+          excused || (givesWay(looks[i].role) && !others[i].record.doubtful &&
+                      looks[i].from_s <= looks[j].acted_s && looks[j].acted_s <= looks[i].to_s &&
+                      looks[i].to_s - looks[j].acted_s < kRiskS - kUnsureS);
     }
     if (!excused) {
       price += kRuleS * ((standing & kActedEarly) != 0 ? 1 : 0) +

@@ -49,6 +49,7 @@ struct Record {
   // Ours when it arose: what an action is measured against.
   Eigen::Vector2d kept_velocity = Eigen::Vector2d::Zero();
   double bearing_rad = 0.0;  // of her then
+  bool doubtful = false;     // by what is known now there was none
   bool acted = false;
   int first_turn = 0;          // 1: to starboard, -1: to port, 0: none yet
   bool slowed_first = false;   // before any turn

@@ -585,6 +585,43 @@ TEST_F(PilotTest, NobodyNearNothingToDo) {
   EXPECT_TRUE(pilot_.encounters().empty());
 }
 
+// A first estimate that was wrong: while both keep their courses, what comes out of it now came out
+// of it then. Nothing more is learned of that once it was acted by it.
+TEST_F(PilotTest, DoubtsARiskThatWasNone) {
+  constexpr double kWrongS = 3.0;
+  constexpr double kOffM = 36.0;  // of her bow crossing ours: 25 m between us
+  constexpr double kStepS = 0.25;
+  for (const double acts_s : {1e9, kWrongS, 20.0}) {
+    for (const double off_m : {kOffM, 0.0}) {
+      Lookout lookout((Options()));
+      lookout.newGoal(-60.0);
+      Motion own{{0.0, -200.0}, {0.0, 2.0}};
+      for (double t = 0.0; t <= 30.0; t += kStepS) {
+        if (t > acts_s) {
+          own.velocity = 2.0 * unitVector((90.0 - 20.0) * kDegree);
+        }
+        traffic::Track track = trackAt(270.0, 2.0, t);
+        track.position.x() += off_m;
+        track.covariance.diagonal() << 0.25, 0.25, 0.0225, 0.0225;
+        if (t <= kWrongS) {
+          track.velocity.x() -= off_m / 144.0;
+        }
+        lookout.observe(t, own, own.position, {track}, goal_, 1.98);
+        if (t == kWrongS) {
+          ASSERT_EQ(lookout.others(water_).size(), 1U);
+          EXPECT_EQ(lookout.others(water_)[0].record.role, Role::kGiveWay);
+          EXPECT_FALSE(lookout.others(water_)[0].record.doubtful);
+        }
+        own = own.after(kStepS);
+      }
+      const Record record = lookout.others(water_)[0].record;
+      EXPECT_EQ(record.role, Role::kGiveWay);
+      EXPECT_EQ(record.acted, acts_s < 30.0);
+      EXPECT_EQ(record.doubtful, off_m > 0.0 && acts_s > kWrongS) << off_m << ' ' << acts_s;
+    }
+  }
+}
+
 // A course is priced among so many: those who come nearest, whatever their numbers.
 TEST_F(PilotTest, MindsTheNearestAmongMany) {
   Lookout lookout((Options()));

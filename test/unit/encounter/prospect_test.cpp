@@ -235,7 +235,11 @@ TEST(Prospect, GivingWayExcusesFromStandingOn) {
   const double both = prospect.price(early, {meeting(67.5, 2.0), meeting(270.0, 2.0)}, 1e9);
   EXPECT_GT(alone, 50.0);
   EXPECT_LT(both, alone - 50.0);
-  // But not as soon as there is risk of collision with her.
+  // If there is a risk with her,
+  Other doubtful = meeting(270.0, 2.0);
+  doubtful.record.doubtful = true;
+  EXPECT_GT(prospect.price(early, {meeting(67.5, 2.0), doubtful}, 1e9), alone - 1.0);
+  // and not as soon as it arises.
   Other later = meeting(270.0, 2.0);
   later.motion.position = Eigen::Vector2d(0.0, 40.0) - 120.0 * later.motion.velocity;
   EXPECT_GT(prospect.price(early, {meeting(67.5, 2.0), later}, 1e9), alone - 1.0);
