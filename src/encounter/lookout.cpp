@@ -37,10 +37,14 @@ bool goesRound(const traffic::Track& track) {
 
 }  // namespace
 
+void Lookout::listen(double now_s) {
+  listens_since_s_ = std::min(listens_since_s_, now_s);
+}
+
 void Lookout::newGoal(double now_s) {
   past_.clear();
   goal_time_s_ = now_s;
-  listens_since_s_ = std::min(listens_since_s_, now_s);
+  listen(now_s);
   under_way_ = false;
 }
 
@@ -48,7 +52,7 @@ void Lookout::observe(double now_s, const Motion& own, const Eigen::Vector2d& st
                       const std::vector<traffic::Track>& tracks, const Eigen::Vector2d& goal,
                       double cruise_mps) {
   now_s_ = now_s;
-  listens_since_s_ = std::min(listens_since_s_, now_s);
+  listen(now_s);
   remember(now_s, own, steered, goal, cruise_mps);
   swing_mps_ = swing_.seen(now_s, own.position - steered, own_.velocity);
   const Past now{now_s, own_, under_way_};

@@ -23,6 +23,7 @@ class Lookout {
   explicit Lookout(const Options& options) : options_(options) {}
 
   // As Pilot's.
+  void listen(double now_s);
   void newGoal(double now_s);
   void observe(double now_s, const Motion& own, const Eigen::Vector2d& steered,
                const std::vector<traffic::Track>& tracks, const Eigen::Vector2d& goal,

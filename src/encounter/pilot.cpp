@@ -88,6 +88,8 @@ class Pilot::Impl {
   Impl(const Options& options, const vessel::Parameters& vessel)
       : vessel_(vessel), lookout_(options), chooser_(options, vessel) {}
 
+  void listen(double now_s) { lookout_.listen(now_s); }
+
   void newGoal(double now_s) {
     lookout_.newGoal(now_s);
     decided_s_ = -1e9;
@@ -293,6 +295,9 @@ Pilot::~Pilot() = default;
 Pilot::Pilot(Pilot&&) noexcept = default;
 Pilot& Pilot::operator=(Pilot&&) noexcept = default;
 
+void Pilot::listen(double now_s) {
+  impl_->listen(now_s);
+}
 void Pilot::newGoal(double now_s) {
   impl_->newGoal(now_s);
 }

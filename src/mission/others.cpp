@@ -28,6 +28,9 @@ Moment Others::see(double now_s, const Situation& situation, const Obstacles& ob
 
 void Others::lookOut(const Moment& m, const Sailed& sailed, const Eigen::Vector2d& goal) {
   constexpr double kCruiseShare = 0.99;  // of the speed that plans may have
+  if (m.situation.hears_others) {
+    pilot_.listen(m.now_s);
+  }
   const bool has_way = !sailed.isEmpty();
   if (!has_way && pilot_.encounters().empty()) {
     return;

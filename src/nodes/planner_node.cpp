@@ -641,6 +641,7 @@ mission::Situation PlannerNode::situation() const {
   constexpr double kTracksS = 5.0;  // older ones tell nothing of where others are
   if (std::abs(now_s_ - tracks_stamp_s_) < kTracksS) {  // ahead if the clock was set back
     situation.tracks = tracks_;
+    situation.hears_others = true;
   }
   return situation;
 }

@@ -210,6 +210,7 @@ mission::Situation ClosedLoop::situation() const {
   const bool braking = command_.mode == Mode::kStopping || command_.mode == Mode::kStopped;
   situation.tracker_fault = command_.mode == Mode::kFault || (braking && !stop_ordered_);
   situation.tracks = sensing_->tracks();
+  situation.hears_others = true;
   situation.tracker_reason = std::string(command_.reason);
   situation.foreseen = tracker_->prediction().foreseen();
   return situation;

@@ -50,6 +50,8 @@ class Pilot {
   Pilot(Pilot&&) noexcept;
   Pilot& operator=(Pilot&&) noexcept;
 
+  // Reports of others come in, by now; without being told, from the first way on.
+  void listen(double now_s);
   // A new way: its first seconds count as getting under way.
   void newGoal(double now_s);
   // Positions and courses as they are now; several times a second. What we do is told from where

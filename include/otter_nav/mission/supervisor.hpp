@@ -113,6 +113,7 @@ struct Situation {
   std::string tracker_reason;
   vessel::Foreseen foreseen;           // where the tracker expects the vessel, on the same clock
   std::vector<traffic::Track> tracks;  // of other vessels, on the clock of `now_s`
+  bool hears_others = false;           // whoever makes the tracks does so, be there any or not
 };
 
 // A question to the planner. What it must keep to comes with it.

@@ -44,6 +44,7 @@ class ScriptedMission {
     s.disturbance.knows_waves = knows_waves;
     s.state = rest;
     s.tracks = tracks;
+    s.hears_others = hears_others;
     const trajectory::TimedTrajectory& sailed = supervisor->sailed();
     if (!sailed.trajectory.empty()) {
       s.state = sailed.trajectory.sample(now_s - sailed.start_time_s, vessel::Parameters{}).state;
@@ -104,6 +105,7 @@ class ScriptedMission {
   std::optional<map::DistanceField> known;            // what of the water is; nothing: all
   const feasibility::ObstacleLayer* layer = nullptr;  // besides the field
   std::vector<traffic::Track> tracks;
+  bool hears_others = false;
   SupervisorOptions options;
   std::unique_ptr<Supervisor> supervisor;
   vessel::State rest = vessel::State::Zero();

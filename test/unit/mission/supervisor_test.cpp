@@ -1105,6 +1105,32 @@ TEST(Supervisor, KnowsItsOwnCourseBeforeItHearsOfAnybody) {
   EXPECT_LT(met[0].since_s, 102.0);
 }
 
+// Who may not have been heard of yet is waited for from when reports come in, not from the first
+// goal.
+TEST(Supervisor, HearsOfOthersBeforeItsFirstGoal) {
+  constexpr double kBeforeS = 40.0;
+  for (const bool hears_others : {false, true}) {
+    ScriptedMission m(test::openWater(400.0));
+    m.hears_others = hears_others;
+    m.knowWeather(kBeforeS);
+    m.rest << -190.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    const auto orders = m.goTo({190.0, 0.0});
+    ASSERT_TRUE(orders && orders->plan);
+    (void)m.answer(*orders->plan, eastward({-190.0, 0.0}, 380.0, 1.8));
+    const double began_s = m.now_s;
+    std::optional<PlanRequest> asked;
+    while (!asked && m.now_s < began_s + 25.0) {
+      traffic::Track oncoming = slowerAhead(m.now_s + 0.1, began_s);
+      oncoming.velocity = {-1.8, 0.0};
+      oncoming.position = {170.0 - 1.8 * (m.now_s + 0.1 - began_s), 0.0};
+      oncoming.heading_rad = kPi;
+      m.tracks = {oncoming};
+      asked = m.update(0.1).plan;
+    }
+    EXPECT_EQ(asked.has_value(), hears_others);
+  }
+}
+
 TEST(Supervisor, MakesWayWithoutBindingItselfForLong) {
   constexpr double kBeginsMps = 0.4;
   map::OccupancyGrid water = test::openWater(300.0);
