@@ -117,15 +117,8 @@ void ExcitationNode::onOdometry(const nav_msgs::Odometry& message) {
   }
   const ros::Time stamp = message.header.stamp;
   const ros::Time now = ros::Time::now();
-  if (isAhead(stamp, now)) {
-    diagnostics_.refuse("odom", kStampedAhead);
-    return;
-  }
-  if (isAhead(last_odometry_, now)) {  // the clock was set back
-    last_odometry_ = ros::Time();
-  }
-  if (stamp < last_odometry_) {
-    diagnostics_.refuse("odom", "its stamp goes backwards");
+  if (const char* fault = outOfOrder(stamp, last_odometry_, now)) {
+    diagnostics_.refuse("odom", fault);
     return;
   }
   last_odometry_ = stamp;

@@ -205,7 +205,7 @@ void MapNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
     if (message->header.stamp == last_scan_) {
       publishWindow({}, last_scan_);
     } else {
-      diagnostics_.refuse("scan", "its stamp goes backwards");
+      diagnostics_.refuse("scan", kStampedBack);
     }
     return;
   }

@@ -150,7 +150,7 @@ class PlannerNode {
   OdometryHistory odometry_;
   TrackerWatch tracker_;
   std::vector<traffic::Track> tracks_;  // other vessels, as last told
-  double tracks_stamp_s_ = 0.0;
+  ros::Time tracks_stamp_;
   std::optional<double> scanned_s_;  // when a scan came into the map last
   std::unique_ptr<mission::Supervisor> supervisor_;
   PlannerPublisher publisher_;
@@ -286,7 +286,7 @@ void PlannerNode::onOdometry(const nav_msgs::Odometry& message) {
   } else if (!setup_.node.lockstep && isAhead(message.header.stamp, now)) {
     diagnostics_.refuse("odom", kStampedAhead);
   } else if (!odometry_.add(*sample)) {
-    diagnostics_.refuse("odom", "its stamp goes backwards");
+    diagnostics_.refuse("odom", kStampedBack);
   }
   decideInTurn();
 }
@@ -305,25 +305,16 @@ void PlannerNode::onTracks(const Tracks& message) {
     diagnostics_.refuse("tracks", sound.error().message);
     return;
   }
-  if (!setup_.node.lockstep) {
-    const ros::Time now = ros::Time::now();
-    if (isAhead(message.header.stamp, now)) {
-      diagnostics_.refuse("tracks", kStampedAhead);
-      return;
-    }
-    if (isAhead(ros_bridge::toRosTime(tracks_stamp_s_), now)) {  // the clock was set back
-      tracks_stamp_s_ = 0.0;
-    }
-  }
-  if (message.header.stamp.toSec() < tracks_stamp_s_) {
-    diagnostics_.refuse("tracks", "its stamp goes backwards");
+  const ros::Time now = setup_.node.lockstep ? ros::Time() : ros::Time::now();
+  if (const char* fault = outOfOrder(message.header.stamp, tracks_stamp_, now)) {
+    diagnostics_.refuse("tracks", fault);
     return;
   }
   if (!sound->refused.empty()) {
     diagnostics_.refuse("tracks", sound->refused);
   }
   tracks_ = std::move(sound->tracks);
-  tracks_stamp_s_ = message.header.stamp.toSec();
+  tracks_stamp_ = message.header.stamp;
 }
 
 void PlannerNode::decideInTurn() {
@@ -384,7 +375,7 @@ void PlannerNode::beginAnew() {
   tracker_ = TrackerWatch();
   tracker_.expect(sent_id_, true);
   tracks_.clear();
-  tracks_stamp_s_ = 0.0;
+  tracks_stamp_ = ros::Time();
   // Until odometry of the new time has come there is none, and a goal waits for it.
   vessel_.stamp_s = 0.0;
   goals_.setReady(false);
@@ -639,7 +630,7 @@ mission::Situation PlannerNode::situation() const {
   situation.tracker_reason = tracker_.reason();
   situation.foreseen = tracker_.foreseen();
   constexpr double kTracksS = 5.0;  // older ones tell nothing of where others are
-  if (std::abs(now_s_ - tracks_stamp_s_) < kTracksS) {  // ahead if the clock was set back
+  if (std::abs(now_s_ - tracks_stamp_.toSec()) < kTracksS) {  // ahead if the clock was set back
     situation.tracks = tracks_;
     situation.hears_others = true;
   }

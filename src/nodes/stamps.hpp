@@ -9,6 +9,7 @@ namespace otter_nav::nodes {
 // stamps, stays well below.
 constexpr double kAheadMostS = 0.5;
 constexpr char kStampedAhead[] = "its stamp is ahead of the clock";
+constexpr char kStampedBack[] = "its stamp goes backwards";
 
 // Negative when it is ahead. A ros::Duration would throw beyond 68 years, and a stamp may be
 // anything.
@@ -18,6 +19,19 @@ constexpr char kStampedAhead[] = "its stamp is ahead of the clock";
 // Nothing is, before a simulated clock has come up.
 [[nodiscard]] inline bool isAhead(const ros::Time& stamp, const ros::Time& now) {
   return !now.isZero() && age(stamp, now) < -kAheadMostS;
+}
+
+// Why a message can't follow the one stamped `last`; null if it can. `last` is forgotten where the
+// clock was set back. A `now` of zero: there is no clock but the stamps.
+[[nodiscard]] inline const char* outOfOrder(const ros::Time& stamp, ros::Time& last,
+                                            const ros::Time& now) {
+  if (isAhead(stamp, now)) {
+    return kStampedAhead;
+  }
+  if (isAhead(last, now)) {
+    last = ros::Time();
+  }
+  return stamp < last ? kStampedBack : nullptr;
 }
 
 }  // namespace otter_nav::nodes

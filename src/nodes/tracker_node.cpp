@@ -273,18 +273,9 @@ void TrackerNode::onOdometry(const nav_msgs::Odometry& message) {
   const Result<ros_bridge::OdometrySample> sample = ros_bridge::odometrySample(
       message, ros_bridge::odometryFrame(options_.odometry_frame), frames().base);
   const ros::Time stamp = message.header.stamp;
-  if (!options_.lockstep) {
-    const ros::Time now = ros::Time::now();
-    if (isAhead(stamp, now)) {
-      diagnostics_.refuse("odom", kStampedAhead);
-      return;
-    }
-    if (isAhead(last_odometry_, now)) {  // the clock was set back
-      last_odometry_ = ros::Time();
-    }
-  }
-  if (stamp < last_odometry_) {
-    diagnostics_.refuse("odom", "its stamp goes backwards");
+  const ros::Time now = options_.lockstep ? ros::Time() : ros::Time::now();
+  if (const char* fault = outOfOrder(stamp, last_odometry_, now)) {
+    diagnostics_.refuse("odom", fault);
     return;
   }
   if (options_.lockstep && stamp == last_odometry_ && !stamp.isZero()) {

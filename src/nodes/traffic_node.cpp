@@ -217,7 +217,7 @@ void TrafficNode::onScan(const sensor_msgs::LaserScanConstPtr& message) {
     if (stamp == last_scan_) {
       still_publisher_.publish(last_still_);  // sent again: whoever asked missed the answer
     } else {
-      diagnostics_.refuse("scan", "its stamp goes backwards");
+      diagnostics_.refuse("scan", kStampedBack);
     }
     return;
   }
