@@ -262,6 +262,9 @@ class Run:
         x, y, psi = track.at(self.t)
         e.q = np.stack([x, y], axis=1)
         e.v = np.gradient(e.q, STEP_S, axis=0)
+        # Before its first row a track tells no motion: she seems to begin more slowly than she sails.
+        told = min(int(np.searchsorted(self.t, track.t[0])) + 1, len(self.t) - 1)
+        e.v[:told] = e.v[told]
         e.psi = psi
         e.offset = e.q - self.p
         e.range = np.linalg.norm(e.offset, axis=1)

@@ -33,13 +33,13 @@ def sail(*legs):
     return judge.Track(np.array(t), np.array(x), np.array(y), np.array(psi))
 
 
-def meet(own, heading, speed=2.0):
-    """One vessel that is at the origin after 100 s."""
+def meet(own, heading, speed=2.0, told_s=0.0):
+    """One vessel that is at the origin after 100 s, and whose track begins at `told_s`."""
     h = math.radians(heading)
     course = np.array([math.sin(h), math.cos(h)]) * speed
     vessel = {"id": 1, "length_m": 6.0, "beam_m": 2.0, "speeds_mps": [speed],
               "waypoints": [list(-100.0 * course), list(300.0 * course)]}
-    t = np.arange(0.0, own.t[-1] + 0.1, 0.1)
+    t = np.arange(told_s, own.t[-1] + 0.1, 0.1)
     run = judge.Run(own, MISSION, [(vessel, judge.scripted(vessel, t))], (2.0, 1.08))
     return run.encounters[0]
 
@@ -194,6 +194,11 @@ class Judge(unittest.TestCase):
         self.assertEqual(early, {"17a"})
         port = meet(sail((0, 2.0, 76), (-60, 2.0, 20), (0, 2.0, 100)), 67.5)
         self.assertIn("17c", broken(port))
+
+    def test_a_track_that_begins_a_moment_later(self):
+        for told_s in (0.01, 0.05):
+            late = meet(sail((0, 2.0, 200)), 67.5, told_s=told_s)
+            self.assertEqual((late.since, broken(late)), (0, {"17b"}))
 
 
 if __name__ == "__main__":
