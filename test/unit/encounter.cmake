@@ -1,10 +1,8 @@
 set(encounter_tests ${CMAKE_CURRENT_LIST_DIR}/encounter)
-otter_nav_test(unit_encounter_rules SOURCES ${encounter_tests}/rules_test.cpp ROOMS encounter)
-otter_nav_test(unit_encounter_prospect SOURCES ${encounter_tests}/prospect_test.cpp ROOMS encounter)
-otter_nav_test(unit_encounter_manoeuvre SOURCES ${encounter_tests}/manoeuvre_test.cpp ROOMS encounter)
-otter_nav_test(unit_encounter_pilot SOURCES ${encounter_tests}/pilot_test.cpp ROOMS encounter)
-otter_nav_test(unit_encounter_evasion SOURCES ${encounter_tests}/evasion_test.cpp ROOMS encounter)
-otter_nav_test(unit_encounter_met_motion SOURCES ${encounter_tests}/met_motion_test.cpp ROOMS encounter)
-otter_nav_test(unit_encounter_lying_off SOURCES ${encounter_tests}/lying_off_test.cpp ROOMS encounter)
-otter_nav_test(unit_encounter_swing SOURCES ${encounter_tests}/swing_test.cpp ROOMS encounter)
-otter_nav_test(unit_encounter_surprise SOURCES ${encounter_tests}/surprise_test.cpp ROOMS encounter)
+otter_nav_test(unit_encounter
+  SOURCES ${encounter_tests}/rules_test.cpp ${encounter_tests}/prospect_test.cpp
+          ${encounter_tests}/manoeuvre_test.cpp ${encounter_tests}/pilot_test.cpp
+          ${encounter_tests}/evasion_test.cpp ${encounter_tests}/met_motion_test.cpp
+          ${encounter_tests}/lying_off_test.cpp ${encounter_tests}/swing_test.cpp
+          ${encounter_tests}/surprise_test.cpp
+  ROOMS encounter)

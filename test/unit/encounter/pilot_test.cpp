@@ -17,8 +17,6 @@
 namespace otter_nav::encounter {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 // We go north at 2 m/s from (0, -200) along a straight trajectory; the other is at the origin with
 // us after 100 s.
 class PilotTest : public ::testing::Test {

@@ -9,8 +9,6 @@
 namespace otter_nav::encounter {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 Eigen::Vector2d north(double speed, double to_starboard_deg = 0.0) {
   return speed * Eigen::Vector2d(std::sin(to_starboard_deg * kDegree),
                                  std::cos(to_starboard_deg * kDegree));

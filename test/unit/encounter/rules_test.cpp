@@ -9,8 +9,6 @@
 namespace otter_nav::encounter {
 namespace {
 
-constexpr double kDegree = kPi / 180.0;
-
 // A vessel that meets us at the origin after 100 s on compass heading `heading_deg`; we go north
 // at 2 m/s.
 struct Meeting {
