@@ -1,3 +1,5 @@
-otter_nav_test(unit_map_distance_field SOURCES ${CMAKE_CURRENT_LIST_DIR}/map/distance_field_test.cpp ROOMS map)
-otter_nav_test(unit_map_chart SOURCES ${CMAKE_CURRENT_LIST_DIR}/map/chart_test.cpp ROOMS map)
-otter_nav_test(unit_map_occupancy_map SOURCES ${CMAKE_CURRENT_LIST_DIR}/map/occupancy_map_test.cpp ROOMS map)
+set(map_tests ${CMAKE_CURRENT_LIST_DIR}/map)
+otter_nav_test(unit_map
+  SOURCES ${map_tests}/distance_field_test.cpp ${map_tests}/chart_test.cpp
+          ${map_tests}/occupancy_map_test.cpp
+  ROOMS map)

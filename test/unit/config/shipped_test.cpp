@@ -1,5 +1,5 @@
 // The shipped files against the structs that read them, and docs/parameters.md against both. After
-// a change of a parameter: OTTER_NAV_REFRESH=1 ctest --test-dir build -R unit_config_shipped
+// a change of a parameter: OTTER_NAV_REFRESH=1 ctest --test-dir build -R unit_config
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -127,7 +127,7 @@ TEST(ShippedConfig, IsDocumented) {
   }
   std::ifstream file(path);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), text)
-      << "refresh it: OTTER_NAV_REFRESH=1 ctest -R unit_config_shipped";
+      << "refresh it: OTTER_NAV_REFRESH=1 ctest -R unit_config";
 }
 
 }  // namespace
