@@ -10,7 +10,6 @@ namespace {
 
 using planner::KinoState;
 using planner::quinticPiece;
-namespace test = planner::test;
 
 KinoState moving(double x, double y, double speed) {
   KinoState state;
@@ -26,13 +25,13 @@ EdgeCheck makeCheck(const map::DistanceField& field) {
 }
 
 TEST(EdgeCheck, PassesASteadyEdgeOnOpenWater) {
-  const map::DistanceField field = test::openWater();
+  const map::DistanceField field = planner::test::openWater();
   const auto piece = quinticPiece(moving(-10, 0, 4), moving(10, 0, 4), 5.0);
   EXPECT_EQ(makeCheck(field).check(piece), EdgeFault::kNone);
 }
 
 TEST(EdgeCheck, NamesWhatFails) {
-  const map::DistanceField field = test::openWater();
+  const map::DistanceField field = planner::test::openWater();
   const EdgeCheck check = makeCheck(field);
   EXPECT_EQ(check.check(quinticPiece(moving(-10, 0, 4), moving(10, 0, 4), 3.0)), EdgeFault::kSpeed);
   EXPECT_EQ(check.check(quinticPiece(moving(0, 0, 4), moving(2, 0, 0), 1.0)), EdgeFault::kForce);
@@ -40,7 +39,7 @@ TEST(EdgeCheck, NamesWhatFails) {
 
 TEST(EdgeCheck, SeesAnObstacleThinnerThanItsSteps) {
   // One cell of 0.25 m, met at 4 m/s: 0.06 s.
-  const map::DistanceField field = test::withObstacle(0.0, 0.0, 0.25, 0.25);
+  const map::DistanceField field = planner::test::withObstacle(0.0, 0.0, 0.25, 0.25);
   const EdgeCheck check = makeCheck(field);
   EXPECT_EQ(check.check(quinticPiece(moving(-10, 0, 4), moving(10, 0, 4), 5.0)),
             EdgeFault::kClearance);
