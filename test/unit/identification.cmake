@@ -1,6 +1,7 @@
-foreach(test csv data_set identifiability manoeuvres recovery sensitivity)
-  otter_nav_test(unit_identification_${test}
-    SOURCES ${CMAKE_CURRENT_LIST_DIR}/identification/${test}_test.cpp ROOMS identification)
-endforeach()
-otter_nav_test(unit_identification_report
-  SOURCES ${CMAKE_CURRENT_LIST_DIR}/identification/report_test.cpp ROOMS identification_report)
+set(identification_tests ${CMAKE_CURRENT_LIST_DIR}/identification)
+otter_nav_test(unit_identification
+  SOURCES ${identification_tests}/csv_test.cpp ${identification_tests}/data_set_test.cpp
+          ${identification_tests}/identifiability_test.cpp ${identification_tests}/manoeuvres_test.cpp
+          ${identification_tests}/recovery_test.cpp ${identification_tests}/sensitivity_test.cpp
+          ${identification_tests}/report_test.cpp
+  ROOMS identification identification_report)

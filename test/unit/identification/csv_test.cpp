@@ -4,8 +4,12 @@
 
 #include <sstream>
 
+#include "expect_names.hpp"
+
 namespace otter_nav::identification {
 namespace {
+
+using testing::expectNames;
 
 Result<Recording> readCsv(std::istream& in, const std::string& name) {
   const Result<CsvTable> table = CsvTable::read(in, name);
@@ -16,10 +20,6 @@ std::string errorOf(const std::string& text) {
   std::istringstream in(text);
   const Result<Recording> recording = readCsv(in, "run.csv");
   return recording ? "" : recording.error().message;
-}
-
-void expectNames(const std::string& message, const std::string& part) {
-  EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
 TEST(Csv, ReadsWhatItWrites) {

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "expect_names.hpp"
 #include "identification/thrust_history.hpp"
 #include "identification/windows.hpp"
 
 namespace otter_nav::identification {
 namespace {
+
+using testing::expectNames;
 
 Recording steady(double duration_s, double dt) {
   Recording recording;
@@ -26,10 +29,6 @@ Recording steady(double duration_s, double dt) {
 std::string errorOf(const Recording& recording) {
   const Result<DataSet> data = assemble(recording, DataOptions(), 0.0);
   return data ? "" : data.error().message;
-}
-
-void expectNames(const std::string& message, const std::string& part) {
-  EXPECT_NE(message.find(part), std::string::npos) << "'" << message << "' lacks " << part;
 }
 
 TEST(Assemble, NamesTheStreamThatIsMissing) {

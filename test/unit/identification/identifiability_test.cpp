@@ -1,11 +1,14 @@
 // What the data cannot tell is named, not made up.
 #include <gtest/gtest.h>
 
+#include "expect_names.hpp"
 #include "otter_nav/identification/identify.hpp"
 #include "simulated.hpp"
 
 namespace otter_nav::identification {
 namespace {
+
+using testing::expectNames;
 
 vessel::Parameters guess() {
   vessel::Parameters parameters;
@@ -21,12 +24,6 @@ std::string errorFor(Input input, const testing::Noise& noise) {
   const Recording recording = testing::record(model, input, 80.0, 0.05, noise, 3);
   const auto result = identify(recording, guess(), Options());
   return result ? "" : result.error().message;
-}
-
-void expectNames(const std::string& message, std::initializer_list<const char*> parts) {
-  for (const char* part : parts) {
-    EXPECT_NE(message.find(part), std::string::npos) << "'" << message << "' lacks " << part;
-  }
 }
 
 TEST(Identifiability, ConstantInputNamesTheInertias) {

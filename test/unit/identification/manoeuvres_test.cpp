@@ -12,7 +12,7 @@
 namespace otter_nav::identification {
 namespace {
 
-constexpr double kDt = 0.02;
+constexpr double kCommandPeriodS = 0.02;
 
 struct Track {
   std::vector<double> psi;  // unwrapped
@@ -25,17 +25,17 @@ Track sail(const std::vector<ManoeuvreOptions>& manoeuvres, double limit_s) {
   Excitation excitation(manoeuvres, model.thrusters);
   Track track;
   vessel::State state = vessel::State::Zero();
-  for (int i = 0; i * kDt < limit_s; ++i) {
+  for (int i = 0; i * kCommandPeriodS < limit_s; ++i) {
     vessel::State wrapped = state;
     wrapped[vessel::kPsi] = wrapAngle(state[vessel::kPsi]);
-    const vessel::Thrusts thrusts = excitation.step(100.0 + i * kDt, wrapped);
+    const vessel::Thrusts thrusts = excitation.step(100.0 + i * kCommandPeriodS, wrapped);
     if (excitation.finished()) {
       EXPECT_EQ(thrusts, vessel::Thrusts::Zero());
       break;
     }
     track.psi.push_back(state[vessel::kPsi]);
     track.thrusts.push_back(thrusts);
-    state = step(model, thrusts, kDt, state);
+    state = step(model, thrusts, kCommandPeriodS, state);
   }
   EXPECT_TRUE(excitation.finished());
   EXPECT_EQ(excitation.progress(), "finished");
@@ -111,14 +111,15 @@ TEST(Manoeuvres, SpiralGoesThereAndBack) {
   spiral.seconds = 2.0;
   const Track track = sail({spiral}, 100.0);
   const auto difference = [&](double t) {
-    const vessel::Thrusts& f = track.thrusts[static_cast<std::size_t>(t / kDt)];
+    const vessel::Thrusts& f = track.thrusts[static_cast<std::size_t>(t / kCommandPeriodS)];
     return (f[vessel::kRight] - f[vessel::kLeft]) / (2.0 * 119.7);
   };
   EXPECT_NEAR(difference(1.0), 0.3, 1e-9);
   EXPECT_NEAR(difference(3.0), 0.15, 1e-9);
   EXPECT_NEAR(difference(9.0), -0.3, 1e-9);
   EXPECT_NEAR(difference(17.0), 0.3, 1e-9);
-  EXPECT_NEAR(static_cast<double>(track.thrusts.size()) * kDt, 18.0, 2.0 * kDt);
+  EXPECT_NEAR(static_cast<double>(track.thrusts.size()) * kCommandPeriodS, 18.0,
+              2.0 * kCommandPeriodS);
 }
 
 TEST(Manoeuvres, SpeedStepHoldsTheHeading) {
