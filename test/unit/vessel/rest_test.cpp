@@ -10,7 +10,7 @@
 namespace otter_nav::vessel {
 namespace {
 
-ManoeuvringModel windy() {
+ManoeuvringModel windyModel() {
   ManoeuvringModel model;
   model.sway_drag_quadratic_kgpm = 15.0;
   model.wind_surge_kgpm = 0.5;
@@ -24,7 +24,7 @@ TEST(Rest, IsSetAsideUntilTheDragBalancesTheLoad) {
   Disturbance disturbance;
   disturbance.force_n = {0.0, 12.0};
   for (const double psi : {0.0, 0.7, 2.0, -3.0}) {
-    const ManoeuvringModel model = windy();
+    const ManoeuvringModel model = windyModel();
     const double speed = setAside(model, disturbance, psi);
     const double port = std::cos(psi) > 0.0 ? speed : -speed;
     const Eigen::Vector2d velocity = port * Eigen::Vector2d(-std::sin(psi), std::cos(psi));
@@ -33,8 +33,8 @@ TEST(Rest, IsSetAsideUntilTheDragBalancesTheLoad) {
   }
   Disturbance stream;
   stream.current_mps = {0.0, 0.5};
-  EXPECT_NEAR(setAside(windy(), stream, 0.0), 0.5, 1e-12);
-  EXPECT_NEAR(setAside(windy(), stream, 0.5 * kPi), 0.0, 1e-12);
+  EXPECT_NEAR(setAside(windyModel(), stream, 0.0), 0.5, 1e-12);
+  EXPECT_NEAR(setAside(windyModel(), stream, 0.5 * kPi), 0.0, 1e-12);
 }
 
 // At rest it is what sets the hull aside; carried as the load would, nothing is missing.
@@ -42,23 +42,23 @@ TEST(Rest, AHullFallsOffAMotionByWhatThatLacksOfForce) {
   Disturbance push;
   push.force_n = {0.0, 12.0};
   for (const double psi : {0.0, 0.7, 2.0, -3.0}) {
-    const double drift = driftAbeam(windy(), push, psi);
+    const double drift = driftAbeam(windyModel(), push, psi);
     const Eigen::Vector2d carried = drift * Eigen::Vector2d(-std::sin(psi), std::cos(psi));
     const Eigen::Vector2d none = Eigen::Vector2d::Zero();
-    EXPECT_NEAR(setOff(windy(), push, psi, 0.0, none, none), std::abs(drift), 1e-9);
-    EXPECT_NEAR(setOff(windy(), push, psi, 0.0, carried, none), 0.0, 1e-6);
-    EXPECT_GT(setOff(windy(), push, psi, 0.0, -carried, none), std::abs(drift));
+    EXPECT_NEAR(setOff(windyModel(), push, psi, 0.0, none, none), std::abs(drift), 1e-9);
+    EXPECT_NEAR(setOff(windyModel(), push, psi, 0.0, carried, none), 0.0, 1e-6);
+    EXPECT_GT(setOff(windyModel(), push, psi, 0.0, -carried, none), std::abs(drift));
   }
 }
 
 TEST(Rest, LiesOnHeadingsAlongTheLoadAndOnAnyInCalmWater) {
   Disturbance gale;
   gale.wind_mps = {8.0, 0.0};
-  EXPECT_TRUE(canLie(windy(), {}, 1.0));
-  EXPECT_TRUE(canLie(windy(), gale, kPi));
-  EXPECT_TRUE(canLie(windy(), gale, 0.0));
-  EXPECT_FALSE(canLie(windy(), gale, 0.5 * kPi));
-  EXPECT_FALSE(canLie(windy(), gale, kPi - 0.7));
+  EXPECT_TRUE(canLie(windyModel(), {}, 1.0));
+  EXPECT_TRUE(canLie(windyModel(), gale, kPi));
+  EXPECT_TRUE(canLie(windyModel(), gale, 0.0));
+  EXPECT_FALSE(canLie(windyModel(), gale, 0.5 * kPi));
+  EXPECT_FALSE(canLie(windyModel(), gale, kPi - 0.7));
 }
 
 // 9 % of both thrusters; a wind whose loads turn with the hull is no such load.
@@ -70,7 +70,7 @@ TEST(Rest, ALoadIsFirmThatGivesPathsAHeading) {
   EXPECT_FALSE(isFirmLoad(vessel, push));
   push.force_n = {0.0, 19.0};
   EXPECT_TRUE(isFirmLoad(vessel, push));
-  vessel.manoeuvring = windy();
+  vessel.manoeuvring = windyModel();
   EXPECT_TRUE(isFirmLoad(vessel, push));
   push.wind_mps = {8.0, 0.0};
   EXPECT_FALSE(isFirmLoad(vessel, push));
@@ -82,12 +82,12 @@ TEST(Rest, TurnsTheBowIntoTheLoad) {
     weather.wind_mps = {5.0, 5.0};
     weather.current_mps = {0.3, -0.2};
     weather.force_n = {2.0, 4.0};
-    const double psi = headingIntoLoad(windy(), weather, seen_from);
-    const Demand demand = demandOf(windy(), weather, psi, 0.0, 0.0, {0.0, 0.0}, {0.0, 0.0});
+    const double psi = headingIntoLoad(windyModel(), weather, seen_from);
+    const Demand demand = demandOf(windyModel(), weather, psi, 0.0, 0.0, {0.0, 0.0}, {0.0, 0.0});
     EXPECT_NEAR(demand.sway_n, 0.0, 1e-6);
-    EXPECT_GT(surgeAtRest(windy(), weather, psi), 20.0);
+    EXPECT_GT(surgeAtRest(windyModel(), weather, psi), 20.0);
   }
-  EXPECT_EQ(headingIntoLoad(windy(), {}, 0.4), 0.4);
+  EXPECT_EQ(headingIntoLoad(windyModel(), {}, 0.4), 0.4);
 }
 
 }  // namespace

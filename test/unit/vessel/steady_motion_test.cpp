@@ -10,7 +10,7 @@
 namespace otter_nav::vessel {
 namespace {
 
-Parameters windy() {
+Parameters windyVessel() {
   Parameters vessel;
   vessel.manoeuvring = ManoeuvringModel::fromPaper(vessel.paper);
   vessel.manoeuvring.wind_surge_kgpm = 0.5;
@@ -33,7 +33,7 @@ void expectSteady(const SteadyMotion& motion, const Eigen::Vector2d& velocity,
 }
 
 TEST(SteadyMotion, AtRestInCalmWaterAnyHeadingWillDo) {
-  const auto found = steadyHeadings(Eigen::Vector2d::Zero(), 1.2, windy(), {});
+  const auto found = steadyHeadings(Eigen::Vector2d::Zero(), 1.2, windyVessel(), {});
   ASSERT_FALSE(found.empty());
   EXPECT_NEAR(found.front().psi_rad, 1.2, 1e-9);
   EXPECT_NEAR(found.front().thrust_share, 0.0, 1e-12);
@@ -42,20 +42,20 @@ TEST(SteadyMotion, AtRestInCalmWaterAnyHeadingWillDo) {
 TEST(SteadyMotion, AtRestInWindTheBowLiesToItOrTheStern) {
   Disturbance wind;
   wind.wind_mps = {0.0, 8.0};
-  const auto found = steadyHeadings(Eigen::Vector2d::Zero(), -1.0, windy(), wind);
+  const auto found = steadyHeadings(Eigen::Vector2d::Zero(), -1.0, windyVessel(), wind);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_NEAR(wrapAngle(found[0].psi_rad + 0.5 * kPi), 0.0, 1e-6);
   EXPECT_NEAR(wrapAngle(found[1].psi_rad - 0.5 * kPi), 0.0, 1e-6);
   EXPECT_NEAR(found[0].thrust_share, 0.5 * 64.0 / 100.0, 1e-6);
   for (const SteadyMotion& motion : found) {
-    expectSteady(motion, Eigen::Vector2d::Zero(), windy(), wind);
+    expectSteady(motion, Eigen::Vector2d::Zero(), windyVessel(), wind);
   }
-  const SteadyMotion abeam = steadyOn(0.0, Eigen::Vector2d::Zero(), windy(), wind);
+  const SteadyMotion abeam = steadyOn(0.0, Eigen::Vector2d::Zero(), windyVessel(), wind);
   EXPECT_NEAR(abeam.sway_n, -0.7 * 64.0, 1e-9);
 }
 
 TEST(SteadyMotion, OnACourseTheHullGoesCrabwise) {
-  const Parameters vessel = windy();
+  const Parameters vessel = windyVessel();
   Disturbance sea;
   sea.wind_mps = {3.0, 4.0};
   sea.current_mps = {0.2, -0.1};
@@ -72,7 +72,7 @@ TEST(SteadyMotion, OnACourseTheHullGoesCrabwise) {
 TEST(SteadyMotion, MoreThanTheThrustersHaveLeavesNoMargin) {
   Disturbance sea;
   sea.force_n = {-120.0, 0.0};
-  const auto found = steadyHeadings(Eigen::Vector2d::Zero(), 0.0, windy(), sea);
+  const auto found = steadyHeadings(Eigen::Vector2d::Zero(), 0.0, windyVessel(), sea);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(found.front().margin(), 0.0);
 }
