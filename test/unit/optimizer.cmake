@@ -1,5 +1,6 @@
-otter_nav_test(unit_optimizer_spline SOURCES ${CMAKE_CURRENT_LIST_DIR}/optimizer/spline_problem_test.cpp ROOMS optimizer)
-otter_nav_test(unit_optimizer_spin SOURCES ${CMAKE_CURRENT_LIST_DIR}/optimizer/spin_test.cpp ROOMS optimizer)
-otter_nav_test(unit_optimizer_local SOURCES ${CMAKE_CURRENT_LIST_DIR}/optimizer/local_optimizer_test.cpp ROOMS optimizer)
-otter_nav_test(unit_optimizer_end_manoeuvre SOURCES ${CMAKE_CURRENT_LIST_DIR}/optimizer/end_manoeuvre_test.cpp ROOMS optimizer)
-otter_nav_test(unit_optimizer_stop_and_spin SOURCES ${CMAKE_CURRENT_LIST_DIR}/optimizer/stop_and_spin_test.cpp ROOMS optimizer)
+set(optimizer_tests ${CMAKE_CURRENT_LIST_DIR}/optimizer)
+otter_nav_test(unit_optimizer
+  SOURCES ${optimizer_tests}/end_manoeuvre_test.cpp ${optimizer_tests}/local_optimizer_test.cpp
+          ${optimizer_tests}/spin_test.cpp ${optimizer_tests}/spline_problem_test.cpp
+          ${optimizer_tests}/stop_and_spin_test.cpp
+  ROOMS optimizer)
