@@ -7,18 +7,12 @@
 #include <random>
 
 #include "../../unit/planner/planner_ground.hpp"
+#include "islands.hpp"
 #include "otter_nav/config/fields.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 
 namespace otter_nav::planner {
 namespace {
-
-// Without a clock: bounded by iterations, the same on every machine.
-Termination byIterations() {
-  Termination termination;
-  termination.max_iterations = 2000;
-  return termination;
-}
 
 Query across() {
   Query query;
@@ -30,13 +24,6 @@ Query across() {
   return query;
 }
 
-map::DistanceField islands() {
-  map::OccupancyGrid grid = test::openGrid();
-  test::fill(grid, -12.0, -25.0, 6.0, 30.0);
-  test::fill(grid, 8.0, -5.0, 5.0, 30.0);
-  return map::DistanceField(grid, map::DistanceFieldOptions{});
-}
-
 feasibility::Verification verifyPlan(const Plan& plan, const map::DistanceField& field,
                                      const Query& query) {
   return feasibility::verify(plan.trajectory, field, vessel::Parameters{}, query.start, query.goal,
@@ -46,7 +33,7 @@ feasibility::Verification verifyPlan(const Plan& plan, const map::DistanceField&
 class EveryMethod : public ::testing::TestWithParam<std::pair<bool, bool>> {};
 
 TEST_P(EveryMethod, ReturnsWhatPassesVerification) {
-  const map::DistanceField field = islands();
+  const map::DistanceField field = test::islands();
   Options options;
   options.local_optimization = GetParam().first;
   options.global_optimization = GetParam().second;
@@ -54,7 +41,7 @@ TEST_P(EveryMethod, ReturnsWhatPassesVerification) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Query query = across();
     query.seed = seed;
-    const Plan plan = planner.plan(field, query, byIterations());
+    const Plan plan = planner.plan(field, query, test::byIterations());
     ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
     const auto verification = verifyPlan(plan, field, query);
     EXPECT_TRUE(verification.ok) << verification.reason;
@@ -69,14 +56,14 @@ INSTANTIATE_TEST_SUITE_P(Ablation, EveryMethod,
                                            std::pair{false, true}, std::pair{true, true}));
 
 TEST(Planner, IsTheSameForASeed) {
-  const map::DistanceField field = islands();
+  const map::DistanceField field = test::islands();
   Planner fresh(Options{}, vessel::Parameters{});
   Planner used(Options{}, vessel::Parameters{});
   Query other = across();
   other.goal.flat.position = {25.0, -25.0};
-  (void)used.plan(field, other, byIterations());
-  const Plan a = fresh.plan(field, across(), byIterations());
-  const Plan b = used.plan(field, across(), byIterations());
+  (void)used.plan(field, other, test::byIterations());
+  const Plan a = fresh.plan(field, across(), test::byIterations());
+  const Plan b = used.plan(field, across(), test::byIterations());
   ASSERT_EQ(a.trajectory.pieces().size(), b.trajectory.pieces().size());
   EXPECT_EQ(a.trajectory.duration(), b.trajectory.duration());
   for (std::size_t i = 0; i < a.trajectory.pieces().size(); ++i) {
@@ -85,31 +72,31 @@ TEST(Planner, IsTheSameForASeed) {
 }
 
 TEST(Planner, SaysWhyThereIsNoPlan) {
-  const map::DistanceField field = islands();
+  const map::DistanceField field = test::islands();
   Planner planner(Options{}, vessel::Parameters{});
   Query query = across();
   query.start.flat.position = {-9.0, 0.0};
-  EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kStartBlocked);
+  EXPECT_EQ(planner.plan(field, query, test::byIterations()).outcome, Outcome::kStartBlocked);
   query = across();
   query.goal.flat.position = {10.0, 5.0};
-  EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kGoalBlocked);
+  EXPECT_EQ(planner.plan(field, query, test::byIterations()).outcome, Outcome::kGoalBlocked);
   query.goal.flat.position = {300.0, 5.0};
-  const Plan outside = planner.plan(field, query, byIterations());
+  const Plan outside = planner.plan(field, query, test::byIterations());
   EXPECT_EQ(outside.outcome, Outcome::kGoalBlocked);
   EXPECT_NE(outside.reason.find("outside the map"), std::string::npos) << outside.reason;
   query.goal.flat.position.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(planner.plan(field, query, byIterations()).outcome, Outcome::kGoalBlocked);
+  EXPECT_EQ(planner.plan(field, query, test::byIterations()).outcome, Outcome::kGoalBlocked);
 }
 
 TEST(Planner, GoesNoFartherThanItMustToAGoalNearby) {
-  const map::DistanceField field = islands();
+  const map::DistanceField field = test::islands();
   Planner planner(Options{}, vessel::Parameters{});
   for (const double distance : {0.0, 0.1, 0.29}) {
     for (const double turn : {0.0, -2.5}) {
       Query query = across();
       query.goal.flat.position = query.start.flat.position + Eigen::Vector2d(0.0, distance);
       query.goal.psi_rad = query.start.psi_rad + turn;
-      const Plan plan = planner.plan(field, query, byIterations());
+      const Plan plan = planner.plan(field, query, test::byIterations());
       ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
       EXPECT_TRUE(verifyPlan(plan, field, query).ok) << verifyPlan(plan, field, query).reason;
       EXPECT_NEAR(plan.figures.length_m, distance, 1e-6);
@@ -125,7 +112,7 @@ TEST(Planner, WastesLittleTimeTurningAtTheEnds) {
     Query query = across();
     query.start.psi_rad = psi;
     query.goal.psi_rad = -psi;
-    const Plan plan = planner.plan(field, query, byIterations());
+    const Plan plan = planner.plan(field, query, test::byIterations());
     ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
     EXPECT_GT(plan.figures.length_m / plan.figures.duration_s, 3.0) << psi;
     EXPECT_LT(plan.figures.length_m, 65.0) << psi;
@@ -135,7 +122,7 @@ TEST(Planner, WastesLittleTimeTurningAtTheEnds) {
 TEST(Planner, SaysThatThereIsNoWay) {
   const map::DistanceField wall = test::withObstacle(0.0, -40.0, 2.0, 80.0);
   Planner planner(Options{}, vessel::Parameters{});
-  const Plan plan = planner.plan(wall, across(), byIterations());
+  const Plan plan = planner.plan(wall, across(), test::byIterations());
   EXPECT_EQ(plan.outcome, Outcome::kNoPath);
   EXPECT_FALSE(plan.reason.empty());
   EXPECT_TRUE(plan.trajectory.empty());
@@ -154,9 +141,9 @@ TEST(Planner, EndsEarlyWhereItMayAndTheWholeWayCantBePlanned) {
   query.goal.psi_rad = 1.5707963;
   query.limits.clearance_m = 0.65;
   Planner planner(Options{}, vessel::Parameters{});
-  EXPECT_NE(planner.plan(field, query, byIterations()).outcome, Outcome::kSolved);
+  EXPECT_NE(planner.plan(field, query, test::byIterations()).outcome, Outcome::kSolved);
   query.may_end_early = true;
-  const Plan part = planner.plan(field, query, byIterations());
+  const Plan part = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(part.outcome, Outcome::kSolved) << part.reason;
   EXPECT_GT(part.left_m, 15.0);
   EXPECT_LT(part.left_m, 45.0);
@@ -166,7 +153,7 @@ TEST(Planner, EndsEarlyWhereItMayAndTheWholeWayCantBePlanned) {
   EXPECT_GT(ends.goal.flat.position.x(), query.start.flat.position.x() + 5.0);
   // What can be planned is planned whole.
   query.goal.psi_rad = 0.0;
-  const Plan whole = planner.plan(field, query, byIterations());
+  const Plan whole = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(whole.outcome, Outcome::kSolved) << whole.reason;
   EXPECT_EQ(whole.left_m, 0.0);
 }
@@ -191,9 +178,9 @@ TEST(Planner, CreepsWhereNothingElseLeadsOn) {
   query.goal.psi_rad = 3.1415926;
   query.may_end_early = true;
   Planner planner(Options{}, vessel::Parameters{});
-  const Plan without = planner.plan(field, query, byIterations());
+  const Plan without = planner.plan(field, query, test::byIterations());
   query.may_creep = true;
-  const Plan plan = planner.plan(field, query, byIterations());
+  const Plan plan = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
   EXPECT_NE(without.outcome, Outcome::kSolved);
   EXPECT_EQ(plan.left_m, 0.0);
@@ -202,7 +189,7 @@ TEST(Planner, CreepsWhereNothingElseLeadsOn) {
   EXPECT_TRUE(verification.ok) << verification.reason;
   // Under way there is always another.
   query.start.flat.velocity = {0.0, 0.5};
-  EXPECT_NE(planner.plan(field, query, byIterations()).outcome, Outcome::kSolved);
+  EXPECT_NE(planner.plan(field, query, test::byIterations()).outcome, Outcome::kSolved);
 }
 
 // Waves have set it nearer to the wall than plans keep, and the goal is out of the search's reach.
@@ -218,7 +205,7 @@ TEST(Planner, CreepsFromNearerThanPlansKeep) {
   query.may_creep = true;
   ASSERT_LT(field.clearance(query.start.flat.position), query.limits.clearance_m);
   Planner planner(Options{}, vessel::Parameters{});
-  const Plan plan = planner.plan(field, query, byIterations());
+  const Plan plan = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
   EXPECT_GT(plan.left_m, 0.0);
   EXPECT_LT(plan.left_m, 25.0);
@@ -239,9 +226,9 @@ TEST(Planner, CreepsThroughAGapThatTheHullPasses) {
   query.goal.psi_rad = 1.5707963;
   query.may_creep = true;
   Planner planner(Options{}, vessel::Parameters{});
-  EXPECT_NE(planner.plan(field, query, byIterations()).outcome, Outcome::kSolved);
+  EXPECT_NE(planner.plan(field, query, test::byIterations()).outcome, Outcome::kSolved);
   query.may_end_early = true;  // as at the narrowest clearance
-  const Plan plan = planner.plan(field, query, byIterations());
+  const Plan plan = planner.plan(field, query, test::byIterations());
   EXPECT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
   EXPECT_EQ(plan.left_m, 0.0);
 }
@@ -268,12 +255,12 @@ TEST(Planner, CreepsWhereThatIsQuickerThanFromStopToStop) {
     query.start.psi_rad = 1.5707963;
     query.goal.flat.position = {0.0, 11.3};
     query.goal.psi_rad = 1.5707963;
-    const Plan without = planner.plan(field, query, byIterations());
+    const Plan without = planner.plan(field, query, test::byIterations());
     if (without.outcome != Outcome::kSolved) {
       continue;
     }
     query.may_creep = true;
-    const Plan plan = planner.plan(field, query, byIterations());
+    const Plan plan = planner.plan(field, query, test::byIterations());
     ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
     EXPECT_LE(plan.figures.duration_s, without.figures.duration_s + 1e-9);
     quicker += plan.figures.duration_s < without.figures.duration_s - 1e-3 ? 1 : 0;
@@ -299,7 +286,7 @@ TEST(Planner, DoesNotEndEarlyInADeadEnd) {
   query.goal.flat.position = {9.0, 0.0};
   query.may_end_early = true;
   Planner planner(Options{}, vessel::Parameters{});
-  const Plan plan = planner.plan(field, query, byIterations());
+  const Plan plan = planner.plan(field, query, test::byIterations());
   EXPECT_NE(plan.outcome, Outcome::kSolved) << plan.left_m;
 }
 
@@ -317,7 +304,7 @@ TEST(Planner, KeepsAwayFromDeadEndsWhereItCan) {
     query.limits.clearance_m = 1.0;
     Planner planner(Options{}, vessel::Parameters{});
     const auto crossing_m = [&] {
-      const Plan plan = planner.plan(field, query, byIterations());
+      const Plan plan = planner.plan(field, query, test::byIterations());
       for (double t = 0.0; t < plan.trajectory.duration(); t += 0.05) {
         if (plan.trajectory.flat(t).position.x() > 0.5) {
           return plan.trajectory.flat(t).position.y();
@@ -363,7 +350,7 @@ TEST(Planner, TakesTheGuidePathBeforeManySamples) {
   for (const double speed_mps : {0.0, 0.7}) {
     Query query = throughTheGaps();
     query.start.flat.velocity.x() = speed_mps;
-    const Plan plan = planner.plan(field, query, byIterations());
+    const Plan plan = planner.plan(field, query, test::byIterations());
     ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
     EXPECT_LT(plan.figures.samples, 60) << speed_mps;
     EXPECT_TRUE(verifyPlan(plan, field, query).ok);
@@ -376,35 +363,35 @@ TEST(Planner, GivesUpSoonUnderWay) {
   Planner planner(Options{}, vessel::Parameters{});
   Query query = throughTheGaps();
   query.limits.hull_margin_m = 0.45;
-  const Plan from_rest = planner.plan(field, query, byIterations());
+  const Plan from_rest = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(from_rest.outcome, Outcome::kNoPath);
   EXPECT_GT(from_rest.figures.samples, 1000);
   query.start.flat.velocity.x() = 0.7;
-  const Plan under_way = planner.plan(field, query, byIterations());
+  const Plan under_way = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(under_way.outcome, Outcome::kNoPath);
   EXPECT_LT(under_way.figures.samples, 150);
 }
 
 TEST(Planner, SaysThatTheTimeIsUp) {
-  const map::DistanceField field = islands();
+  const map::DistanceField field = test::islands();
   Planner planner(Options{}, vessel::Parameters{});
-  Termination termination = byIterations();
+  Termination termination = test::byIterations();
   termination.elapsed_s = [] { return 2.0; };
   termination.budget_s = 1.0;
   EXPECT_EQ(planner.plan(field, across(), termination).outcome, Outcome::kTimeUp);
 }
 
 TEST(Planner, PlansFromAMovingStartAndKeepsTheJoint) {
-  const map::DistanceField field = islands();
+  const map::DistanceField field = test::islands();
   Planner planner(Options{}, vessel::Parameters{});
-  const Plan first = planner.plan(field, across(), byIterations());
+  const Plan first = planner.plan(field, across(), test::byIterations());
   ASSERT_EQ(first.outcome, Outcome::kSolved);
   Query query = across();
   const double when = 0.5 * first.trajectory.duration();
   query.start.flat = first.trajectory.flat(when);
   query.start.psi_rad = first.trajectory.sample(when, vessel::Parameters{}).state[vessel::kPsi];
   ASSERT_GT(query.start.flat.velocity.norm(), 1.0);
-  const Plan second = planner.plan(field, query, byIterations());
+  const Plan second = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(second.outcome, Outcome::kSolved) << second.reason;
   const vessel::FlatPoint joint = second.trajectory.flat(0.0);
   EXPECT_LT((joint.velocity - query.start.flat.velocity).norm(), 1e-6);
@@ -413,14 +400,14 @@ TEST(Planner, PlansFromAMovingStartAndKeepsTheJoint) {
 }
 
 TEST(Planner, IsNoWorseThanItsWarmStart) {
-  const map::DistanceField field = islands();
+  const map::DistanceField field = test::islands();
   Planner planner(Options{}, vessel::Parameters{});
-  const Plan first = planner.plan(field, across(), byIterations());
+  const Plan first = planner.plan(field, across(), test::byIterations());
   ASSERT_EQ(first.outcome, Outcome::kSolved);
   Query query = across();
   query.warm_start = first.trajectory;
   query.seed = 77;
-  const Plan second = planner.plan(field, query, byIterations());
+  const Plan second = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(second.outcome, Outcome::kSolved);
   EXPECT_LE(second.trajectory.duration(), first.trajectory.duration() + 1.0);
 }

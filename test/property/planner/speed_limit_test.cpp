@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "../../unit/planner/planner_ground.hpp"
+#include "islands.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/planner/planner.hpp"
 #include "otter_nav/vessel/manoeuvring_motion.hpp"
@@ -13,19 +14,6 @@ namespace {
 
 const std::filesystem::path kVessels =
     std::filesystem::path(OTTER_NAV_SOURCE_DIR) / "config/vessels";
-
-Termination byIterations() {
-  Termination termination;
-  termination.max_iterations = 2000;
-  return termination;
-}
-
-map::DistanceField islands() {
-  map::OccupancyGrid grid = test::openGrid();
-  test::fill(grid, -12.0, -25.0, 6.0, 30.0);
-  test::fill(grid, 8.0, -5.0, 5.0, 30.0);
-  return map::DistanceField(grid, map::DistanceFieldOptions{});
-}
 
 struct Speeds {
   double fastest = 0.0;
@@ -71,7 +59,7 @@ class SpeedLimit : public ::testing::TestWithParam<Case> {
     Planner planner(Options{}, vessel_);
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       query.seed = seed;
-      const Plan plan = planner.plan(field, query, byIterations());
+      const Plan plan = planner.plan(field, query, test::byIterations());
       ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
       const auto verification = feasibility::verify(plan.trajectory, field, vessel_, query.start,
                                                     query.goal, query.limits);
@@ -100,7 +88,7 @@ TEST_P(SpeedLimit, IsKeptAndUsedAmongIslands) {
   query.start.psi_rad = 1.0;
   query.goal.flat.position = {30.0, 5.0};
   query.goal.psi_rad = -2.0;
-  expectNearTheLimit(islands(), query, 0.95);
+  expectNearTheLimit(test::islands(), query, 0.95);
 }
 
 // A limit that fell under way: the plan slows down, and then keeps to it.
@@ -115,7 +103,7 @@ TEST_P(SpeedLimit, IsReachedFromAbove) {
   query.limits = feasibility::SafetyLimits::of(vessel_);
   query.limits.speed_max_mps = limit;
   Planner planner(Options{}, vessel_);
-  const Plan plan = planner.plan(field, query, byIterations());
+  const Plan plan = planner.plan(field, query, test::byIterations());
   ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
   const auto verification =
       feasibility::verify(plan.trajectory, field, vessel_, query.start, query.goal, query.limits);
@@ -150,7 +138,7 @@ TEST(SpeedLimitFromRest, HardlyOffTheWayItLeavesStraight) {
     query.goal.flat.position = {35.0, 0.0};
     query.limits = feasibility::SafetyLimits::of(vessel);
     query.limits.speed_max_mps = 1.96;
-    const Plan plan = planner.plan(field, query, byIterations());
+    const Plan plan = planner.plan(field, query, test::byIterations());
     ASSERT_EQ(plan.outcome, Outcome::kSolved) << plan.reason;
     double swings_rad = 0.0;
     for (double t = kSettledS; t < plan.trajectory.duration() - kArrivesS; t += 0.1) {

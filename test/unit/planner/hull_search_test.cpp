@@ -18,7 +18,7 @@ namespace {
 
 using vessel::Pose;
 
-constexpr int kMost = 400000;
+constexpr int kMostSteps = 400000;
 const vessel::Hull kHull{2.0, 1.08};
 
 // The least that the rectangle's outline keeps along the way, looked at every 2 cm and 1 degree.
@@ -66,7 +66,7 @@ TEST(HullSearch, InOpenWaterItTurnsGoesAndTurns) {
   const Pose start{{0.0, 0.0}, 0.0};
   const Pose goal{{0.0, 8.0}, 0.0};
   const map::DistanceField open = test::openWater();
-  const std::vector<Pose> way = search.find(open, start, goal, {0.65, 0.1}, kMost);
+  const std::vector<Pose> way = search.find(open, start, goal, {0.65, 0.1}, kMostSteps);
   expectLeads(way, start, goal);
   EXPECT_EQ(way.size(), 4U);
 }
@@ -80,7 +80,7 @@ TEST(HullSearch, GoesAsternOutOfACanal) {
   HullSearch search(kHull);
   const Pose start{{6.0, 0.0}, 0.0};
   const Pose goal{{-4.0, 3.0}, kPi / 2.0};
-  const std::vector<Pose> way = search.find(field, start, goal, {0.65, 0.05}, kMost);
+  const std::vector<Pose> way = search.find(field, start, goal, {0.65, 0.05}, kMostSteps);
   expectLeads(way, start, goal);
   EXPECT_TRUE(goesAstern(way));
   EXPECT_GE(keeps(way, field), 0.05);
@@ -100,8 +100,8 @@ TEST(HullSearch, FindsTheSameAgainAsForTheFirstTime) {
     const Pose start{{random.uniform(4.0, 8.0), 0.0}, random.uniform(-0.03, 0.03)};
     const Pose goal{{random.uniform(-6.0, -3.0), random.uniform(-4.0, 4.0)},
                     random.uniform(-kPi, kPi)};
-    const std::vector<Pose> way = again.find(field, start, goal, room, kMost);
-    const std::vector<Pose> first = HullSearch(kHull).find(field, start, goal, room, kMost);
+    const std::vector<Pose> way = again.find(field, start, goal, room, kMostSteps);
+    const std::vector<Pose> first = HullSearch(kHull).find(field, start, goal, room, kMostSteps);
     ASSERT_EQ(way.size(), first.size()) << k;
     for (std::size_t i = 0; i < way.size(); ++i) {
       EXPECT_EQ(way[i].position, first[i].position) << k;
@@ -119,7 +119,7 @@ TEST(HullSearch, FindsNothingThroughASlotNarrowerThanTheHull) {
   const map::DistanceField field(grid, {});
   HullSearch search(kHull);
   const Pose start{{0.0, 0.0}, kPi / 2.0};
-  EXPECT_TRUE(search.find(field, start, {{0.0, 7.0}, kPi / 2.0}, {0.5, 0.02}, kMost).empty());
+  EXPECT_TRUE(search.find(field, start, {{0.0, 7.0}, kPi / 2.0}, {0.5, 0.02}, kMostSteps).empty());
 }
 
 // A canal longer than what is gone straight to the goal, 4 degrees off the heading that she lies
@@ -135,7 +135,7 @@ TEST(HullSearch, PassesATightCanalThatLiesAskew) {
   for (const double askew_rad : {kAskewRad, -kAskewRad}) {
     const Pose start{{0.0, 0.0}, kPi / 2.0 + askew_rad};
     const Pose goal{{0.0, 18.0}, kPi / 2.0};
-    const std::vector<Pose> way = search.find(field, start, goal, room, kMost);
+    const std::vector<Pose> way = search.find(field, start, goal, room, kMostSteps);
     expectLeads(way, start, goal);
     EXPECT_GE(keeps(way, field), room.beside_m);
   }
@@ -169,12 +169,12 @@ TEST(HullSearch, PrefersAWideGapToANarrowOne) {
   const Pose start{{0.125, 0.0}, kPi / 2.0};
   const Pose goal{{0.125, 12.0}, kPi / 2.0};
   const map::DistanceField narrow = twoGaps(-0.5, 0.75);
-  const std::vector<Pose> round = search.find(narrow, start, goal, {0.6, 0.02}, kMost);
+  const std::vector<Pose> round = search.find(narrow, start, goal, {0.6, 0.02}, kMostSteps);
   expectLeads(round, start, goal);
   EXPECT_FALSE(passesAhead(round));
   EXPECT_GE(keeps(round, narrow), 0.25);
   const std::vector<Pose> through =
-      search.find(twoGaps(-1.0, 1.25), start, goal, {0.6, 0.02}, kMost);
+      search.find(twoGaps(-1.0, 1.25), start, goal, {0.6, 0.02}, kMostSteps);
   expectLeads(through, start, goal);
   EXPECT_TRUE(passesAhead(through));
 }
@@ -190,11 +190,11 @@ TEST(HullSearch, LeavesRoomOnHeadingsOnWhichTheHullSwings) {
     return [wind](double psi_rad) { return 0.8 * std::abs(cross(unitVector(psi_rad), wind)); };
   };
   const std::vector<Pose> along =
-      search.find(field, start, goal, {0.6, 0.02, in_wind({0.0, 1.0})}, kMost);
+      search.find(field, start, goal, {0.6, 0.02, in_wind({0.0, 1.0})}, kMostSteps);
   expectLeads(along, start, goal);
   EXPECT_TRUE(passesAhead(along));
   const std::vector<Pose> across =
-      search.find(field, start, goal, {0.6, 0.02, in_wind({1.0, 0.0})}, kMost);
+      search.find(field, start, goal, {0.6, 0.02, in_wind({1.0, 0.0})}, kMostSteps);
   expectLeads(across, start, goal);
   EXPECT_FALSE(passesAhead(across));
 }
@@ -204,8 +204,8 @@ TEST(HullSearch, GivesUpWhenToldTo) {
   const map::DistanceField field = test::openWater();
   const Pose far{{12.0, 8.0}, 0.0};
   EXPECT_TRUE(search.find(field, {}, far, {0.65, 0.1}, 5).empty());
-  EXPECT_TRUE(search.find(field, {}, far, {0.65, 0.1}, kMost, [] { return true; }).empty());
-  EXPECT_TRUE(search.find(field, {}, {{30.0, 0.0}, 0.0}, {0.65, 0.1}, kMost).empty());
+  EXPECT_TRUE(search.find(field, {}, far, {0.65, 0.1}, kMostSteps, [] { return true; }).empty());
+  EXPECT_TRUE(search.find(field, {}, {{30.0, 0.0}, 0.0}, {0.65, 0.1}, kMostSteps).empty());
 }
 
 // Posts at random, a third of a metre wide: whatever is found keeps what was asked for, is sailed
@@ -232,7 +232,7 @@ TEST(HullSearch, ThroughPostsItKeepsWhatItWasAskedFor) {
       continue;
     }
     ++tried;
-    const std::vector<Pose> way = search.find(field, start, goal, room, kMost);
+    const std::vector<Pose> way = search.find(field, start, goal, room, kMostSteps);
     if (way.empty()) {
       continue;
     }
