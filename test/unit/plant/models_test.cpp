@@ -6,6 +6,7 @@
 #include "otter_nav/plant/plant_model.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "plant/environment.hpp"
+#include "vessel_of.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -24,12 +25,6 @@ Surroundings stillWater(const PlantState& /*x*/) {
   return {};
 }
 
-vessel::Parameters vesselOf(const std::string& name) {
-  return vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/" + name +
-                                ".yaml")
-      .value();
-}
-
 std::unique_ptr<PlantModel> modelOf(const vessel::Parameters& vessel,
                                     const std::string& plant_model) {
   Options options;
@@ -40,7 +35,7 @@ std::unique_ptr<PlantModel> modelOf(const vessel::Parameters& vessel,
 
 class EveryModel : public testing::TestWithParam<Case> {
  protected:
-  vessel::Parameters vessel_ = vesselOf(GetParam().vessel);
+  vessel::Parameters vessel_ = test::vesselOf(GetParam().vessel);
   std::unique_ptr<PlantModel> model_ = modelOf(vessel_, GetParam().plant_model);
 };
 
@@ -136,7 +131,7 @@ TEST(PlanarModel, IsTheVesselsOwnModel) {
   for (const auto& [name, plant_model] :
        {std::pair("wam_v", "planar"), std::pair("otter", "planar"),
         std::pair("otter_gazebo", "planar"), std::pair("otter_gazebo", "otter_gazebo")}) {
-    vessel::Parameters vessel = vesselOf(name);
+    vessel::Parameters vessel = test::vesselOf(name);
     if (!vessel.manoeuvring.feelsWind()) {
       vessel.manoeuvring.wind_surge_kgpm = 0.4;
       vessel.manoeuvring.wind_sway_kgpm = 0.9;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "otter_nav/plant/plant_model.hpp"
+#include "vessel_of.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -15,15 +16,11 @@ std::string preset(const std::string& name) {
   return kConfig + "disturbances/" + name + ".yaml";
 }
 
-vessel::Parameters vesselOf(const std::string& name) {
-  return vessel::loadParameters(kConfig + "vessels/" + name + ".yaml").value();
-}
-
 TEST(PlantOptions, ShippedFilesLoad) {
   for (const char* vessel : {"otter", "otter_gazebo", "wam_v"}) {
     for (const char* name : {"none", "force10", "paper", "hard"}) {
       const Result<Options> options =
-          loadOptions(vesselOf(vessel), kConfig + "plant.yaml", preset(name));
+          loadOptions(test::vesselOf(vessel), kConfig + "plant.yaml", preset(name));
       ASSERT_TRUE(options) << options.error().message;
       EXPECT_EQ(options->vessel.name, vessel);
       EXPECT_EQ(options->disturbance.name, name);

@@ -16,7 +16,7 @@
 namespace otter_nav::plant {
 namespace {
 
-Options calm() {
+Options calmSea() {
   const std::string config = std::string(OTTER_NAV_SOURCE_DIR) + "/config/";
   return loadOptions(vessel::loadParameters(config + "vessels/otter_gazebo.yaml").value(),
                      config + "plant.yaml", config + "disturbances/none.yaml")
@@ -82,7 +82,7 @@ TEST(OtherVessels, AreMetByBeams) {
 }
 
 TEST(OtherVessels, AreSeenByTheLidarWhereTheyAre) {
-  Options options = calm();
+  Options options = calmSea();
   options.lidar.range_noise_m = 0.0;
   options.lidar.dropout_probability = 0.0;
   Simulator simulator(options, {}, 1);
@@ -98,7 +98,7 @@ TEST(OtherVessels, AreSeenByTheLidarWhereTheyAre) {
 }
 
 TEST(OtherVessels, TouchAndAreNamed) {
-  Simulator simulator(calm(), {}, 1);
+  Simulator simulator(calmSea(), {}, 1);
   simulator.setVessels({eastward(3, 40.0, 2.0), eastward(7, 1.3, 2.0)});
   simulator.placeAt({0.0, 0.0}, 0.0);
   // Bow at x = -100 + 2 t + 3, own stern at x = -1, the outlines overlap across (1.3 < 1 + 0.54).
@@ -115,7 +115,7 @@ TEST(OtherVessels, TouchAndAreNamed) {
 }
 
 TEST(Radar, SeesFarAndSometimesWrong) {
-  Options options = calm();
+  Options options = calmSea();
   options.radar.noise_m = 2.0;
   Simulator simulator(options, {}, 2);
   simulator.setVessels(
@@ -149,7 +149,7 @@ TEST(Radar, SeesFarAndSometimesWrong) {
 }
 
 TEST(Ais, IsSentAtClassBsRates) {
-  Simulator simulator(calm(), {}, 5);
+  Simulator simulator(calmSea(), {}, 5);
   vessel::ScriptedVessel silent = eastward(4, 80.0, 2.0);
   silent.ais = false;
   simulator.setVessels(
@@ -157,7 +157,7 @@ TEST(Ais, IsSentAtClassBsRates) {
   simulator.placeAt({0.0, 300.0}, 0.0);
   std::map<std::uint32_t, std::map<int, int>> count;
   ais::Decoder decoder;
-  const ais::LocalFrame frame(calm().datum);
+  const ais::LocalFrame frame(calmSea().datum);
   for (int k = 0; k < 14400; ++k) {
     simulator.advance(0.05);
     for (const std::string& sentence : simulator.takeAis()) {
@@ -189,8 +189,8 @@ TEST(Ais, IsSentAtClassBsRates) {
 
 // Without others nothing differs: same noise, same motion.
 TEST(OtherVessels, LeaveTheRestAsItIs) {
-  Simulator alone(calm(), {}, 9);
-  Simulator busy(calm(), {}, 9);
+  Simulator alone(calmSea(), {}, 9);
+  Simulator busy(calmSea(), {}, 9);
   busy.setVessels({eastward(1, 500.0, 2.0)});
   for (int k = 0; k < 50; ++k) {
     alone.step({20.0, 25.0}, 0.02);

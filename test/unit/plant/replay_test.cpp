@@ -14,7 +14,7 @@ Result<Recording> read(const std::string& text) {
   return readRecording(in, "run.csv");
 }
 
-void expectError(const std::string& text, const std::vector<std::string>& words) {
+void expectUnreadable(const std::string& text, const std::vector<std::string>& words) {
   const Result<Recording> recording = read(text);
   ASSERT_FALSE(recording) << text;
   for (const std::string& word : words) {
@@ -45,18 +45,18 @@ TEST(Recording, SurvivesARoundTrip) {
 }
 
 TEST(Recording, BadFilesAreNamedByLineAndColumn) {
-  expectError("", {"run.csv", "empty"});
-  expectError("t,n_left\n0,1\n1,1\n", {"line 1", "n_right"});
-  expectError("t,u,n_left,n_right\n0,1,1,1\n1,1,1,1\n", {"line 1", "'v'"});
-  expectError("t,n_left,n_right\n0,1,1\n", {"1 rows", "2"});
-  expectError("t,n_left,n_right\n0,1,1\n1,1\n", {"line 3", "2 fields", "3"});
-  expectError("t,n_left,n_right\n0,1,1\n1,fast,1\n", {"line 3", "n_left", "fast"});
-  expectError("t,n_left,n_right\n0,1,1\n1,1,nan\n", {"line 3", "n_right", "nan"});
-  expectError("t,n_left,n_right\n0,1,inf\n1,1,1\n", {"line 2", "n_right", "inf"});
-  expectError("t,n_left,n_right\n0,1,\n1,1,1\n", {"line 2", "n_right"});
-  expectError("t,n_left,n_right\n0,1,1\n1,1,1\n0.5,1,1\n", {"line 4", "'t'", "grow"});
-  expectError("t,n_left,n_right\n0,1,1\n0,1,1\n", {"line 3", "grow"});
-  expectError("t,n_left,n_right\n0,1,1\n1e9,1,1\n", {"line 3", "at most"});
+  expectUnreadable("", {"run.csv", "empty"});
+  expectUnreadable("t,n_left\n0,1\n1,1\n", {"line 1", "n_right"});
+  expectUnreadable("t,u,n_left,n_right\n0,1,1,1\n1,1,1,1\n", {"line 1", "'v'"});
+  expectUnreadable("t,n_left,n_right\n0,1,1\n", {"1 rows", "2"});
+  expectUnreadable("t,n_left,n_right\n0,1,1\n1,1\n", {"line 3", "2 fields", "3"});
+  expectUnreadable("t,n_left,n_right\n0,1,1\n1,fast,1\n", {"line 3", "n_left", "fast"});
+  expectUnreadable("t,n_left,n_right\n0,1,1\n1,1,nan\n", {"line 3", "n_right", "nan"});
+  expectUnreadable("t,n_left,n_right\n0,1,inf\n1,1,1\n", {"line 2", "n_right", "inf"});
+  expectUnreadable("t,n_left,n_right\n0,1,\n1,1,1\n", {"line 2", "n_right"});
+  expectUnreadable("t,n_left,n_right\n0,1,1\n1,1,1\n0.5,1,1\n", {"line 4", "'t'", "grow"});
+  expectUnreadable("t,n_left,n_right\n0,1,1\n0,1,1\n", {"line 3", "grow"});
+  expectUnreadable("t,n_left,n_right\n0,1,1\n1e9,1,1\n", {"line 3", "at most"});
   EXPECT_FALSE(readRecording("/no/such/file.csv"));
 }
 
