@@ -1,28 +1,14 @@
-otter_nav_test(unit_tracker_solver SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/solver_test.cpp
-               ROOMS tracker tracker_oracle)
-otter_nav_test(unit_tracker_box_qp SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/box_qp_test.cpp
-               ROOMS tracker)
-otter_nav_test(unit_tracker
-  SOURCES
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/bow_guard_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/handover_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/hull_room_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/navigator_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/options_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/orbital_motion_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/predictive_controller_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/reference_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/station_keeper_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/tracker_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/wave_frequency_test.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/wind_corridor_test.cpp
-  ROOMS tracker)
-otter_nav_test(unit_tracker_allocation
-               SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/allocation_test.cpp ROOMS tracker)
-otter_nav_test(unit_tracker_csv_path
-  SOURCES
-    ${CMAKE_CURRENT_LIST_DIR}/tracker/csv_path_test.cpp
-    ${PROJECT_SOURCE_DIR}/benchmark/tracking/csv_path.cpp
-  ROOMS base vessel)
-otter_nav_test(unit_tracker_estimator SOURCES ${CMAKE_CURRENT_LIST_DIR}/tracker/estimator_test.cpp
-               ROOMS tracker)
+set(tracker_tests ${CMAKE_CURRENT_LIST_DIR}/tracker)
+otter_nav_test(unit_tracker LONG TIMEOUT 600
+  SOURCES ${tracker_tests}/bow_guard_test.cpp ${tracker_tests}/box_qp_test.cpp
+          ${tracker_tests}/csv_path_test.cpp ${tracker_tests}/estimator_test.cpp
+          ${tracker_tests}/handover_test.cpp ${tracker_tests}/hull_room_test.cpp
+          ${tracker_tests}/navigator_test.cpp ${tracker_tests}/options_test.cpp
+          ${tracker_tests}/orbital_motion_test.cpp ${tracker_tests}/predictive_controller_test.cpp
+          ${tracker_tests}/reference_test.cpp ${tracker_tests}/solver_test.cpp
+          ${tracker_tests}/station_keeper_test.cpp ${tracker_tests}/tracker_test.cpp
+          ${tracker_tests}/wave_frequency_test.cpp ${tracker_tests}/wind_corridor_test.cpp
+          ${PROJECT_SOURCE_DIR}/benchmark/tracking/csv_path.cpp
+  ROOMS tracker tracker_oracle)
+# By itself, since it replaces operator new.
+otter_nav_test(unit_tracker_allocation SOURCES ${tracker_tests}/allocation_test.cpp ROOMS tracker)

@@ -8,7 +8,7 @@
 namespace otter_nav::tracker {
 namespace {
 
-constexpr double kStepS = 0.01;
+constexpr double kPitchStepS = 0.01;
 
 vessel::Thrusters thrusters() {
   vessel::Thrusters t;
@@ -22,8 +22,8 @@ BowGuard risen(double end_rad, double rate_radps, double begin_s = 0.0) {
   BowGuard guard;
   constexpr int kSteps = 200;
   for (int i = 0; i <= kSteps; ++i) {
-    const double left_s = kStepS * (kSteps - i);
-    guard.add(begin_s + kStepS * i, end_rad - rate_radps * left_s);
+    const double left_s = kPitchStepS * (kSteps - i);
+    guard.add(begin_s + kPitchStepS * i, end_rad - rate_radps * left_s);
   }
   return guard;
 }
@@ -73,7 +73,7 @@ TEST(BowGuard, StandsGapsStepsBackAndWhatIsNotANumber) {
   EXPECT_NEAR(guard.cut(kWanted, thrusters()).sum(), 100.0, 1e-6);
   guard.add(1.0, 0.45);
   EXPECT_NEAR(guard.cut(kWanted, thrusters()).sum(), 100.0, 1e-6);
-  guard.add(1.0 + kStepS, std::numeric_limits<double>::quiet_NaN());
+  guard.add(1.0 + kPitchStepS, std::numeric_limits<double>::quiet_NaN());
   EXPECT_TRUE(guard.cut(kWanted, thrusters()).allFinite());
 }
 
