@@ -92,13 +92,13 @@ TEST(ScanMemory, KnowsAgainWhatWasHiddenMeanwhile) {
   }
 }
 
-const Eigen::Vector2d kEye(0.1, 0.1);
+const Eigen::Vector2d kScannerAt(0.1, 0.1);
 const Eigen::Vector2d kThere(10.1, 0.1);
 
 // Something stands there for four seconds.
 void stand(ScanMemory& memory, double now_s) {
   for (int k = 0; k < 60; ++k) {
-    memory.begin(now_s + k / 15.0, kEye);
+    memory.begin(now_s + k / 15.0, kScannerAt);
     memory.met(kThere);
   }
 }
@@ -111,7 +111,7 @@ TEST(ScanMemory, TellsWhatStandsAfterAMonth) {
   stand(memory, now_s);
   for (const double end_s = now_s + kMonthS; now_s < end_s;) {
     now_s += 19.0;
-    memory.begin(now_s, kEye);
+    memory.begin(now_s, kScannerAt);
     memory.met(kThere);
     ASSERT_TRUE(memory.stands(kThere)) << now_s - 1.75e9;
   }
@@ -123,7 +123,7 @@ TEST(ScanMemory, ForgetsWhereTheClockIsSet) {
     stand(memory, 1.75e9);
     ASSERT_TRUE(memory.stands(kThere)) << by_s;
     const double now_s = 1.75e9 + 4.0 + by_s;
-    memory.begin(now_s, kEye);
+    memory.begin(now_s, kScannerAt);
     EXPECT_FALSE(memory.stands(kThere)) << by_s;
     memory.met(kThere);
     EXPECT_FALSE(memory.stands(kThere)) << by_s;
