@@ -8,13 +8,17 @@ otter_nav_room(tracker_oracle
   ROOMS tracker
   LIBRARIES PkgConfig::IPOPT)
 target_include_directories(otter_nav_tracker_oracle PUBLIC ${CMAKE_CURRENT_LIST_DIR})
+# The paths that trackers are compared on.
+otter_nav_room(tracking_paths
+  SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/tracking/csv_path.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/tracking/paths.cpp
+  ROOMS base vessel)
 otter_nav_program(tracking_benchmark
   SOURCES
     ${CMAKE_CURRENT_LIST_DIR}/tracking_benchmark.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracking/closed_loop.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracking/csv_path.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracking/paths.cpp
-  ROOMS tracker plant config)
+  ROOMS tracking_paths tracker plant config)
 otter_nav_program(nmpc_benchmark
   SOURCES
     ${CMAKE_CURRENT_LIST_DIR}/nmpc_benchmark.cpp
@@ -23,7 +27,5 @@ otter_nav_program(nmpc_benchmark
 otter_nav_program(tracking_limit
   SOURCES
     ${CMAKE_CURRENT_LIST_DIR}/tracking_limit.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracking/csv_path.cpp
     ${CMAKE_CURRENT_LIST_DIR}/tracking/foresight.cpp
-    ${CMAKE_CURRENT_LIST_DIR}/tracking/paths.cpp
-  ROOMS tracker plant config)
+  ROOMS tracking_paths tracker plant config)

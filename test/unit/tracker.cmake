@@ -8,7 +8,6 @@ otter_nav_test(unit_tracker LONG TIMEOUT 600
           ${tracker_tests}/reference_test.cpp ${tracker_tests}/solver_test.cpp
           ${tracker_tests}/station_keeper_test.cpp ${tracker_tests}/tracker_test.cpp
           ${tracker_tests}/wave_frequency_test.cpp ${tracker_tests}/wind_corridor_test.cpp
-          ${PROJECT_SOURCE_DIR}/benchmark/tracking/csv_path.cpp
-  ROOMS tracker tracker_oracle)
+  ROOMS tracker tracker_oracle tracking_paths)
 # By itself, since it replaces operator new.
 otter_nav_test(unit_tracker_allocation SOURCES ${tracker_tests}/allocation_test.cpp ROOMS tracker)
