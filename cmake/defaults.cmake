@@ -31,7 +31,7 @@ if(OTTER_NAV_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${OTTER_NAV_CCACHE})
 endif()
 
-add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wsuggest-override -Wzero-as-null-pointer-constant)
 if(OTTER_NAV_WERROR)
   add_compile_options(-Werror)
 endif()

@@ -22,12 +22,12 @@ if git grep -nE '^(<<<<<<<|>>>>>>>|\|\|\|\|\|\|\|)( |$)'; then exit 1; fi
 
 # A name taken over by `using a::b;` must be used: where sources are compiled together clang-tidy
 # can't tell whose use it was.
-/usr/bin/python3 - $(git ls-files '*.cpp') <<'PY'
+/usr/bin/python3 - $(git ls-files '*.?pp') <<'PY'
 import re, sys
 unused = []
 for name in sys.argv[1:]:
     text = re.sub(r"//.*", "", open(name).read())
-    for using in re.finditer(r"^using (?:\w+::)+(\w+);", text, re.M):
+    for using in re.finditer(r"^ *using (?:\w+::)+(\w+);", text, re.M):
         rest = text[:using.start()] + text[using.end():]
         if not re.search(r"(?<!::)\b%s\b" % using.group(1), rest):
             unused.append("%s: %s is unused" % (name, using.group(0)))
