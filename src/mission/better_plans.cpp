@@ -10,6 +10,8 @@
 
 namespace otter_nav::mission {
 
+using feasibility::kPreferredBesideM;
+
 bool BetterPlans::mayReplanForWeather(const Moment& m, const Sailed& sailed) const {
   constexpr double kAgainS = 10.0;
   return weather().isKnown() && (!sailed.plan.in_known_weather || m.now_s - planned_s_ >= kAgainS);
@@ -90,6 +92,18 @@ bool BetterPlans::passesNearInWideWater(const Moment& m, const Sailed& sailed,
   return std::min(field.clearance(sailed.at(starts_s).position), field.clearance(goal)) > wide_m &&
          WayAhead(m, plans_.safety, vessel_, sailed).leastRoom(sailed.path, starts_s) <
              wide_m - kMoreRoomM;
+}
+
+bool BetterPlans::passesNearInNarrowWater(const Moment& m, const Sailed& sailed) const {
+  constexpr double kAgainS = 1.0;
+  constexpr double kLeftS = 4.0;
+  if (sailed.plan.among_others || plans_.safety.plansWithWeather() ||
+      wasAsked(For::kBeside, m.now_s, kAgainS) || sailed.path.left(m.now_s) <= kLeftS) {
+    return false;
+  }
+  return WayAhead(m, plans_.safety, vessel_, sailed)
+             .leastBeside(sailed.path, m.now_s + plans_.latency.seconds(), kBesideAheadS,
+                          kPreferredBesideM) <= kPreferredBesideM - kMoreBesideM;
 }
 
 bool BetterPlans::endsOnAWrongHeading(const Moment& m, const Sailed& sailed,

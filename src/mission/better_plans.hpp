@@ -16,12 +16,15 @@ namespace otter_nav::mission {
 
 // So much more room is worth another plan, m.
 constexpr double kMoreRoomM = 0.2;
+// And so much beside the hull, in narrow water, on the next stretch.
+constexpr double kMoreBesideM = 0.1;
+constexpr double kBesideAheadS = 10.0;
 
 // What it is made of outlives it.
 class BetterPlans {
  public:
   // The last: one that begins with it.
-  enum class For { kThrust, kGusts, kWaves, kRoom, kWideWater, kStop };
+  enum class For { kThrust, kGusts, kWaves, kRoom, kWideWater, kBeside, kStop };
 
   BetterPlans(const SupervisorOptions& options, PlanRequests& plans,
               const vessel::Parameters& vessel)
@@ -43,6 +46,9 @@ class BetterPlans {
   // than a plan from here may.
   [[nodiscard]] bool passesNearInWideWater(const Moment& m, const Sailed& sailed,
                                            const Eigen::Vector2d& goal) const;
+  // Close beside the hull there will be something, which may have come into sight since the plan
+  // was made: that keeps well off what is known.
+  [[nodiscard]] bool passesNearInNarrowWater(const Moment& m, const Sailed& sailed) const;
   // It ends on a heading that can't be held there, or not on the goal's though it can. What the
   // weather will be later nobody knows.
   [[nodiscard]] bool endsOnAWrongHeading(const Moment& m, const Sailed& sailed,
@@ -85,7 +91,7 @@ class BetterPlans {
   const SupervisorOptions& options_;
   PlanRequests& plans_;
   const vessel::Parameters& vessel_;
-  double asked_s_[6] = {kNever, kNever, kNever, kNever, kNever, kNever};  // last, for what
+  double asked_s_[7] = {kNever, kNever, kNever, kNever, kNever, kNever, kNever};  // last, for what
   double planned_s_ = 0.0;
   bool asks_widest_ = true;  // next
 };

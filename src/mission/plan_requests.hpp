@@ -17,8 +17,9 @@ namespace otter_nav::mission {
 enum class From { kRest, kSailed, kVessel };
 
 // What a plan is asked for though the one being sailed is sound: to be there sooner, to leave the
-// waves what they take, more room for how the vessel wanders, or as much as wide water has.
-enum class Gain { kTime, kThrust, kRoom, kClearance };
+// waves what they take, more room for how the vessel wanders, as much as wide water has, or more
+// beside the hull in narrow water.
+enum class Gain { kTime, kThrust, kRoom, kClearance, kBeside };
 
 // A hull at rest that is off the load by less lies bow to it.
 constexpr double kIntoLoadRad = 0.35;

@@ -375,6 +375,9 @@ class Decider final : public Supervisor {
   bool passesNearInWideWater(const Moment& m) {
     return better_.passesNearInWideWater(m, sailed_, goal_.position);
   }
+  bool passesNearInNarrowWater(const Moment& m) {
+    return better_.passesNearInNarrowWater(m, sailed_);
+  }
   bool passesTooNear(const Moment& m) { return better_.passesTooNear(m, sailed_); }
   bool endsOnAWrongHeading(const Moment& m) {
     return better_.endsOnAWrongHeading(m, sailed_, goal_.psi_rad) &&
@@ -576,6 +579,11 @@ class Decider final : public Supervisor {
     safety().tryWidest();
     return improve(m, Gain::kClearance);
   }
+  Orders planInNarrowWater(const Moment& m) {
+    better_.asked(BetterPlans::For::kBeside, m.now_s);
+    safety().tryLevel(sailed_.plan.level, sailed_.plan.steps_wider);
+    return improve(m, Gain::kBeside);
+  }
   // A stop first, and from there a plan as from rest, if that is sooner at the goal.
   Orders planByStopping(const Moment& m) {
     better_.asked(BetterPlans::For::kStop, m.now_s);
@@ -602,7 +610,7 @@ class Decider final : public Supervisor {
   }
   Orders improve(const Moment& m, Gain gain = Gain::kTime) {
     // More room is no reason for the weather to wait.
-    if (gain != Gain::kRoom && gain != Gain::kClearance) {
+    if (gain != Gain::kRoom && gain != Gain::kClearance && gain != Gain::kBeside) {
       better_.planned(m.now_s);
     }
     Orders orders = planFromSailed(m);
@@ -932,6 +940,7 @@ class Decider final : public Supervisor {
       {kSailing, &Decider::isTooFastForWaves, &Decider::planSlower},
       {kSailing, &Decider::passesTooNear, &Decider::planWider},
       {kSailing, &Decider::passesNearInWideWater, &Decider::planInWideWater},
+      {kSailing, &Decider::passesNearInNarrowWater, &Decider::planInNarrowWater},
       {kSailing, &Decider::isNeedlesslySlow, &Decider::planFaster},
       {kSailing, &Decider::goesFarRound, &Decider::planByStopping},
       {kSailing, &Decider::mayImprove, &Decider::planToImprove},
@@ -1235,8 +1244,8 @@ class Decider final : public Supervisor {
     return true;
   }
   [[nodiscard]] bool isForNarrowWater(const PlanRequests::Asked& asked) const {
-    constexpr double kNarrowM = 0.3;  // beside the hull
-    return asked.request.query.limits.clearance_m < centreClearance(vessel_.hull, kNarrowM);
+    return asked.request.query.limits.clearance_m <
+           centreClearance(vessel_.hull, feasibility::kPreferredBesideM);
   }
   // Not for ever: there are trackers that never tell.
   [[nodiscard]] bool mayLearnTheWaves(const Moment& m) const {
@@ -1295,9 +1304,18 @@ class Decider final : public Supervisor {
              wayAhead(m).leastRoom(next, starts) >=
                  wayAhead(m).leastRoom(sailed_.path, starts) + kMoreRoomM;
     };
+    const auto keeps_off = [&] {
+      const WayAhead ahead = wayAhead(m);
+      constexpr double kMostM = feasibility::kPreferredBesideM;
+      const double before_m = ahead.leastBeside(sailed_.path, starts, kBesideAheadS, kMostM);
+      return next.left(m.now_s) <= sailed_.path.left(m.now_s) + kLongerS && !lacks_thrust() &&
+             ahead.leastBeside(next, starts, kBesideAheadS, kMostM) >=
+                 std::min(before_m + kMoreBesideM, kMostM) - 1e-6;
+    };
     const bool is_better = saves_time || asked.gain == Gain::kThrust ||
                            (asked.gain == Gain::kRoom && has_room()) ||
-                           (asked.gain == Gain::kClearance && uses_wide_water());
+                           (asked.gain == Gain::kClearance && uses_wide_water()) ||
+                           (asked.gain == Gain::kBeside && keeps_off());
     if (asked.gain && !leads_on && (asked.left_m > sailed_.plan.left_m || !is_better)) {
       return {};
     }

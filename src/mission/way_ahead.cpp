@@ -85,6 +85,21 @@ double WayAhead::leastRoom(const TimedTrajectory& path, double from_s) const {
                                   Obstacles(moment_.obstacles.field()));
 }
 
+double WayAhead::leastBeside(const TimedTrajectory& path, double from_s, double ahead_s,
+                             double most_m) const {
+  constexpr double kStepM = 0.05;
+  const double from = path.elapsed(from_s);
+  const double to = std::min(path.trajectory.duration(), from + ahead_s);
+  double beside_m = most_m;
+  while (beside_m > 0.5 * kStepM &&
+         stopping::outlineConflict(path.trajectory, from, to, Obstacles(moment_.obstacles.field()),
+                                   vessel_, beside_m, true, safety_.weather().mean())
+             .found) {
+    beside_m -= kStepM;
+  }
+  return std::max(0.0, beside_m);
+}
+
 Conflict WayAhead::ofHull(double until_s, double margin_m) const {
   return stopping::outlineConflict(sailed_.path.trajectory, sailed_.path.elapsed(moment_.now_s),
                                    until_s, sailed_.obstacles(moment_), vessel_, margin_m, true,

@@ -41,6 +41,9 @@ class WayAhead {
 
   // Of the hull's centre beside what lies still, m, on a path from then on.
   [[nodiscard]] double leastRoom(const trajectory::TimedTrajectory& path, double from_s) const;
+  // Of the hull's outline, in steps of 0.05 m up to `most_m`, for so long.
+  [[nodiscard]] double leastBeside(const trajectory::TimedTrajectory& path, double from_s,
+                                   double ahead_s, double most_m) const;
 
  private:
   [[nodiscard]] stopping::Conflict ofHull(double until_s, double margin_m) const;

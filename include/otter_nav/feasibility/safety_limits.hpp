@@ -26,6 +26,10 @@ struct SlowingDown {
   }
 };
 
+// In narrow water plans prefer as much beside the hull, m: what waves set it aside by is made good
+// in seconds.
+constexpr double kPreferredBesideM = 0.3;
+
 // Until they are made from a vessel they allow nothing to move.
 struct SafetyLimits {
   // Of the hull's centre from everything occupied, m. The discs that cover the hull keep

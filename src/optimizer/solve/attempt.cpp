@@ -18,11 +18,9 @@ constexpr double kPieceLengthM = 17.0;
 // Bow to a firm load the vessel gets under way slowly, turning with the path; fewer pieces follow.
 constexpr double kPieceLengthInLoadM = 24.0;
 constexpr double kSlowestInLoadMps = 0.3;
-constexpr double kWeightClearance = 20.0;  // of squared metres too near
-constexpr double kWeightRoom = 0.1;        // the same, nearer than is preferred
-constexpr double kWeightHullRoom = 10.0;   // the same, of the hull's ends
-// Preferred beside the hull: what waves set it aside by is made good in seconds.
-constexpr double kBesideM = 0.3;
+constexpr double kWeightClearance = 20.0;   // of squared metres too near
+constexpr double kWeightRoom = 0.1;         // the same, nearer than is preferred
+constexpr double kWeightHullRoom = 10.0;    // the same, of the hull's ends
 constexpr double kWeightDynamics = 5.0;     // of squared shares of a thruster too much
 constexpr double kArrivalSpeedShare = 0.6;  // of the speed wanted, when the brake begins
 constexpr double kGentleBrakeS = 2.0;
@@ -62,9 +60,11 @@ SplineLimits limitsOf(const Care& care, const vessel::Parameters& vessel,
   limits.hull_clearance_m = hull.radius_m + kHullMarginM + kSquareCells * cell_m;
   // Where some is asked for, on the narrow levels.
   const bool narrow =
-      safety.hull_margin_m > 0.0 && safety.clearance_m < 0.5 * safety.hull.beam_m + kBesideM;
-  if (narrow && safety.hull_margin_m < kBesideM && !care.careful) {
-    limits.hull_room_m = limits.hull_clearance_m + kBesideM - safety.hull_margin_m;
+      safety.hull_margin_m > 0.0 &&
+      safety.clearance_m < 0.5 * safety.hull.beam_m + feasibility::kPreferredBesideM;
+  if (narrow && safety.hull_margin_m < feasibility::kPreferredBesideM && !care.careful) {
+    limits.hull_room_m =
+        limits.hull_clearance_m + feasibility::kPreferredBesideM - safety.hull_margin_m;
   }
   const feasibility::HullCover leaning(
       safety.hull, std::min(feasibility::kLeaningMarginM, safety.hull_margin_m));

@@ -590,6 +590,64 @@ TEST(Supervisor, KeepsOffWhatLiesInWideWaterOnceTheNarrowPlaceIsBehind) {
   EXPECT_FALSE(asksAgain());
 }
 
+// What comes into sight close beside a narrow plan is kept off where there is room to, at little
+// cost.
+TEST(Supervisor, KeepsOffWhatComesIntoSightBesideANarrowPlan) {
+  for (const bool comes_close : {false, true}) {
+    ScriptedMission m;
+    const double y_m = comes_close ? 0.15 : 0.0;
+    m.rest.y() = y_m;
+    map::OccupancyGrid seen = m.grid;
+    test::block(seen, {7.0, -10.0}, {17.0, 10.0});
+    m.known.emplace(test::fieldOf(seen));
+    std::optional<PlanRequest> asked = m.goTo({20.0, y_m})->plan;
+    for (std::size_t k = 1; k < m.options.side_clearances_m.size() && asked; ++k) {
+      (void)m.refuse(*asked, "none");
+      asked = m.update(0.1).plan;
+    }
+    ASSERT_TRUE(asked);
+    const double clearance_m = asked->query.limits.clearance_m;
+    ASSERT_TRUE(m.answer(*asked, test::eastward({0.0, y_m}, 20.0, 0.7)).sail);
+    (void)m.update(1.0);
+    m.put({4.0, 0.75}, {4.5, 2.0});
+    const auto asksAgain = [&]() -> std::optional<PlanRequest> {
+      for (int k = 0; k < 15; ++k) {
+        if (std::optional<PlanRequest> another = m.update(0.1).plan) {
+          return another;
+        }
+      }
+      return std::nullopt;
+    };
+    asked = asksAgain();
+    ASSERT_EQ(asked.has_value(), comes_close);
+    if (!comes_close) {
+      continue;
+    }
+    EXPECT_NEAR(asked->query.limits.clearance_m, clearance_m, 1e-9);
+    EXPECT_FALSE(m.answer(*asked, asked->query.warm_start).sail);
+    vessel::FlatPoint aside;
+    aside.position = {4.25, -0.3};
+    aside.velocity = {0.7, 0.0};
+    vessel::FlatPoint end;
+    end.position = {20.0, y_m};
+    for (const double longer_s : {6.0, 0.0}) {
+      asked = asksAgain();
+      ASSERT_TRUE(asked);
+      const vessel::FlatPoint start = asked->query.start.flat;
+      const double way_s = (aside.position.x() - start.position.x()) / 0.7;
+      const double then_s = (end.position.x() - aside.position.x()) / 0.7 + 2.0;
+      EXPECT_EQ(m.answer(*asked, trajectory::Trajectory(
+                                     {trajectory::hermitePiece(start, aside, way_s),
+                                      trajectory::hermitePiece(aside, end, then_s + longer_s)}))
+                    .sail.has_value(),
+                longer_s == 0.0);
+    }
+    EXPECT_EQ(m.supervisor->phase(), Phase::kSailing);
+    EXPECT_EQ(m.supervisor->replans().for_weather, 0);
+    EXPECT_FALSE(asksAgain());
+  }
+}
+
 // A plan that was made slow because nobody had seen the water is not sailed slowly for all the way:
 // once it is known, a faster one is asked for, and taken, once.
 TEST(Supervisor, WhatWasPlannedSlowInUnknownWaterIsPlannedAnewOnceItIsKnown) {
