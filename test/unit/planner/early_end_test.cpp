@@ -6,11 +6,11 @@
 #include <string>
 
 #include "../feasibility/moving_disc.hpp"
+#include "../vessel_of.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/planner/planner.hpp"
 #include "otter_nav/topology/guide_path.hpp"
 #include "planner_ground.hpp"
-#include "vessel_of.hpp"
 
 namespace otter_nav::planner {
 namespace {
@@ -64,7 +64,7 @@ class EarlyEndTest : public ::testing::TestWithParam<const char*> {};
 
 // A guide path leads to the goal, not to where a part of the way ends.
 TEST_P(EarlyEndTest, APartOfTheWayIsFoundAlongAGivenGuidePathToo) {
-  const vessel::Parameters vessel = test::vesselOf(GetParam());
+  const vessel::Parameters vessel = vessel::test::vesselOf(GetParam());
   const map::DistanceField field = betweenWalls();
   Query query = northEast(vessel);
   feasibility::Obstacles obstacles(field);
@@ -87,7 +87,7 @@ TEST_P(EarlyEndTest, APartOfTheWayIsFoundAlongAGivenGuidePathToo) {
 
 TEST_P(EarlyEndTest, WhatLedToNowhereCountsBesideAGivenGuidePath) {
   constexpr double kKeptM = 0.4;
-  const vessel::Parameters vessel = test::vesselOf(GetParam());
+  const vessel::Parameters vessel = vessel::test::vesselOf(GetParam());
   const map::DistanceField field = betweenWalls();
   Query query = northEast(vessel);
   query.guide_path = guideOf(field, query);
@@ -103,7 +103,7 @@ TEST_P(EarlyEndTest, WhatLedToNowhereCountsBesideAGivenGuidePath) {
 
 // The farthest place in reach may be the last one of the guide path, just short of the goal.
 TEST_P(EarlyEndTest, SomethingIsLeftUnlessThePlanLeadsToTheGoal) {
-  const vessel::Parameters vessel = test::vesselOf(GetParam());
+  const vessel::Parameters vessel = vessel::test::vesselOf(GetParam());
   const map::DistanceField field = test::openWater();
   Query query;
   query.limits = feasibility::SafetyLimits::of(vessel);
@@ -122,7 +122,7 @@ TEST_P(EarlyEndTest, SomethingIsLeftUnlessThePlanLeadsToTheGoal) {
 }
 
 TEST_P(EarlyEndTest, LimitsThatAllowNoMotionAreRefused) {
-  const vessel::Parameters vessel = test::vesselOf(GetParam());
+  const vessel::Parameters vessel = vessel::test::vesselOf(GetParam());
   const map::DistanceField field = test::openWater();
   Planner planner(Options{}, vessel);
   for (const double way_m : {0.2, 20.0}) {

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "../feasibility/moving_disc.hpp"
+#include "../vessel_of.hpp"
 #include "otter_nav/feasibility/verifier.hpp"
 #include "otter_nav/optimizer/global_optimizer.hpp"
 #include "otter_nav/planner/planner.hpp"
 #include "otter_nav/trajectory/motion_along.hpp"
 #include "planner_ground.hpp"
-#include "vessel_of.hpp"
 
 namespace otter_nav::planner {
 namespace {
@@ -29,7 +29,7 @@ class WorkTest : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(WorkTest, AQueryUnderWayThatFailsIsBounded) {
   constexpr int kMost = 6000;  // with what one step and one verification may be over
-  const vessel::Parameters vessel = test::vesselOf(GetParam());
+  const vessel::Parameters vessel = vessel::test::vesselOf(GetParam());
   Planner planner(Options{}, vessel);
   int failed = 0;
   for (const double ahead_m : {2.0, 2.5, 3.0, 3.5, 4.0, 5.0}) {
@@ -52,7 +52,7 @@ TEST_P(WorkTest, AQueryUnderWayThatFailsIsBounded) {
 
 // A way that turns back at full speed with a wall beside asks for many times the thrust there is.
 TEST(WorkTest, WhatIsHopelessUnderWayIsGivenUp) {
-  const vessel::Parameters vessel = test::vesselOf("otter_gazebo");
+  const vessel::Parameters vessel = vessel::test::vesselOf("otter_gazebo");
   const map::DistanceField field = test::withObstacle(-17.0, -12.0, 2.0, 24.0);
   const feasibility::Obstacles obstacles(field);
   const Query query = towardsAWall(vessel);
@@ -68,7 +68,7 @@ TEST(WorkTest, WhatIsHopelessUnderWayIsGivenUp) {
 // The motion along a plan, which whoever asks for its verification may have already, is the one
 // that is judged.
 TEST(WorkTest, AVerificationTakesTheMotionItIsGiven) {
-  const vessel::Parameters vessel = test::vesselOf("otter");
+  const vessel::Parameters vessel = vessel::test::vesselOf("otter");
   const map::DistanceField field = test::openWater();
   const feasibility::Obstacles obstacles(field);
   Query query;

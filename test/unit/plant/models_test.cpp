@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "../vessel_of.hpp"
 #include "otter_nav/plant/plant_model.hpp"
 #include "otter_nav/vessel/model.hpp"
 #include "plant/environment.hpp"
-#include "vessel_of.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -35,7 +35,7 @@ std::unique_ptr<PlantModel> modelOf(const vessel::Parameters& vessel,
 
 class EveryModel : public testing::TestWithParam<Case> {
  protected:
-  vessel::Parameters vessel_ = test::vesselOf(GetParam().vessel);
+  vessel::Parameters vessel_ = vessel::test::vesselOf(GetParam().vessel);
   std::unique_ptr<PlantModel> model_ = modelOf(vessel_, GetParam().plant_model);
 };
 
@@ -131,7 +131,7 @@ TEST(PlanarModel, IsTheVesselsOwnModel) {
   for (const auto& [name, plant_model] :
        {std::pair("wam_v", "planar"), std::pair("otter", "planar"),
         std::pair("otter_gazebo", "planar"), std::pair("otter_gazebo", "otter_gazebo")}) {
-    vessel::Parameters vessel = test::vesselOf(name);
+    vessel::Parameters vessel = vessel::test::vesselOf(name);
     if (!vessel.manoeuvring.feelsWind()) {
       vessel.manoeuvring.wind_surge_kgpm = 0.4;
       vessel.manoeuvring.wind_sway_kgpm = 0.9;

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "../vessel_of.hpp"
 #include "otter_nav/plant/plant_model.hpp"
-#include "vessel_of.hpp"
 
 namespace otter_nav::plant {
 namespace {
@@ -20,7 +20,7 @@ TEST(PlantOptions, ShippedFilesLoad) {
   for (const char* vessel : {"otter", "otter_gazebo", "wam_v"}) {
     for (const char* name : {"none", "force10", "paper", "hard"}) {
       const Result<Options> options =
-          loadOptions(test::vesselOf(vessel), kConfig + "plant.yaml", preset(name));
+          loadOptions(vessel::test::vesselOf(vessel), kConfig + "plant.yaml", preset(name));
       ASSERT_TRUE(options) << options.error().message;
       EXPECT_EQ(options->vessel.name, vessel);
       EXPECT_EQ(options->disturbance.name, name);
