@@ -10,8 +10,6 @@
 
 namespace otter_nav::mission {
 
-using feasibility::kPreferredBesideM;
-
 bool BetterPlans::mayReplanForWeather(const Moment& m, const Sailed& sailed) const {
   constexpr double kAgainS = 10.0;
   return weather().isKnown() && (!sailed.plan.in_known_weather || m.now_s - planned_s_ >= kAgainS);
@@ -101,9 +99,9 @@ bool BetterPlans::passesNearInNarrowWater(const Moment& m, const Sailed& sailed)
       wasAsked(For::kBeside, m.now_s, kAgainS) || sailed.path.left(m.now_s) <= kLeftS) {
     return false;
   }
-  return WayAhead(m, plans_.safety, vessel_, sailed)
-             .leastBeside(sailed.path, m.now_s + plans_.latency.seconds(), kBesideAheadS,
-                          kPreferredBesideM) <= kPreferredBesideM - kMoreBesideM;
+  return !WayAhead(m, plans_.safety, vessel_, sailed)
+              .keepsBeside(sailed.path, m.now_s + plans_.latency.seconds(), kBesideAheadS,
+                           feasibility::kPreferredBesideM - kMoreBesideM);
 }
 
 bool BetterPlans::endsOnAWrongHeading(const Moment& m, const Sailed& sailed,

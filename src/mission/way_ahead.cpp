@@ -85,16 +85,20 @@ double WayAhead::leastRoom(const TimedTrajectory& path, double from_s) const {
                                   Obstacles(moment_.obstacles.field()));
 }
 
+bool WayAhead::keepsBeside(const TimedTrajectory& path, double from_s, double ahead_s,
+                           double beside_m) const {
+  const double from = path.elapsed(from_s);
+  const double to = std::min(path.trajectory.duration(), from + ahead_s);
+  return !stopping::outlineConflict(path.trajectory, from, to, Obstacles(moment_.obstacles.field()),
+                                    vessel_, beside_m, true, safety_.weather().mean())
+              .found;
+}
+
 double WayAhead::leastBeside(const TimedTrajectory& path, double from_s, double ahead_s,
                              double most_m) const {
   constexpr double kStepM = 0.05;
-  const double from = path.elapsed(from_s);
-  const double to = std::min(path.trajectory.duration(), from + ahead_s);
   double beside_m = most_m;
-  while (beside_m > 0.5 * kStepM &&
-         stopping::outlineConflict(path.trajectory, from, to, Obstacles(moment_.obstacles.field()),
-                                   vessel_, beside_m, true, safety_.weather().mean())
-             .found) {
+  while (beside_m > 0.5 * kStepM && !keepsBeside(path, from_s, ahead_s, beside_m)) {
     beside_m -= kStepM;
   }
   return std::max(0.0, beside_m);

@@ -41,7 +41,10 @@ class WayAhead {
 
   // Of the hull's centre beside what lies still, m, on a path from then on.
   [[nodiscard]] double leastRoom(const trajectory::TimedTrajectory& path, double from_s) const;
-  // Of the hull's outline, in steps of 0.05 m up to `most_m`, for so long.
+  // Whether a path keeps so much beside the hull's outline, off what lies still, for so long.
+  [[nodiscard]] bool keepsBeside(const trajectory::TimedTrajectory& path, double from_s,
+                                 double ahead_s, double beside_m) const;
+  // How much it keeps, in steps of 0.05 m up to `most_m`.
   [[nodiscard]] double leastBeside(const trajectory::TimedTrajectory& path, double from_s,
                                    double ahead_s, double most_m) const;
 

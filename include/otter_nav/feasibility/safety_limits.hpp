@@ -26,8 +26,7 @@ struct SlowingDown {
   }
 };
 
-// In narrow water plans prefer as much beside the hull, m: what waves set it aside by is made good
-// in seconds.
+// Preferred beside the hull in narrow water, m: what waves set it aside by is made good in seconds.
 constexpr double kPreferredBesideM = 0.3;
 
 // Until they are made from a vessel they allow nothing to move.
