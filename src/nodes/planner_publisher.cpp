@@ -35,8 +35,8 @@ PlannerPublisher::PlannerPublisher(ros::NodeHandle& node, vessel::Parameters ves
       path_(node.advertise<nav_msgs::Path>("path", kKept, true)),
       status_publisher_(node.advertise<PlannerStatus>("planner_status", kKept)),
       trajectory_markers_(
-          node.advertise<visualization_msgs::MarkerArray>("trajectory_markers", 1, true)),
-      tree_markers_(node.advertise<visualization_msgs::MarkerArray>("tree_markers", 1, true)) {
+          node.advertise<visualization_msgs::MarkerArray>("trajectory_markers", kKept, true)),
+      tree_markers_(node.advertise<visualization_msgs::MarkerArray>("tree_markers", kKept, true)) {
   status_.header.frame_id = frames().map;
 }
 

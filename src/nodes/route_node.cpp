@@ -34,6 +34,7 @@ using visualization_msgs::InteractiveMarkerFeedback;
 using visualization_msgs::Marker;
 
 constexpr char kMarker[] = "goal";
+constexpr int kQueue = 10;
 constexpr char kAllReached[] = "all goals reached";
 constexpr double kMarkerAheadM = 10.0;  // of the vessel, where the marker is first shown
 
@@ -131,8 +132,9 @@ class RouteNode {
 };
 
 RouteNode::RouteNode()
-    : route_publisher_(node_.advertise<Route>("route", 1, true)),
-      marker_publisher_(node_.advertise<visualization_msgs::MarkerArray>("route_markers", 1, true)),
+    : route_publisher_(node_.advertise<Route>("route", kQueue, true)),
+      marker_publisher_(
+          node_.advertise<visualization_msgs::MarkerArray>("route_markers", kQueue, true)),
       client_(node_, "move_base", false),
       marker_server_("goal_marker") {
   menu_.insert("Sail there", [this](const auto& feedback) {

@@ -91,7 +91,7 @@ TopologyNode::TopologyNode(const map::DistanceFieldOptions& field, const topolog
     : diagnostics_(node_, private_node_, "topology"), map_(field), finder_(options) {
   path_publisher_ = node_.advertise<GuidePath>("guide_path", kQueue, true);
   marker_publisher_ =
-      node_.advertise<visualization_msgs::MarkerArray>("guide_path_markers", 1, true);
+      node_.advertise<visualization_msgs::MarkerArray>("guide_path_markers", kQueue, true);
   diagnostics_.setState(Level::kWarning, "waiting for the map");
   map_subscriber_ = node_.subscribe("map", 1, &TopologyNode::onMap, this);
   update_subscriber_ = node_.subscribe("map_updates", kQueue, &TopologyNode::onUpdate, this,

@@ -119,7 +119,7 @@ TrafficNode::TrafficNode(const traffic::Options& options, const vessel::Hull& hu
       scan_subscriber_(node_, "scan", kQueue, ros::TransportHints().tcpNoDelay()),
       scan_filter_(scan_subscriber_, transforms_, frames().map, kQueue, node_),
       tracks_publisher_(node_.advertise<Tracks>("tracks", kQueue)),
-      markers_publisher_(node_.advertise<visualization_msgs::MarkerArray>("track_markers", 1)),
+      markers_publisher_(node_.advertise<visualization_msgs::MarkerArray>("track_markers", kQueue)),
       still_publisher_(node_.advertise<sensor_msgs::LaserScan>("scan_still", kQueue)),
       ghosts_publisher_(node_.advertise<geometry_msgs::PoseArray>("ghosts", kQueue)),
       lying_publisher_(node_.advertise<geometry_msgs::PoseArray>("lying", kQueue)) {
