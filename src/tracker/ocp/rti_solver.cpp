@@ -118,8 +118,6 @@ bool RtiSolver::finite() const {
 
 void RtiSolver::accept() {
   const int n = qp_.stages();
-  const vessel::Thrusts range = problem_.options().upper_n - problem_.options().lower_n;
-  last_step_ = 0.0;
   double turn = 0.0;
   for (int k = 0; k <= n; ++k) {
     turn = std::max(turn, std::abs(qp_.dx[k][vessel::kPsi]));
@@ -131,7 +129,6 @@ void RtiSolver::accept() {
   }
   for (int k = 0; k < n; ++k) {
     const Eigen::Map<const vessel::Thrusts> du(qp_.du[k]);
-    last_step_ = std::max(last_step_, (du.cwiseAbs().cwiseQuotient(range)).maxCoeff());
     plan_.thrusts[k] = problem_.clampToBounds(k, plan_.thrusts[k] + share * du);
   }
 }

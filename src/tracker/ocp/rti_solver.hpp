@@ -58,8 +58,6 @@ class RtiSolver {
   }
   // Recursions over the horizon beyond the first, in the last feedback.
   [[nodiscard]] int iterations() const { return iterations_; }
-  // Largest change of the plan in the last feedback, relative to the thrusts' range.
-  [[nodiscard]] double lastStep() const { return last_step_; }
 
  private:
   SolverStatus solve();
@@ -74,7 +72,6 @@ class RtiSolver {
   std::vector<std::unique_ptr<qp::Strategy>> strategies_;  // the first that doesn't give up counts
   SolverStatus prepared_ = SolverStatus::kNotFinite;
   int iterations_ = 0;
-  double last_step_ = 0.0;
 };
 
 }  // namespace otter_nav::tracker

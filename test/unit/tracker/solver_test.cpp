@@ -14,7 +14,22 @@ namespace {
 using test::circle;
 using test::Problem;
 
-// Iterates the real-time scheme on one problem until the plan rests.
+// One iteration of the real-time scheme: how far its whole step would have moved the thrusts,
+// relative to their range.
+double iterate(RtiSolver& solver, const Problem& p) {
+  const auto before = solver.thrusts();
+  EXPECT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
+  EXPECT_EQ(solver.feedback(p.measured), SolverStatus::kSolved);
+  const vessel::Thrusts range = p.options.upper_n - p.options.lower_n;
+  double moved = 0.0;
+  for (int k = 0; k < p.options.stages; ++k) {
+    moved = std::max(moved,
+                     (solver.thrusts()[k] - before[k]).cwiseAbs().cwiseQuotient(range).maxCoeff());
+  }
+  return moved / p.rti.step_share;
+}
+
+// Iterates on one problem until the plan rests.
 std::unique_ptr<RtiSolver> converge(const Problem& p, int& bounds_met) {
   auto solver =
       std::make_unique<RtiSolver>(p.options, p.rti, p.vessel.manoeuvring, p.vessel.thrusters);
@@ -22,9 +37,7 @@ std::unique_ptr<RtiSolver> converge(const Problem& p, int& bounds_met) {
   solver->setWater(p.water);
   solver->initialize(*p.reference);
   for (int i = 0; i < 200; ++i) {
-    EXPECT_EQ(solver->prepare(*p.reference), SolverStatus::kSolved);
-    EXPECT_EQ(solver->feedback(p.measured), SolverStatus::kSolved);
-    if (solver->lastStep() < 1e-10) {
+    if (iterate(*solver, p) < 1e-10) {
       break;
     }
   }
@@ -90,13 +103,13 @@ TEST(RtiSolver, HalfStepsSettleWhereWholeOnesSwing) {
     p.reference->states[k] << 20.0 * std::cos(angle), 20.0 * std::sin(angle), 1.5707963 + angle,
         3.0, 0.0, 0.15;
   }
-  const auto lastStep = [&](double share) {
+  const auto stepInTheEnd = [&](double share) {
     p.rti.step_share = share;
     int bounds_met = 0;
-    return converge(p, bounds_met)->lastStep();
+    return iterate(*converge(p, bounds_met), p);
   };
-  EXPECT_GT(lastStep(1.0), 0.1);
-  EXPECT_LT(lastStep(0.5), 1e-9);
+  EXPECT_GT(stepInTheEnd(1.0), 0.1);
+  EXPECT_LT(stepInTheEnd(0.5), 1e-9);
 }
 
 // Bow to a wind whose load abeam goes with the square of what comes from there, no turn seems to
@@ -179,11 +192,11 @@ TEST(RtiSolver, KeepsWhatTheThrustRateCanReach) {
   solver.limitRates(acting, kRate);
   solver.initialize(*p.reference);
   int met = 0;
+  double step = 0.0;
   for (int i = 0; i < 60; ++i) {
-    ASSERT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
-    ASSERT_EQ(solver.feedback(p.measured), SolverStatus::kSolved);
+    step = iterate(solver, p);
   }
-  EXPECT_LT(solver.lastStep(), 1e-9);
+  EXPECT_LT(step, 1e-9);
   for (int k = 0; k < p.options.stages; ++k) {
     const double reach = (k + 0.5) * p.options.step_s * kRate;
     for (int i = 0; i < 2; ++i) {
@@ -230,11 +243,11 @@ TEST(RtiSolver, WavesAreInItsSlopes) {
   solver.setDisturbance(p.disturbance);
   solver.setWater(p.water);
   solver.initialize(*p.reference);
+  double step = 0.0;
   for (int i = 0; i < 12; ++i) {
-    ASSERT_EQ(solver.prepare(*p.reference), SolverStatus::kSolved);
-    ASSERT_EQ(solver.feedback(p.measured), SolverStatus::kSolved);
+    step = iterate(solver, p);
   }
-  EXPECT_LT(solver.lastStep(), 1e-6);
+  EXPECT_LT(step, 1e-6);
 }
 
 // Each of the three ways to an active set comes to the same plan.
