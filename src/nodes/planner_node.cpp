@@ -621,7 +621,9 @@ mission::Situation PlannerNode::situation() const {
   situation.odometry_stamp_s = vessel_.stamp_s;
   situation.scanned_s = scanned_s_;
   const trajectory::TimedTrajectory& sailed = supervisor_->sailed();
-  if (!sailed.trajectory.empty() && vessel_.stamp_s >= sailed.start_time_s) {
+  if (const std::optional<double> off_m = tracker_.trackingError(vessel_.stamp_s)) {
+    situation.tracking_error_m = *off_m;
+  } else if (!sailed.trajectory.empty() && vessel_.stamp_s >= sailed.start_time_s) {
     const vessel::FlatPoint reference = sailed.trajectory.flat(sailed.elapsed(vessel_.stamp_s));
     situation.tracking_error_m = (reference.position - vessel_.state.head<2>()).norm();
   }

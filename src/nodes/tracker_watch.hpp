@@ -1,13 +1,15 @@
 // What the planner needs to know of the tracker: which trajectory and near obstacles it has,
-// whether it gave up, and the force it feels. Which trajectory it has counts at once. The rest
-// counts by the statuses' stamps, up to a time the caller names: in lockstep no decision may depend
-// on which message was quicker.
+// whether it gave up, how far off its way it is, and the force it feels. Which trajectory it has
+// counts at once. The rest counts by the statuses' stamps, up to a time the caller names: in
+// lockstep no decision may depend on which message was quicker.
 #pragma once
 
 #include <otter_nav/TrackerStatus.h>
 
+#include <cmath>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -73,6 +75,12 @@ class TrackerWatch {
   }
   // The wind, current and force it estimates; the last that were finite.
   [[nodiscard]] const vessel::DisturbanceEstimate& estimate() const { return estimate_; }
+  // How far the vessel is off where the tracker wants it now on what is to be sailed, m: perhaps
+  // later on that way, or on a curve to it. Nothing if no status of late tells.
+  [[nodiscard]] std::optional<double> trackingError(double now_s) const {
+    const bool counts = off_id_ == sailing_id_ && std::abs(now_s - off_stamp_s_) < kOffForS;
+    return counts ? off_m_ : std::nullopt;
+  }
   // Where it expects the vessel, by the last status that told it.
   [[nodiscard]] const vessel::Foreseen& foreseen() const { return foreseen_; }
 
@@ -83,6 +91,14 @@ class TrackerWatch {
                          status.state == TrackerStatus::STOPPED;
     faults_ = gave_up && status.trajectory_id == sailing_id_ ? faults_ + 1 : 0;
     reason_ = status.reason;
+    const bool follows =
+        status.state == TrackerStatus::TRACKING || status.state == TrackerStatus::HOLDING;
+    off_m_.reset();
+    if (follows && std::isfinite(status.position_error)) {
+      off_m_ = status.position_error;
+    }
+    off_id_ = status.trajectory_id;
+    off_stamp_s_ = status.header.stamp.toSec();
     if (const auto estimate = ros_bridge::disturbanceEstimate(status.estimate)) {
       estimate_ = *estimate;
     }
@@ -94,12 +110,16 @@ class TrackerWatch {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   static constexpr int kFaults = 3;
   static constexpr std::size_t kMostWaiting = 1000;
+  static constexpr double kOffForS = 0.5;
 
   std::uint32_t accepted_id_ = 0;
   std::uint32_t refused_id_ = 0;
   std::uint32_t near_id_ = 0;
   std::uint32_t sailing_id_ = kNone;
   int faults_ = 0;
+  std::optional<double> off_m_;  // by the last status that counts
+  std::uint32_t off_id_ = 0;
+  double off_stamp_s_ = 0.0;
   vessel::DisturbanceEstimate estimate_;
   vessel::Foreseen foreseen_;
   double latest_s_ = 0.0;              // stamp of the last status

@@ -5,6 +5,7 @@
 #include <move_base_msgs/MoveBaseAction.h>
 #include <nav_msgs/Path.h>
 #include <otter_nav/PlannerStatus.h>
+#include <otter_nav/TrackerStatus.h>
 #include <otter_nav/Trajectory.h>
 #include <ros/master.h>
 #include <ros/network.h>
@@ -18,6 +19,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -38,6 +40,7 @@ class PlannerNode : public testing::Test {
   PlannerNode() {
     timer_ = node_.createWallTimer(ros::WallDuration(0.02), [this](const ros::WallTimerEvent&) {
       odometry_.publish(odometryAt(kStart, 0.2, ros::Time::now()));
+      tellHowFarOff();
     });
   }
   void SetUp() override {
@@ -49,6 +52,19 @@ class PlannerNode : public testing::Test {
     message.target_pose.header.frame_id = ros_bridge::frames().map;
     message.target_pose.pose = ros_bridge::toPose({{x, y}, 0.5});
     return message;
+  }
+
+  // As a tracker that sails the last trajectory, or holds its end, so far off.
+  void tellHowFarOff() {
+    if (!off_m_ || trajectories_.messages.empty()) {
+      return;
+    }
+    TrackerStatus status;
+    status.header.stamp = ros::Time::now();
+    status.state = TrackerStatus::TRACKING;
+    status.trajectory_id = status.accepted_id = trajectories_.messages.back().id;
+    status.position_error = *off_m_;
+    tracker_.publish(status);
   }
 
   // The reason with which the goal is aborted.
@@ -84,6 +100,8 @@ class PlannerNode : public testing::Test {
 
   ros::NodeHandle node_;
   ros::Publisher odometry_ = node_.advertise<nav_msgs::Odometry>("odom", 10);
+  ros::Publisher tracker_ = node_.advertise<TrackerStatus>("tracker_status", 10);
+  std::optional<double> off_m_;
   ros::WallTimer timer_;
   Inbox<Trajectory> trajectories_{node_, "trajectory"};
   Inbox<PlannerStatus> statuses_{node_, "planner_status"};
@@ -255,6 +273,28 @@ TEST_F(PlannerNode, FindsItsOwnWayWhereNobodyAnswers) {
     client_.cancelGoal();
     ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
   }
+}
+
+// What is sailed goes on without this vessel; a tracker that is late on it, and knows, is not off
+// it.
+TEST_F(PlannerNode, IsAsFarOffAsTheTrackerSays) {
+  const auto isFarOff = [](const PlannerStatus& status) {
+    return status.reason.find("far off") != std::string::npos;
+  };
+  off_m_ = 0.05;
+  client_.sendGoal(goal(22.0, 8.0));
+  ASSERT_TRUE(
+      statuses_.waitFor([](const auto& status) { return status.state == PlannerStatus::SAILING; }));
+  const ros::Time sails = statuses_.messages.back().header.stamp;
+  statuses_.messages.clear();
+  ASSERT_TRUE(statuses_.waitFor([&](const auto& status) {
+    return isFarOff(status) || status.header.stamp > sails + ros::Duration(4.0);
+  }));
+  EXPECT_TRUE(std::none_of(statuses_.messages.begin(), statuses_.messages.end(), isFarOff));
+  off_m_ = 3.0;
+  EXPECT_TRUE(statuses_.waitFor(isFarOff));
+  client_.cancelGoal();
+  ASSERT_TRUE(waitUntil([&] { return client_.getState().isDone(); }));
 }
 
 }  // namespace
