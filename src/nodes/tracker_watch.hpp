@@ -94,7 +94,7 @@ class TrackerWatch {
     const bool follows =
         status.state == TrackerStatus::TRACKING || status.state == TrackerStatus::HOLDING;
     off_m_.reset();
-    if (follows && std::isfinite(status.position_error)) {
+    if (follows && std::isfinite(status.position_error) && status.position_error > 0.0) {
       off_m_ = status.position_error;
     }
     off_id_ = status.trajectory_id;

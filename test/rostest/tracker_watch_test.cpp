@@ -59,6 +59,8 @@ TEST_F(TrackerWatchTest, NothingIsToldOfAnotherWayOrByOldStatuses) {
   EXPECT_FALSE(watch_.trackingError(1.4)) << "the clock was set back";
   tell(3.0, TrackerStatus::TRACKING, kSailed, std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(watch_.trackingError(3.0));
+  tell(3.5, TrackerStatus::TRACKING, kSailed, 0.0);
+  EXPECT_FALSE(watch_.trackingError(3.5)) << "a tracker that leaves it at zero";
   tell(4.0, TrackerStatus::STOPPING, kSailed, 0.0);
   EXPECT_FALSE(watch_.trackingError(4.0)) << "who brakes follows no way";
   tell(5.0, TrackerStatus::TRACKING, kSailed, 0.4);
