@@ -265,7 +265,6 @@ PlanRequest PlanRequests::ask(double now_s, PlanRequest request, const vessel::P
       std::min(request.query.limits.speed_max_mps,
                safety.limits(safety.freeThrustShare(), room).speed_max_mps);
   request.thrust_share = thrust_share;
-  request.moving = from != From::kRest;
   asked_ = Asked{};
   asked_->request = request;
   asked_->from = from;

@@ -121,7 +121,6 @@ struct PlanRequest {
   int id = 0;
   planner::Query query;
   double thrust_share = 1.0;  // the query's limits, of what plans may usually take
-  bool moving = false;        // false: from rest, whenever the answer comes
   // Other vessels, to be added to the planner's obstacles; may be empty.
   encounter::NearFuture others = {};
   // When the vessel passes the query's start, where the planner's obstacles start too; from rest

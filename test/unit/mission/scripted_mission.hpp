@@ -21,6 +21,11 @@ inline vessel::Foreseen foreseenFrom(double start_s, const vessel::State& state,
   return foreseen;
 }
 
+// Of a plan from motion, not from rest.
+inline bool beginsUnderWay(const PlanRequest& request) {
+  return request.query.start.flat.velocity.norm() > 0.0;
+}
+
 class ScriptedMission {
  public:
   explicit ScriptedMission(map::OccupancyGrid water = openWater(), SupervisorOptions o = {})

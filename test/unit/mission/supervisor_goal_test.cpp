@@ -9,6 +9,7 @@
 namespace otter_nav::mission {
 namespace {
 
+using test::beginsUnderWay;
 using test::eastward;
 using test::ScriptedMission;
 
@@ -38,7 +39,7 @@ TEST(Goal, AsksForAPlanFromRestAtTheWidestClearance) {
   ASSERT_TRUE(orders.has_value() && orders->plan);
   EXPECT_EQ(mission.supervisor->phase(), Phase::kPlanning);
   const PlanRequest& request = *orders->plan;
-  EXPECT_FALSE(request.moving);
+  EXPECT_FALSE(beginsUnderWay(request));
   EXPECT_EQ(request.query.start.flat.position, Eigen::Vector2d(-40.0, 3.0));
   EXPECT_EQ(request.query.start.flat.velocity, Eigen::Vector2d::Zero());
   EXPECT_EQ(request.query.start.psi_rad, 0.5);
@@ -91,7 +92,7 @@ TEST(Goal, NewOneUnderWayIsPlannedInMotion) {
   const auto orders = mission.goTo({0.0, 30.0});
   ASSERT_TRUE(orders.has_value() && orders->plan);
   EXPECT_EQ(mission.supervisor->phase(), Phase::kReplanning);
-  EXPECT_TRUE(orders->plan->moving);
+  EXPECT_TRUE(beginsUnderWay(*orders->plan));
   EXPECT_NEAR(orders->plan->query.start.flat.velocity.norm(), 4.0, 1e-6);
   EXPECT_NEAR(orders->plan->start_time_s, mission.now_s + mission.options.planning_latency_s, 1e-9);
 }

@@ -7,6 +7,7 @@
 namespace otter_nav::mission {
 namespace {
 
+using test::beginsUnderWay;
 using test::ScriptedMission;
 
 TEST(SupervisorSpeed, LimitsPlansFromRest) {
@@ -30,7 +31,7 @@ TEST(SupervisorSpeed, PlansAnewForALimitSetUnderWay) {
   ASSERT_TRUE(mission.supervisor->setSpeedMax(1.0));
   const Orders orders = mission.update(0.1);
   ASSERT_TRUE(orders.plan);
-  EXPECT_TRUE(orders.plan->moving);
+  EXPECT_TRUE(beginsUnderWay(*orders.plan));
   EXPECT_NEAR(orders.plan->query.limits.speed_max_mps, 0.98, 1e-12);
   EXPECT_EQ(mission.supervisor->phase(), Phase::kReplanning);
   // What is taken carries the limit to the tracker, and is the end of it.

@@ -6,6 +6,7 @@
 namespace otter_nav::mission {
 namespace {
 
+using test::beginsUnderWay;
 using test::eastward;
 using test::ScriptedMission;
 
@@ -47,7 +48,7 @@ TEST(Pause, BrakesKeepsTheMissionAndGoesOn) {
 
   const auto on = resume(mission);
   ASSERT_TRUE(on && on->plan);
-  EXPECT_FALSE(on->plan->moving);
+  EXPECT_FALSE(beginsUnderWay(*on->plan));
   EXPECT_EQ(on->plan->query.goal.flat.position, Eigen::Vector2d(40.0, 0.0));
   const Eigen::Vector2d here = mission.situation().state.head<2>();
   EXPECT_TRUE(mission.answer(*on->plan, eastward(here, 40.0 - here.x(), 3.0)).sail);

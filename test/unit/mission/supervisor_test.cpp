@@ -9,6 +9,7 @@
 namespace otter_nav::mission {
 namespace {
 
+using test::beginsUnderWay;
 using test::eastward;
 using test::ScriptedMission;
 
@@ -171,7 +172,7 @@ TEST(Supervisor, StopsInTimeWithoutAPlanAndGoesOnFromRest) {
   EXPECT_EQ(mission.supervisor->stops(), 1);
   const Orders orders = mission.update(0.1);
   ASSERT_TRUE(orders.plan);
-  EXPECT_FALSE(orders.plan->moving);
+  EXPECT_FALSE(beginsUnderWay(*orders.plan));
   const Eigen::Vector2d here = mission.situation().state.head<2>();
   EXPECT_GT(here.x(), -5.0);  // no earlier than needed
   const Orders sailing = mission.answer(*orders.plan, eastward(here, 20.0, 3.0));
@@ -482,7 +483,7 @@ TEST(Supervisor, PlansAnewWhenItDoesNotSettle) {
   off.odometry_stamp_s = mission.now_s;
   const Orders orders = mission.supervisor->update(mission.now_s, off, mission.field);
   ASSERT_TRUE(orders.plan);
-  EXPECT_FALSE(orders.plan->moving);
+  EXPECT_FALSE(beginsUnderWay(*orders.plan));
   EXPECT_EQ(orders.plan->query.start.psi_rad, 1.0);
 }
 

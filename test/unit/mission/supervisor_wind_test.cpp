@@ -18,6 +18,7 @@ namespace otter_nav::mission {
 namespace {
 
 using Eigen::Vector2d;
+using test::beginsUnderWay;
 using test::openWater;
 using test::ScriptedMission;
 
@@ -185,7 +186,7 @@ TEST(SupervisorInWind, PlansSlowerOnceItKnowsWhatWavesTake) {
   ASSERT_TRUE(found.plan.has_value());
   EXPECT_GT(found.after_s, 4.0);
   EXPECT_LT(found.after_s, 12.0);
-  EXPECT_TRUE(found.plan->moving);
+  EXPECT_TRUE(beginsUnderWay(*found.plan));
   EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);  // on what it has, meanwhile
   EXPECT_GT(found.speed_mps, 2.7);
   EXPECT_LT(found.plan->query.limits.speed_max_mps, 2.6);
@@ -287,7 +288,7 @@ TEST(SupervisorInWind, LooksForMoreRoomOnceItKnowsHowFarItWanders) {
   constexpr double kOffM = 0.48;
   const std::optional<PlanRequest> wider = passAWall(mission, kOffM);
   ASSERT_TRUE(wider.has_value());
-  EXPECT_TRUE(wider->moving);
+  EXPECT_TRUE(beginsUnderWay(*wider));
   EXPECT_GT(wider->query.limits.hull_margin_m, 0.6);
   EXPECT_EQ(mission.supervisor->phase(), Phase::kSailing);
   const auto way = [&](const PlanRequest& request, double to_y_m) {
@@ -336,7 +337,7 @@ TEST(SupervisorInWind, ReplansWhenTheWindTakesWhatThePlanCountsOn) {
   const Blown blown = blow(mission, 6.0, [](double) { return Vector2d(-60.0, 0.0); });
   ASSERT_FALSE(blown.plans.empty());
   EXPECT_EQ(mission.supervisor->phase(), Phase::kReplanning);
-  EXPECT_TRUE(blown.plans.front().moving);
+  EXPECT_TRUE(beginsUnderWay(blown.plans.front()));
   EXPECT_LT(blown.plans.front().query.limits.disturbance.force_n.x(), -10.0);
 }
 
@@ -398,7 +399,7 @@ TEST(SupervisorInWind, CountsThePlansThatTheWeatherAskedFor) {
       request = mission.update(0.1).plan;
     }
     ASSERT_TRUE(request.has_value());
-    EXPECT_EQ(request->moving, !stops);
+    EXPECT_EQ(beginsUnderWay(*request), !stops);
     EXPECT_EQ(mission.supervisor->replans().all, 0);
     const trajectory::Trajectory way =
         test::eastward(request->query.start.flat.position, 20.0, stops ? 3.0 : 4.0);
@@ -820,7 +821,7 @@ TEST(SupervisorInWind, SlowsDownForGustsThatTakeTheMoment) {
     }
     ASSERT_EQ(asked.has_value(), mean_mps > 6.0);
     if (asked) {
-      EXPECT_TRUE(asked->moving);
+      EXPECT_TRUE(beginsUnderWay(*asked));
       EXPECT_LT(asked->query.limits.speed_max_mps, 2.5);
       EXPECT_NE(mission.supervisor->reason().find("gusts take"), std::string::npos)
           << mission.supervisor->reason();
@@ -1287,7 +1288,7 @@ TEST(SupervisorInWind, LooksForMoreRoomToLeewardInStrongWind) {
     if (!wider) {
       continue;
     }
-    EXPECT_TRUE(wider->moving);
+    EXPECT_TRUE(beginsUnderWay(*wider));
     EXPECT_GT(wider->query.limits.drift_m.norm(), 1.5 * narrower.plan->query.limits.drift_m.norm());
     const auto way = [&](const PlanRequest& request, double to_y_m) {
       const trajectory::TimedTrajectory& sailed = mission.supervisor->sailed();
