@@ -57,11 +57,15 @@ TEST_F(TrackerWatchTest, NothingIsToldOfAnotherWayOrByOldStatuses) {
   tell(2.0, TrackerStatus::TRACKING, kSailed, 0.4);
   EXPECT_FALSE(watch_.trackingError(2.6)) << "the tracker has fallen silent";
   EXPECT_FALSE(watch_.trackingError(1.4)) << "the clock was set back";
-  tell(3.0, TrackerStatus::TRACKING, kSailed, std::numeric_limits<double>::quiet_NaN());
-  EXPECT_FALSE(watch_.trackingError(3.0));
+  double now_s = 2.8;
+  using Limits = std::numeric_limits<double>;
+  for (const double senseless : {Limits::quiet_NaN(), Limits::infinity(), -0.1}) {
+    tell(now_s += 0.1, TrackerStatus::TRACKING, kSailed, senseless);
+    EXPECT_FALSE(watch_.trackingError(now_s)) << senseless;
+  }
   tell(3.5, TrackerStatus::TRACKING, kSailed, 0.0);
   EXPECT_FALSE(watch_.trackingError(3.5)) << "a tracker that leaves it at zero";
-  tell(4.0, TrackerStatus::STOPPING, kSailed, 0.0);
+  tell(4.0, TrackerStatus::STOPPING, kSailed, 0.4);
   EXPECT_FALSE(watch_.trackingError(4.0)) << "who brakes follows no way";
   tell(5.0, TrackerStatus::TRACKING, kSailed, 0.4);
   watch_.expect(kSailed + 1, false);
