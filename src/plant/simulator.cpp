@@ -188,11 +188,12 @@ bool Simulator::commandTimedOut() const {
 bool Simulator::scanDue() const {
   return parts_->time_s >= parts_->next_scan_s;
 }
+// It came due that much early at most: it must not come due again.
 const Scan& Simulator::scan() {
-  constexpr double kRounding = 1e-9;
+  constexpr double kEarlyMostS = 1e-6;
   const double period = 1.0 / parts_->options.lidar.rate_hz;
-  parts_->next_scan_s =
-      (std::floor(parts_->time_s / period + kRounding) + 1.0) * period - kRounding;
+  const double turn = std::floor((parts_->time_s + 2.0 * kEarlyMostS) / period);
+  parts_->next_scan_s = (turn + 1.0) * period - kEarlyMostS;
   return parts_->lidar.scan(parts_->world, parts_->others, parts_->truth);
 }
 bool Simulator::inContact() const {

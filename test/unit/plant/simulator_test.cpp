@@ -223,6 +223,30 @@ TEST(Simulator, ScansComeDueAtTheirRate) {
   EXPECT_NEAR(scans, 150, 1);
 }
 
+// Whatever the steps' sum is off by after a quarter of an hour.
+TEST(Simulator, NoScanComesTwice) {
+  constexpr double kStepS = 0.01;
+  constexpr double kLastS = 900.0;
+  Options options = optionsFor("otter_gazebo");
+  options.lidar.beams = 1;
+  Simulator simulator(options, {}, 1);
+  const double period = 1.0 / options.lidar.rate_hz;
+  double last = -period;
+  double shortest = period;
+  int scans = 0;
+  while (simulator.time() < kLastS) {
+    if (simulator.scanDue()) {
+      (void)simulator.scan();
+      shortest = std::min(shortest, simulator.time() - last);
+      last = simulator.time();
+      ++scans;
+    }
+    simulator.step({0.0, 0.0}, kStepS);
+  }
+  EXPECT_GT(shortest, period - 1.5 * kStepS);
+  EXPECT_NEAR(scans, kLastS / period, 1.5);
+}
+
 TEST(Simulator, KnowsItsThrustLimits) {
   EXPECT_NEAR(Simulator(optionsFor("otter"), {}, 1).thrustLimits()[0], 119.7, 0.1);
   EXPECT_NEAR(Simulator(optionsFor("otter"), {}, 1).thrustLimits()[1], 66.7, 0.1);
