@@ -36,12 +36,14 @@ constexpr double kLidarClutterPerM2 = 2e-3;
 constexpr double kFirstExistence = 0.2;
 constexpr int kFewestNew = 2;  // echoes of a cluster in water seen free, to begin a track
 constexpr int kFewestMovingHits = 6;
-constexpr double kFewestSeconds = 2.0;
+constexpr double kFewestSeconds = 2.3;
 constexpr double kUnconfirmedAtMost = 0.99;
 constexpr double kUnconfirmedGone = 0.1;
 // Squared Mahalanobis distance: a hull's echoes are steadier than their deviation says, clutter
-// that follows on clutter isn't.
-constexpr double kSurprise2 = 5.0;
+// that follows on clutter isn't. Once she has a heading her middle is measured otherwise than
+// before.
+constexpr double kSurprise2 = 8.0;
+constexpr double kSurpriseHeaded2 = 10.0;
 constexpr int kMostMissed = 1;
 constexpr double kTentativeS = 8.0;  // what is not confirmed by then is dropped, in doubt or not
 constexpr double kOutlineMarginM = 0.7;  // echoes this near a vessel's outline are hers
@@ -437,7 +439,7 @@ class Tracker::Impl {
     vessel.motion.update(candidates);
     if (is_met) {
       vessel.met = met(look.stamp_s, candidates);
-      if (in_doubt && !vessel.heading_rad && surprise > kSurprise2) {
+      if (in_doubt && surprise > (vessel.heading_rad ? kSurpriseHeaded2 : kSurprise2)) {
         vessel.doubt(look.stamp_s);
       }
       vessel.last_s = look.stamp_s;
