@@ -205,6 +205,26 @@ bool TrackedVessel::liesStill(double now_s, double for_s) const {
   return stands_since_s != kLongAgoS && now_s - stands_since_s > for_s;
 }
 
+void TrackedVessel::compare(const Cluster& cluster, double surprise2) {
+  constexpr int kLastLooks = 30;
+  constexpr double kLeastM = 0.01;
+  const double now_m = (cluster.points.back() - cluster.points.front()).norm();
+  if (looks > 0) {
+    const double change = std::abs(now_m - shows_m) / std::max({now_m, shows_m, kLeastM});
+    const int of = std::min(looks, kLastLooks);
+    changes += (change - changes) / of;
+    surprises2 += (surprise2 - surprises2) / of;
+  }
+  shows_m = now_m;
+  ++looks;
+}
+
+bool TrackedVessel::isAlike() const {
+  constexpr double kMostChanges = 0.15;
+  constexpr double kMostSurprises2 = 0.5;
+  return changes < kMostChanges || surprises2 < kMostSurprises2;
+}
+
 bool TrackedVessel::isUnderWay() const {
   return has_moved && motion.state().segment<2>(2).norm() > kLeastUnderWayMps;
 }

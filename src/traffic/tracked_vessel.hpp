@@ -80,11 +80,24 @@ struct TrackedVessel {
   void lookedAt(const Cluster& cluster, double now_s);
   [[nodiscard]] bool liesStill(double now_s, double for_s) const;
 
+  // How unlike one another the lidar's looks since the last doubt are, means over the last ones: by
+  // what part what shows grew or shrank, and by how much its place surprised (a squared Mahalanobis
+  // distance).
+  int looks = 0;
+  double shows_m = 0.0;  // from the last look's first echo to its last one
+  double changes = 0.0;
+  double surprises2 = 0.0;
+  // To be called with each cluster that is hers.
+  void compare(const Cluster& cluster, double surprise2);
+  // A hull keeps her shape, or else her course; clutter that follows on clutter neither.
+  [[nodiscard]] bool isAlike() const;
+
   // Begins to count anew: what was met now may be something else than before.
   void doubt(double time_s) {
     first_s = time_s;
     hits = 1;
     moving_hits = 0;
+    looks = 0;
   }
 
   // Course, if the motion tells one.

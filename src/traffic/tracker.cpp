@@ -36,14 +36,14 @@ constexpr double kLidarClutterPerM2 = 2e-3;
 constexpr double kFirstExistence = 0.2;
 constexpr int kFewestNew = 2;  // echoes of a cluster in water seen free, to begin a track
 constexpr int kFewestMovingHits = 6;
-constexpr double kFewestSeconds = 2.3;
+constexpr double kFewestSeconds = 2.2;
 constexpr double kUnconfirmedAtMost = 0.99;
 constexpr double kUnconfirmedGone = 0.1;
 // Squared Mahalanobis distance: a hull's echoes are steadier than their deviation says, clutter
 // that follows on clutter isn't. Once she has a heading her middle is measured otherwise than
 // before.
-constexpr double kSurprise2 = 8.0;
-constexpr double kSurpriseHeaded2 = 10.0;
+constexpr double kSurprise2 = 10.0;
+constexpr double kSurpriseHeaded2 = 12.0;
 constexpr int kMostMissed = 1;
 constexpr double kTentativeS = 8.0;  // what is not confirmed by then is dropped, in doubt or not
 constexpr double kOutlineMarginM = 0.7;  // echoes this near a vessel's outline are hers
@@ -127,7 +127,7 @@ class Tracker::Impl {
           crowded_ ? TrackedVessel::sidesOf(clusters[k]) : std::nullopt;
       return direction ? std::optional<Sides>({*direction, kSidesRad}) : std::nullopt;
     };
-    look.seen = [&](TrackedVessel& vessel, std::size_t k, bool first_course) {
+    look.seen = [&](TrackedVessel& vessel, std::size_t k, double surprise2, bool first_course) {
       if (first_course && isTheLidarsAlone(vessel)) {
         vessel.followMiddle(clusters[k], eye, crowded_);
       }
@@ -136,6 +136,7 @@ class Tracker::Impl {
         vessel.last_new_s = look.stamp_s;
       }
       vessel.lookedAt(clusters[k], look.stamp_s);
+      vessel.compare(clusters[k], surprise2);
       if (!clusters[k].shared && crowded_) {
         vessel.learnSizeAmongMany(clusters[k], eye);
       } else if (!clusters[k].shared) {
@@ -191,7 +192,8 @@ class Tracker::Impl {
       return Detection{kRadarDetection, reached ? kRadarDetection : 0.0};
     };
     look.sides = [](std::size_t /*k*/) { return std::nullopt; };
-    look.seen = [](TrackedVessel& /*vessel*/, std::size_t /*k*/, bool /*first*/) {};
+    look.seen = [](TrackedVessel& /*vessel*/, std::size_t /*k*/, double /*surprise2*/,
+                   bool /*first*/) {};
     const std::vector<double> taken = associate(look);
     int nobodys = 0;
     for (std::size_t k = 0; k < positions.size(); ++k) {
@@ -256,8 +258,9 @@ class Tracker::Impl {
     std::function<Detection(const TrackedVessel&, const MotionFilter&)> detection;
     // Of what has any.
     std::function<std::optional<Sides>(std::size_t)> sides;
-    // Most probably this one; whether its course has become known by it.
-    std::function<void(TrackedVessel&, std::size_t, bool)> seen;
+    // Most probably this one, and by how much its place surprised; whether its course has become
+    // known by it.
+    std::function<void(TrackedVessel&, std::size_t, double, bool)> seen;
   };
 
   [[nodiscard]] Detection lidarDetection(const TrackedVessel& vessel, const MotionFilter& now,
@@ -435,11 +438,11 @@ class Tracker::Impl {
       candidates[l].probability = probabilities[l] / exists;
       best = probabilities[l] > probabilities[best] ? l : best;
     }
-    const double surprise = vessel.motion.distance2(candidates[best].measurement);
+    const double surprise2 = vessel.motion.distance2(candidates[best].measurement);
     vessel.motion.update(candidates);
     if (is_met) {
       vessel.met = met(look.stamp_s, candidates);
-      if (in_doubt && surprise > (vessel.heading_rad ? kSurpriseHeaded2 : kSurprise2)) {
+      if (in_doubt && surprise2 > (vessel.heading_rad ? kSurpriseHeaded2 : kSurprise2)) {
         vessel.doubt(look.stamp_s);
       }
       vessel.last_s = look.stamp_s;
@@ -452,7 +455,7 @@ class Tracker::Impl {
       if (const std::optional<Sides> sides = look.sides(links[best].detection)) {
         vessel.motion.update(*sides);
       }
-      look.seen(vessel, links[best].detection, vessel.followCourse());
+      look.seen(vessel, links[best].detection, surprise2, vessel.followCourse());
     }
   }
 
@@ -865,7 +868,8 @@ class Tracker::Impl {
       const bool comes_in = vessel.moving_hits >= kFewestMovingHits &&
                             3 * vessel.moving_hits >= 2 * vessel.hits &&
                             vessel.last_new_s >= vessel.last_s;
-      const bool moves = vessel.has_moved && comes_in && now_s - vessel.first_s >= kFewestSeconds;
+      const bool moves = vessel.has_moved && comes_in && vessel.isAlike() &&
+                         now_s - vessel.first_s >= kFewestSeconds;
       if (!isTheLidarsAlone(vessel) || moves) {
         confirm(vessel);
       }

@@ -117,6 +117,44 @@ ais::Message dimensions(int bow_m, int stern_m, int port_m, int starboard_m) {
   return message;
 }
 
+// A hull that comes into sight shows more of herself with each look, one in waves more or less,
+// where she was expected; or she is met elsewhere, the same as ever. Clutter does both.
+TEST(TrackedVessel, IsAlikeInShapeOrInCourse) {
+  constexpr int kLooks = 20;
+  const auto looksAlike = [&](double other_length_m, double surprise2, TrackedVessel& vessel) {
+    for (int look = 0; look < kLooks; ++look) {
+      vessel.compare(sidesOf(look % 2 == 0 ? 2.0 : other_length_m, 1.0), surprise2);
+    }
+    return vessel.isAlike();
+  };
+  const auto anew = [&](double other_length_m, double surprise2) {
+    TrackedVessel vessel = northbound();
+    return looksAlike(other_length_m, surprise2, vessel);
+  };
+  EXPECT_TRUE(anew(2.0, 0.1));
+  EXPECT_TRUE(anew(4.0, 0.1));
+  EXPECT_TRUE(anew(2.0, 3.0));
+  EXPECT_FALSE(anew(4.0, 3.0));
+
+  // What she was like before a doubt, or long ago, counts no more.
+  TrackedVessel doubted = northbound();
+  ASSERT_FALSE(looksAlike(4.0, 3.0, doubted));
+  doubted.doubt(1.0);
+  doubted.compare(sidesOf(4.0, 1.0), 3.0);
+  doubted.compare(sidesOf(4.0, 1.0), 0.1);
+  EXPECT_TRUE(doubted.isAlike());
+  TrackedVessel before = northbound();
+  ASSERT_FALSE(looksAlike(4.0, 3.0, before));
+  for (int times = 0; times < 10; ++times) {
+    looksAlike(2.0, 0.1, before);
+  }
+  EXPECT_TRUE(before.isAlike());
+  for (int times = 0; times < 2; ++times) {
+    looksAlike(4.0, 3.0, before);
+  }
+  EXPECT_FALSE(before.isAlike());
+}
+
 // A track beyond it is refused, and all others with it.
 TEST(TrackedVessel, IsNoLongerThanAnyVessel) {
   for (const bool is_headed : {false, true}) {
