@@ -1,6 +1,7 @@
 // Routes of other vessels: a walk from point to point over open water.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,7 +14,8 @@
 namespace otter_nav::scenario {
 namespace {
 
-constexpr int kDrawsPerVessel = 400;
+constexpr int kDrawsPerVessel = 20000;
+constexpr int kDrawsGoingOn = 400;  // the first of these; who is stuck in a later one turns back
 constexpr int kDrawsPerLeg = 200;
 constexpr double kLegMinM = 20.0;
 constexpr double kLegMaxM = 120.0;
@@ -35,7 +37,8 @@ class Router {
         random_(random),
         field_(world, {options.route_clear_m + 8.0, false}) {}
 
-  [[nodiscard]] std::optional<vessel::ScriptedVessel> draw(int id) {
+  // `turns_back`: where no other leg is free, as in small waters, back along the last.
+  [[nodiscard]] std::optional<vessel::ScriptedVessel> draw(int id, bool turns_back) {
     vessel::ScriptedVessel vessel;
     vessel.id = id;
     // As written to the file, so that what is checked is what is read back.
@@ -48,7 +51,11 @@ class Router {
     double course = random_.uniform(-kPi, kPi);
     double length = 0.0;
     while (length < vessel.speeds_mps[0] * options_.route_time_s) {
-      const std::optional<Eigen::Vector2d> next = legFrom(vessel.waypoints.back(), course);
+      std::optional<Eigen::Vector2d> next = legFrom(vessel.waypoints.back(), course);
+      if (!next && turns_back && vessel.waypoints.size() > 1) {
+        next = *std::prev(vessel.waypoints.end(), 2);
+        course += kPi;
+      }
       if (!next) {
         return std::nullopt;
       }
@@ -77,7 +84,7 @@ class Router {
              return near(mission.start) || near(mission.goal);
            });
   }
-  // Ahead within the bend that is allowed; where nothing is free there, back.
+  // Ahead within the bend that is allowed; where nothing is free there, anywhere.
   [[nodiscard]] std::optional<Eigen::Vector2d> legFrom(const Eigen::Vector2d& from,
                                                        double& course) {
     for (int k = 0; k < kDrawsPerLeg; ++k) {
@@ -114,7 +121,7 @@ Result<std::vector<vessel::ScriptedVessel>> chooseRoutes(const map::OccupancyGri
   for (int id = 1; id <= options.vessels; ++id) {
     std::optional<vessel::ScriptedVessel> vessel;
     for (int k = 0; k < kDrawsPerVessel && !vessel; ++k) {
-      vessel = router.draw(id);
+      vessel = router.draw(id, k >= kDrawsGoingOn);
     }
     if (!vessel) {
       return failure("archipelago: no route found for vessel " + std::to_string(id) + " in " +

@@ -121,6 +121,25 @@ TEST(Archipelago, SameSeedSameArchipelago) {
   EXPECT_NE(a->world.cells, c->world.cells);
 }
 
+void expectRoutesKeepClear(const Archipelago& archipelago, const ArchipelagoOptions& options) {
+  const map::DistanceField world(archipelago.world, {30.0, false});
+  for (const vessel::ScriptedVessel& vessel : archipelago.vessels) {
+    EXPECT_GE(vessel.waypoints.size(), 3U);
+    for (double t = 0.0; t < options.route_time_s - 1.0; t += 0.7) {
+      const vessel::ScriptedMotion motion = vessel::motionAt(vessel, t);
+      ASSERT_GT(motion.speed_mps, 0.0) << t;
+      for (const Eigen::Vector2d& corner :
+           vessel::outline(vessel.hull, motion.pose.position, motion.pose.psi_rad)) {
+        EXPECT_GE(world.clearance(corner), options.route_clear_m - 1e-6);
+      }
+      for (const Mission& mission : archipelago.missions) {
+        EXPECT_GE((mission.start.position - motion.pose.position).norm(), 8.0);
+        EXPECT_GE((mission.goal.position - motion.pose.position).norm(), 8.0);
+      }
+    }
+  }
+}
+
 TEST(Archipelago, VesselsKeepClearOfLandAndOfEveryStartAndGoal) {
   ArchipelagoOptions options = small();
   options.size_m = 250.0;
@@ -136,22 +155,19 @@ TEST(Archipelago, VesselsKeepClearOfLandAndOfEveryStartAndGoal) {
     ASSERT_TRUE(archipelago.has_value()) << archipelago.error().message;
     ASSERT_EQ(archipelago->vessels.size(), 4U);
     EXPECT_EQ(archipelago->world.cells, generateArchipelago(without, seed)->world.cells);
-    const map::DistanceField world(archipelago->world, {30.0, false});
-    for (const vessel::ScriptedVessel& vessel : archipelago->vessels) {
-      EXPECT_GE(vessel.waypoints.size(), 3U);
-      for (double t = 0.0; t < options.route_time_s - 1.0; t += 0.7) {
-        const vessel::ScriptedMotion motion = vessel::motionAt(vessel, t);
-        ASSERT_GT(motion.speed_mps, 0.0) << t;
-        for (const Eigen::Vector2d& corner :
-             vessel::outline(vessel.hull, motion.pose.position, motion.pose.psi_rad)) {
-          EXPECT_GE(world.clearance(corner), options.route_clear_m - 1e-6);
-        }
-        for (const Mission& mission : archipelago->missions) {
-          EXPECT_GE((mission.start.position - motion.pose.position).norm(), 8.0);
-          EXPECT_GE((mission.goal.position - motion.pose.position).norm(), 8.0);
-        }
-      }
-    }
+    expectRoutesKeepClear(*archipelago, options);
+  }
+}
+
+TEST(Archipelago, VesselsFindRoutesInSmallWaters) {
+  ArchipelagoOptions options;
+  options.size_m = 160.0;
+  options.vessels = 6;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const auto archipelago = generateArchipelago(options, seed);
+    ASSERT_TRUE(archipelago.has_value()) << archipelago.error().message;
+    ASSERT_EQ(archipelago->vessels.size(), 6U);
+    expectRoutesKeepClear(*archipelago, options);
   }
 }
 
