@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "coming_to_rest.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/parts.hpp"
 #include "otter_nav/feasibility/hull_cover.hpp"
@@ -231,6 +232,13 @@ class Candidates {
   bool under_way_;
 };
 
+// Whether the hull makes way on a heading of its own, pushed by what gives a resting one its
+// heading: no stop along the path has that.
+bool carriedByLoad(const Trajectory& sailed, double at_s, const vessel::Parameters& vessel,
+                   const vessel::Disturbance& load) {
+  return vessel::isFirmLoad(vessel, load) && hasOwnHeading(sailed, at_s, at_s);
+}
+
 // Whether a stop begins in the attitude that the vessel has.
 bool goesOnFrom(const trajectory::Sample& here, const Trajectory& stop,
                 const vessel::Parameters& vessel) {
@@ -399,6 +407,16 @@ Braking brakingTrajectory(const Trajectory& sailed, double at_s,
   for (Trajectory& candidate : faster) {
     if (keeps(candidate, false) && staysFree(candidate)) {
       return {std::move(candidate), true, stop.clearance_m};
+    }
+  }
+  if (carriedByLoad(sailed, at_s, vessel, stop.disturbance)) {
+    Trajectory carried = carriedToRest(sailed.sample(at_s, vessel, stop.disturbance).state, vessel,
+                                       stop.disturbance);
+    if (!carried.empty() && !firstConflict(carried, 0.0, ahead, stop.clearance_m).found &&
+        !outlineConflict(carried, 0.0, carried.duration(), ahead, vessel, stop.hull_margin_m)
+             .found &&
+        firstTouch(carried, 0.0, ahead, vessel, stop.off).speed_mps == 0.0 && staysFree(carried)) {
+      return {std::move(carried), true, stop.clearance_m};
     }
   }
   return overrun.clear ? overrun : best;

@@ -506,5 +506,41 @@ TEST(Braking, TakesTheWaysOwnRestAsHardAsThePlanBrakes) {
   EXPECT_NEAR(stop.trajectory.flat(stop.trajectory.duration()).position.x(), end, 0.05);
 }
 
+// Pushed to the east it drifts there, lying across: slowed down along that way it would need a
+// force abeam, and ahead in a line another heading.
+TEST(Braking, BringsAHullToRestThatItsLoadCarries) {
+  constexpr double kDriftMps = 0.5;
+  constexpr double kAtS = 1.0;
+  constexpr double kAcrossRad = 2.0;  // where the bow is
+  const auto otter =
+      vessel::loadParameters(std::string(OTTER_NAV_SOURCE_DIR) + "/config/vessels/otter.yaml");
+  ASSERT_TRUE(otter);
+  vessel::FlatPoint from;
+  vessel::FlatPoint to;
+  from.velocity = to.velocity = {kDriftMps, 0.0};
+  to.position = {10.0 * kDriftMps, 0.0};
+  trajectory::Piece drifting = trajectory::hermitePiece(from, to, 10.0);
+  drifting.kind = trajectory::PieceKind::kSpin;
+  drifting.heading[0] = kAcrossRad;
+  const Trajectory sailed({drifting});
+  StopLimits limits;
+  limits.clearance_m = kClearanceM;
+  map::OccupancyGrid wall = openWater();
+  block(wall, {1.9, -10.0}, {3.0, 10.0});
+  const auto stopIn = [&](const map::OccupancyGrid& water) {
+    return brakingTrajectory(sailed, kAtS, fieldOf(water), *otter, limits);
+  };
+  EXPECT_FALSE(stopIn(openWater()).clear);
+  limits.disturbance.force_n = {40.0, 0.0};
+  const Braking stop = stopIn(openWater());
+  ASSERT_TRUE(stop.clear);
+  expectRest(stop.trajectory);
+  const vessel::State end = stop.trajectory.sample(stop.trajectory.duration(), *otter).state;
+  EXPECT_NEAR(std::abs(wrapAngle(end[vessel::kPsi])), kPi, 0.4);  // bow to it
+  EXPECT_GT(end.x(), 1.0);
+  EXPECT_LT(end.x(), 2.5);
+  EXPECT_FALSE(stopIn(wall).clear);
+}
+
 }  // namespace
 }  // namespace otter_nav::stopping
