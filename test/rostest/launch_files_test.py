@@ -40,6 +40,17 @@ class LaunchFiles(unittest.TestCase):
             for argument in ElementTree.parse(path).getroot().findall("arg"):
                 self.assertTrue(argument.get("doc"), f"{path}: {argument.get('name')}")
 
+    def test_a_mission_is_what_waits_for_goals_and_no_less(self):
+        def started(name):
+            path = os.path.join(PACKAGE, "launch", name)
+            config = roslaunch.config.load_config_default([(path, [])], None)
+            return {node.name: sorted(node.remap_args) for node in config.nodes}
+
+        mission = started("mission.launch")
+        del mission["mission_node"]
+        self.assertEqual(started("sail.launch"), mission)
+        self.assertIn("traffic_node", mission)
+
     def test_frames_and_parameter_folders_can_be_given(self):
         for path in LAUNCH_FILES:
             name = os.path.basename(path)

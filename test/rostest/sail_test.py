@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Two goals, one after another, for the vessel of sail.launch; the second while the first is sailed."""
+"""Two goals, one after another, for the vessel of sail.launch; the second while the first is sailed, beside another
+vessel that is tracked."""
 import math
 import sys
 import threading
@@ -13,7 +14,7 @@ from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import PoseStamped
 from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from nav_msgs.msg import Odometry
-from otter_nav.msg import PlannerStatus, PlantState
+from otter_nav.msg import PlannerStatus, PlantState, Tracks
 
 PATIENCE_S = 150.0
 
@@ -33,8 +34,10 @@ class Sail(unittest.TestCase):
         self.planner = None
         self.truth = None
         self.touched = False
+        self.tracked = False
         rospy.Subscriber("planner_status", PlannerStatus, self.on_planner)
         rospy.Subscriber("plant_state", PlantState, self.on_truth)
+        rospy.Subscriber("tracks", Tracks, self.on_tracks)
 
     def on_planner(self, message):
         with self.lock:
@@ -44,6 +47,13 @@ class Sail(unittest.TestCase):
         with self.lock:
             self.truth = message
             self.touched = self.touched or bool(message.in_contact)
+
+    def on_tracks(self, message):
+        with self.lock:
+            # She is the only one in the north, and sails east.
+            self.tracked = self.tracked or any(
+                abs(track.position.y - 16.0) < 1.0 and abs(track.velocity.x - 0.3) < 0.1
+                for track in message.tracks)
 
     def until(self, done):
         end = time.monotonic() + PATIENCE_S
@@ -75,6 +85,7 @@ class Sail(unittest.TestCase):
         self.assertTrue(self.until(lambda: self.planner.state == PlannerStatus.ARRIVED), self.planner)
         self.assertLess(math.hypot(self.truth.x + 2.0, self.truth.y + 8.0), 1.0)
         self.assertFalse(self.touched)
+        self.assertTrue(self.tracked)
 
 
 if __name__ == "__main__":
