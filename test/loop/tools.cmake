@@ -1,5 +1,5 @@
 otter_nav_test(loop_tools SOURCES ${CMAKE_CURRENT_LIST_DIR}/tools/refusals_test.cpp)
-set(programs_run tracking_traffic plant_replay planner_benchmark)
+set(programs_run tracking_traffic plant_replay planner_benchmark scenario_generator)
 foreach(program ${programs_run})
   string(TOUPPER ${program} name)
   target_compile_definitions(test_loop_tools PRIVATE ${name}="$<TARGET_FILE:${program}>")

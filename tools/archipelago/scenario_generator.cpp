@@ -108,8 +108,9 @@ int main(int argc, char** argv) {
   app.add_option("--local-distance", options.local_distance_m, "m")->capture_default_str();
   app.add_option("--cross", options.cross_missions, "missions across the map")
       ->capture_default_str();
-  app.add_option("--vessels", options.vessels, "others that sail there on bent routes")
-      ->capture_default_str();
+  CLI::Option* vessels =
+      app.add_option("--vessels", options.vessels, "others that sail there on bent routes")
+          ->capture_default_str();
   std::string walls;
   CLI::Option* walled =
       app.add_option("--walls", walls, "streets, halls or harbour: instead of what the counts say")
@@ -118,6 +119,7 @@ int main(int argc, char** argv) {
   CLI::Option* cylinders = app.add_flag(
       "--cylinders", "instead: a field of cylinders 13 m by 20 m that the chart doesn't show");
   cylinders->excludes(walled);
+  cylinders->excludes(vessels);
   app.add_option("--best-min", narrow.best_min_m, "of its best way's clearance, m")
       ->capture_default_str()
       ->needs(cylinders);
@@ -132,7 +134,8 @@ int main(int argc, char** argv) {
          "seed), squares on loops: 5 at up to 2 m/s, 12 at up to 3, 24 at up to 4")
       ->check(CLI::IsMember(kEncounters))
       ->excludes(cylinders)
-      ->excludes(walled);
+      ->excludes(walled)
+      ->excludes(vessels);
   int each = 7;
   app.add_option("--fields", each, "moving: of each difficulty")
       ->capture_default_str()

@@ -82,4 +82,12 @@ TEST_F(Refusals, CasesStayWhereNothingIsPlanned) {
   EXPECT_EQ(textOf("old.json"), "{}\n");
 }
 
+TEST_F(Refusals, OthersAreNotPromisedWhereNoneWillSail) {
+  for (const std::string water : {"--cylinders", "--encounters imazu"}) {
+    const std::string generates = SCENARIO_GENERATOR " --out " + folder_.string() + " " + water;
+    EXPECT_TRUE(refuses(generates + " --vessels 3", "--vessels")) << water;
+    EXPECT_FALSE(refuses(generates, "")) << water;
+  }
+}
+
 }  // namespace
