@@ -1,7 +1,6 @@
 // Routes of other vessels: a walk from point to point over open water.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,8 +13,7 @@
 namespace otter_nav::scenario {
 namespace {
 
-constexpr int kDrawsPerVessel = 20000;
-constexpr int kDrawsGoingOn = 400;  // the first of these; who is stuck in a later one turns back
+constexpr int kDrawsPerVessel = 20000;  // in small waters few starts have room for a way on
 constexpr int kDrawsPerLeg = 200;
 constexpr double kLegMinM = 20.0;
 constexpr double kLegMaxM = 120.0;
@@ -37,8 +35,7 @@ class Router {
         random_(random),
         field_(world, {options.route_clear_m + 8.0, false}) {}
 
-  // `turns_back`: where no other leg is free, as in small waters, back along the last.
-  [[nodiscard]] std::optional<vessel::ScriptedVessel> draw(int id, bool turns_back) {
+  [[nodiscard]] std::optional<vessel::ScriptedVessel> draw(int id) {
     vessel::ScriptedVessel vessel;
     vessel.id = id;
     // As written to the file, so that what is checked is what is read back.
@@ -51,11 +48,7 @@ class Router {
     double course = random_.uniform(-kPi, kPi);
     double length = 0.0;
     while (length < vessel.speeds_mps[0] * options_.route_time_s) {
-      std::optional<Eigen::Vector2d> next = legFrom(vessel.waypoints.back(), course);
-      if (!next && turns_back && vessel.waypoints.size() > 1) {
-        next = *std::prev(vessel.waypoints.end(), 2);
-        course += kPi;
-      }
+      const std::optional<Eigen::Vector2d> next = legFrom(vessel.waypoints.back(), course);
       if (!next) {
         return std::nullopt;
       }
@@ -121,12 +114,12 @@ Result<std::vector<vessel::ScriptedVessel>> chooseRoutes(const map::OccupancyGri
   for (int id = 1; id <= options.vessels; ++id) {
     std::optional<vessel::ScriptedVessel> vessel;
     for (int k = 0; k < kDrawsPerVessel && !vessel; ++k) {
-      vessel = router.draw(id, k >= kDrawsGoingOn);
+      vessel = router.draw(id);
     }
     if (!vessel) {
       return failure("archipelago: no route found for vessel " + std::to_string(id) + " in " +
                      std::to_string(kDrawsPerVessel) +
-                     " draws; fewer islands, missions or floating things help");
+                     " draws; fewer islands, missions or floating things, or a larger map help");
     }
     vessels.push_back(std::move(*vessel));
   }

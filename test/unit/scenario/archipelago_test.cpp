@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "otter_nav/map/distance_field.hpp"
@@ -163,12 +164,19 @@ TEST(Archipelago, VesselsFindRoutesInSmallWaters) {
   ArchipelagoOptions options;
   options.size_m = 160.0;
   options.vessels = 6;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  constexpr std::uint64_t kSeeds = 12;
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const auto archipelago = generateArchipelago(options, seed);
-    ASSERT_TRUE(archipelago.has_value()) << archipelago.error().message;
+    if (!archipelago) {  // no pocket is large enough
+      EXPECT_NE(archipelago.error().message.find("a larger map"), std::string::npos);
+      continue;
+    }
+    ++found;
     ASSERT_EQ(archipelago->vessels.size(), 6U);
     expectRoutesKeepClear(*archipelago, options);
   }
+  EXPECT_GE(found, 9);
 }
 
 TEST(Archipelago, RefusesWhatCantBeDrawn) {
