@@ -38,10 +38,10 @@ struct StopLimits {
 // harder than its drag in a curve (its heading would have to swing across, docs/model.md), so a
 // hard stop straightens first. A hull that a firm load carries on a heading of its own, as where it
 // sets out to leeward, has no stop along that way: it turns bow or stern to the load and brakes, by
-// its own motion under its thrusts (the accelerations jump). No stop gathers more way than
-// an acceleration that dies out does. Stops are preferred on whose place nothing
-// comes soon after. If none keeps to the limits, the one that is slowest when it touches something
-// or does so last, and comes least near otherwise, with `clear` false.
+// its own motion under its thrusts (the accelerations jump). No stop gathers more way than an
+// acceleration that dies out does. Stops are preferred on whose place nothing comes soon after. If
+// none keeps to the limits, the one that is slowest when it touches something or does so last, and
+// comes least near otherwise, with `clear` false.
 [[nodiscard]] Braking brakingTrajectory(const trajectory::Trajectory& sailed, double at_s,
                                         const feasibility::Obstacles& obstacles,
                                         const vessel::Parameters& vessel, const StopLimits& stop);
