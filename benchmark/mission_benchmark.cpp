@@ -129,6 +129,9 @@ Result<std::vector<scenario::MissionResult>> loadResults(const std::string& path
   if (!fs::exists(path)) {
     return results;
   }
+  if (!fs::is_regular_file(path)) {
+    return failure("--resume: " + path + " is no file");
+  }
   try {
     std::ifstream file(path);
     const nlohmann::json all = nlohmann::json::parse(file);

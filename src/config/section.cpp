@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -215,6 +216,10 @@ Status Section::finish() const {
 }
 
 Result<YAML::Node> loadFile(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return failure(path + ": a folder, not a YAML file");
+  }
   try {
     YAML::Node node = YAML::LoadFile(path);
     if (!node.IsMap()) {

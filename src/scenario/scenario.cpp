@@ -179,7 +179,8 @@ Result<std::vector<std::string>> scenarioFiles(const std::string& path) {
   std::vector<std::string> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(path, error)) {
-    if (entry.path().extension() == ".yaml" && !isMap(entry.path().string())) {
+    if (entry.is_regular_file(error) && entry.path().extension() == ".yaml" &&
+        !isMap(entry.path().string())) {
       files.push_back(entry.path().string());
     }
   }

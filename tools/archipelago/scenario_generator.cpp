@@ -81,6 +81,13 @@ const std::map<std::string, otter_nav::scenario::Walls> kWalls = {
     {"halls", otter_nav::scenario::Walls::kHalls},
     {"harbour", otter_nav::scenario::Walls::kHarbour}};
 
+// A scenario's file has its name from --name.
+std::string aFolder(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".yaml"
+             ? path + " is to be a folder; --name names the scenario"
+             : "";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -93,7 +100,9 @@ int main(int argc, char** argv) {
       "Writes NAME.yaml, NAME_chart and NAME_world: a seeded archipelago to sail in. "
       "Counts are for 300 m by 300 m and grow with the area."};
   app.add_option("--seed", seed, "same seed, same archipelago")->capture_default_str();
-  app.add_option("--out", folder, "folder to write into")->capture_default_str();
+  app.add_option("--out", folder, "folder to write into")
+      ->capture_default_str()
+      ->check(aFolder, "");
   app.add_option("--name", name, "of the scenario")->capture_default_str();
   app.add_option("--size", options.size_m, "side of the square, m")->capture_default_str();
   app.add_option("--cell", options.resolution_m, "side of a cell, m")->capture_default_str();

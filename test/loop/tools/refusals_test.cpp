@@ -82,6 +82,12 @@ TEST_F(Refusals, CasesStayWhereNothingIsPlanned) {
   EXPECT_EQ(textOf("old.json"), "{}\n");
 }
 
+TEST_F(Refusals, FoldersAreNotNamedAsScenarios) {
+  EXPECT_TRUE(
+      refuses(SCENARIO_GENERATOR " --encounters captains --out " + path("mine.yaml"), "--name"));
+  EXPECT_FALSE(fs::exists(path("mine.yaml")));
+}
+
 TEST_F(Refusals, OthersAreNotPromisedWhereNoneWillSail) {
   for (const std::string water : {"--cylinders", "--encounters imazu"}) {
     const std::string generates = SCENARIO_GENERATOR " --out " + folder_.string() + " " + water;

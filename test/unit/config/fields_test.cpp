@@ -81,6 +81,13 @@ TEST(Fields, RefuseByName) {
             std::string::npos);
 }
 
+TEST(Files, AreNoFolders) {
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  const Result<YAML::Node> node = loadFile(folder);
+  ASSERT_FALSE(node.has_value());
+  EXPECT_EQ(node.error().message, folder + ": a folder, not a YAML file");
+}
+
 TEST(Files, AreRefusedByTheLineOfAWrongKey) {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / "otter_nav_wrong_keys.yaml";

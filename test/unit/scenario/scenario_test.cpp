@@ -57,7 +57,8 @@ TEST_F(ScenarioFile, LoadsWhatItSays) {
 }
 
 TEST_F(ScenarioFile, IsFoundInAFolderAmongMaps) {
-  EXPECT_FALSE(scenarioFiles(folder_.string()).has_value());  // only maps
+  fs::create_directory(folder_ / "folder.yaml");
+  EXPECT_FALSE(scenarioFiles(folder_.string()).has_value());  // only maps, and a folder
   EXPECT_FALSE(scenarioFiles((folder_ / "none").string()).has_value());
   const std::string path = write("missions: broken");
   EXPECT_EQ(scenarioFiles(folder_.string()).value(), std::vector<std::string>{path});
