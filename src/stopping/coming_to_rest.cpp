@@ -80,10 +80,18 @@ Piece carriedPiece(const State& from, const State& to) {
   return spin(from, to, kCarriedStepS);
 }
 
+Piece stillPiece(const State& state) {
+  constexpr double kLastS = 1.0;
+  State still = state;
+  still.head<2>() += 0.5 * kLastS * vessel::velocityOverGround(state);
+  still[vessel::kPsi] += 0.5 * kLastS * state[vessel::kYawRate];
+  still.tail<3>().setZero();
+  return spin(state, still, kLastS);
+}
+
 trajectory::Trajectory carriedToRest(const State& state, const vessel::Parameters& vessel,
                                      const vessel::Disturbance& load) {
   constexpr int kMostSteps = 120;
-  constexpr double kLastS = 1.0;
   const ComingToRest rest(vessel, load);
   std::vector<Piece> pieces;
   State x = state;
@@ -95,11 +103,7 @@ trajectory::Trajectory carriedToRest(const State& state, const vessel::Parameter
     pieces.push_back(carriedPiece(x, next));
     x = next;
   }
-  State still = x;
-  still.head<2>() += 0.5 * kLastS * vessel::velocityOverGround(x);
-  still[vessel::kPsi] += 0.5 * kLastS * x[vessel::kYawRate];
-  still.tail<3>().setZero();
-  pieces.push_back(spin(x, still, kLastS));
+  pieces.push_back(stillPiece(x));
   return trajectory::Trajectory(std::move(pieces));
 }
 

@@ -35,6 +35,9 @@ class ComingToRest {
 // One step's piece. Cubic: the thrusts, and with them the accelerations, jump.
 [[nodiscard]] trajectory::Piece carriedPiece(const vessel::State& from, const vessel::State& to);
 
+// The last of the way of who has come, within a second.
+[[nodiscard]] trajectory::Piece stillPiece(const vessel::State& state);
+
 // From a state to where it has come, and rest there. Empty where it doesn't within 12 s.
 [[nodiscard]] trajectory::Trajectory carriedToRest(const vessel::State& state,
                                                    const vessel::Parameters& vessel,

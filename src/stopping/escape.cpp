@@ -124,6 +124,9 @@ class Search {
     for (int k = 0; k < last; ++k) {
       pieces.push_back(carriedPiece(at(k), at(k + 1)));
     }
+    if (rest_.hasCome(at(last))) {
+      pieces.push_back(stillPiece(at(last)));
+    }
     return trajectory::Trajectory(std::move(pieces));
   }
 

@@ -26,7 +26,8 @@ namespace otter_nav::stopping {
 
 struct Escape {
   // The model's own motion under its thrusts, in spins, from the state to where the hull has all
-  // but come to rest, bow or stern to what pushes; for 7 s at most, and then it may drift still.
+  // but come to rest, bow or stern to what pushes, and rest there within a second. It takes 7 s at
+  // most before that; who has not come until then drifts still.
   trajectory::Trajectory path;
   double clearance_m = 0.0;  // of the discs at the least, on it and some seconds more
 };
