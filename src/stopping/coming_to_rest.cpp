@@ -57,12 +57,13 @@ Thrusts ComingToRest::thrusts(const State& x) const {
   constexpr double kBrakesS = 0.5;
   const vessel::Thrusters& t = vessel_.thrusters;
   const vessel::ManoeuvringModel& m = vessel_.manoeuvring;
-  const vessel::OutsideLoad load = vessel::outsideLoad(x[vessel::kPsi], m, load_);
   const double most_nm = kCarriedShare * vessel::greatestMoment(t);
   const double wanted_nm =
-      m.yaw_inertia_kgm2 / kTurnsS * (off(x) / kTurnsS - 2.0 * x[vessel::kYawRate]) - load.yaw_nm;
+      m.yaw_inertia_kgm2 / kTurnsS * (off(x) / kTurnsS - 2.0 * x[vessel::kYawRate]) -
+      vessel::outsideLoad(x[vessel::kPsi], m, load_).yaw_nm;
   const double yaw_nm = std::clamp(wanted_nm, -most_nm, most_nm);
-  const double surge_n = -m.surge_inertia_kg * x[vessel::kSurge] / kBrakesS - load.surge_n;
+  const double surge_n = vessel::surgeAtRest(m, load_, x[vessel::kPsi]) -
+                         m.surge_inertia_kg * x[vessel::kSurge] / kBrakesS;
   const double turning_n = 0.5 * std::abs(yaw_nm) / t.lever_arm_m;
   const double ahead_n = std::max(0.0, kCarriedShare * t.ahead_max_n - turning_n);
   const double astern_n = std::max(0.0, kCarriedShare * t.astern_max_n - turning_n);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../mission/waters.hpp"
+#include "../vessel_of.hpp"
 #include "otter_nav/base/angles.hpp"
 #include "otter_nav/base/planar.hpp"
 #include "otter_nav/base/rk4.hpp"
@@ -128,6 +129,23 @@ TEST(Escape, ComesToRestInTheWindsLine) {
     EXPECT_LE(vessel::speedOf(end), vessel::kRestMps) << off_rad;
     EXPECT_NEAR(end[vessel::kYawRate], 0.0, 1e-9) << off_rad;
     EXPECT_LT(way.path.duration(), 6.5) << off_rad;
+  }
+}
+
+// Whose drag is what pushes there.
+TEST(Escape, ComesToRestInACurrent) {
+  const map::OccupancyGrid grid = test::openWater(200.0);
+  const map::DistanceField field = test::fieldOf(grid);
+  const vessel::Parameters vessel = vessel::test::vesselOf("otter");
+  vessel::Disturbance disturbance;
+  for (const double current_mps : {0.8, 1.0, 1.3}) {
+    disturbance.current_mps = {current_mps, 0.0};
+    for (const double off_rad : {0.5, -0.8}) {
+      const Escape way = escape(lying(off_rad, 0.8), field, vessel, disturbance);
+      const vessel::State end = way.path.sample(way.path.duration(), vessel).state;
+      EXPECT_LT(std::abs(std::sin(end[vessel::kPsi])), 0.4) << current_mps << ", " << off_rad;
+      EXPECT_LE(vessel::speedOf(end), vessel::kRestMps) << current_mps << ", " << off_rad;
+    }
   }
 }
 
