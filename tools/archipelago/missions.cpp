@@ -8,7 +8,7 @@
 namespace otter_nav::scenario {
 namespace {
 
-constexpr int kDrawsPerMission = 20000;
+constexpr int kDrawsPerMission = 200000;  // between walls few places are clear enough
 constexpr double kCrossMin = 0.63;
 constexpr double kCrossMax = 1.1;
 

@@ -164,6 +164,9 @@ TEST_F(MissionBenchmark, WritesWhereOtherVesselsWere) {
 TEST_F(MissionBenchmark, DoesNotResumeFromAnythingElse) {
   std::ofstream(out()) << "{\"missions\": [{\"mission\": 0";
   EXPECT_EQ(exitCode(start({"--missions", "0", "--resume"})), 2);
+  fs::remove(out());
+  fs::create_directory(out());
+  EXPECT_EQ(exitCode(start({"--missions", "0", "--resume"})), 2);
 }
 
 }  // namespace
