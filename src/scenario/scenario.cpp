@@ -179,7 +179,8 @@ Result<std::vector<std::string>> scenarioFiles(const std::string& path) {
   std::vector<std::string> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(path, error)) {
-    if (entry.is_regular_file(error) && entry.path().extension() == ".yaml" &&
+    std::error_code unknown;  // of what can't be looked at loading will tell
+    if (entry.path().extension() == ".yaml" && !entry.is_directory(unknown) &&
         !isMap(entry.path().string())) {
       files.push_back(entry.path().string());
     }
