@@ -132,7 +132,7 @@ TEST(Escape, ComesToRestInTheWindsLine) {
   }
 }
 
-// Whose drag is what pushes there.
+// A current pushes by the drag alone.
 TEST(Escape, ComesToRestInACurrent) {
   const map::OccupancyGrid grid = test::openWater(200.0);
   const map::DistanceField field = test::fieldOf(grid);
