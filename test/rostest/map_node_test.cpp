@@ -105,7 +105,7 @@ TEST_F(MapNode, PublishesItsChartAddsEchoesSavesAndResets) {
   ASSERT_TRUE(ros_bridge::callService("map_node/save", save));
   EXPECT_FALSE(save.response.success);
   EXPECT_EQ(save.response.message, "the path is empty");
-  save.request.path = "/nowhere/map.yaml";
+  save.request.path = OTTER_NAV_SOURCE_DIR "/package.xml/map.yaml";
   ASSERT_TRUE(ros_bridge::callService("map_node/save", save));
   EXPECT_FALSE(save.response.success);
 

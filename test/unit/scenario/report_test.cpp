@@ -71,7 +71,7 @@ TEST(Json, HasTheKeysOthersRead) {
   }
   EXPECT_EQ(mission.at("outcome"), "stopped");
   EXPECT_EQ(mission.at("mission"), 10);
-  EXPECT_FALSE(saveJson("/nonexistent/result.json", {result}).has_value());
+  EXPECT_FALSE(saveJson(OTTER_NAV_SOURCE_DIR "/package.xml/result.json", {result}).has_value());
 }
 
 TEST(Track, HasARowASample) {
@@ -97,7 +97,8 @@ TEST(Track, HasARowASample) {
   std::getline(file, line);
   EXPECT_NE(line.find("1.5000,2.5000,0.25000"), std::string::npos);
   std::filesystem::remove(path);
-  EXPECT_FALSE(TableWriter::open("/nonexistent/track.csv", kTrackColumns).has_value());
+  EXPECT_FALSE(
+      TableWriter::open(OTTER_NAV_SOURCE_DIR "/package.xml/track.csv", kTrackColumns).has_value());
 }
 
 TEST(ProgressLine, IsOneRefreshedLineOnATerminal) {
